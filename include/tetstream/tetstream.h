@@ -1,0 +1,428 @@
+/* tetstream - simplifies tetrahedral meshes with fields as a stream.
+ *
+ * A mesh goes in cell by cell, in an order that is coherent in space, and comes out smaller, in
+ * the same order, while it is still being read. Memory depends on the stream's front, not on the
+ * mesh. No cell is inverted or flattened, the topology of the domain is kept, fields are followed
+ * as closely as the target allows. After H. T. Vo, S. P. Callahan, P. Lindstrom, V. Pascucci and
+ * C. T. Silva, Streaming Simplification of Tetrahedral Meshes, IEEE TVCG 13(1), 2007.
+ *
+ * In outline, pull (the library asks for data):
+ *   1. tetstream_options_create, then set what differs from the defaults
+ *   2. tetstream_reader_open_file or another reader; tetstream_writer_create_file or another
+ *   3. tetstream_simplifier_create with the options and the writer
+ *   4. tetstream_simplifier_run with the reader; the writer's file is complete when it returns
+ *   5. tetstream_simplifier_get_report; destroy all handles, in any order
+ * and push (a solver hands over data as it computes): in place of 2 and 4
+ *   2. tetstream_writer_create with callbacks that take the output
+ *   4. tetstream_simplifier_begin, tetstream_simplifier_push for each batch,
+ *      tetstream_simplifier_finish
+ *
+ * Conventions
+ *   Ids and counts are 64-bit. A vertex id is the vertex's rank in its stream, from 0.
+ *   Arrays are dense rows: positions [n][3], a field [n][components], cells [m][4].
+ *   Positions and fields have the caller's units; no result depends on which.
+ *   A cell's four vertices may be in either orientation; its order is kept.
+ *   Creating functions give a handle that the caller destroys. destroy(NULL) does nothing. When
+ *   they fail they give one, too, which can only be asked for its message and destroyed; it is NULL
+ *   when there is no memory even for that, or no place to put it.
+ *   Pointers that the library hands out belong to it; each comment says how long they live.
+ *   A handle is used by one thread at a time; different handles may be used at once, also a reader
+ *   and a writer of different simplifiers. There is no global state.
+ *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
+ *   library may be called from inside a callback with a handle that the run uses.
+ *
+ * A status below 0 is a failure; the handle's message says what happened and where. After a
+ * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
+ * and report, and destroyed. A failure of any other function had no effect.
+ */
+#ifndef TETSTREAM_H
+#define TETSTREAM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "version.h"
+
+#if defined(_WIN32)
+#define TETSTREAM_API
+#elif defined(__GNUC__)
+#define TETSTREAM_API __attribute__((visibility("default")))
+#else
+#define TETSTREAM_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------------------- version */
+
+/* TETSTREAM_VERSION_NUMBER of the library that runs. Since 0.1. */
+TETSTREAM_API int32_t tetstream_version_number(void);
+/* Its version and build in words, such as "0.1.0 (zstd, x86-64-v3)". Static. Since 0.1. */
+TETSTREAM_API const char *tetstream_version_text(void);
+
+/* -------------------------------------------------------------------------------- status */
+
+typedef int32_t tetstream_status;
+#define TETSTREAM_OK 0
+#define TETSTREAM_END 1            /* a reader has no more events */
+#define TETSTREAM_TARGET_MISSED 2  /* the output is complete and valid, but has more cells than
+                                      asked for; the report says what stopped it */
+#define TETSTREAM_BAD_ARGUMENT (-1)
+#define TETSTREAM_BAD_STATE (-2)   /* the call is not allowed in the handle's state */
+#define TETSTREAM_NO_MEMORY (-3)   /* memory, or the budget set for it, is used up */
+#define TETSTREAM_BAD_DATA (-4)    /* a file or a stream breaks its format's rules */
+#define TETSTREAM_IO (-5)          /* the system refused a read, a write or an open */
+#define TETSTREAM_UNSUPPORTED (-6) /* valid, but this build or this format cannot hold it */
+#define TETSTREAM_CANCELLED (-7)   /* the progress callback asked to stop */
+#define TETSTREAM_CALLBACK (-8)    /* a callback returned non-zero; the message has its value */
+#define TETSTREAM_INTERNAL (-9)    /* a defect of the library: please report it */
+
+/* The name of a status, "TETSTREAM_BAD_DATA"; static, never NULL. Since 0.1. */
+TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
+
+/* ---------------------------------------------------------------------- types of numbers */
+
+#define TETSTREAM_TYPE_FLOAT32 1
+#define TETSTREAM_TYPE_FLOAT64 2
+#define TETSTREAM_TYPE_INT32 3
+#define TETSTREAM_TYPE_INT64 4
+
+/* ------------------------------------------------------------------------------- options */
+
+/* Options are numbered; numbers are never reused. The same table gives the flags of the command
+ * line; tetstream_option_at lists it. */
+#define TETSTREAM_OPTION_RATIO 100           /* double, cells out / cells in, 0 < r <= 1 */
+#define TETSTREAM_OPTION_CELLS 101           /* int64, cells out; 0: the ratio decides */
+#define TETSTREAM_OPTION_BOUNDARY_WEIGHT 110 /* double, dimensionless: boundary against field */
+#define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
+#define TETSTREAM_OPTION_MODE 130            /* text: "paper" */
+#define TETSTREAM_OPTION_SEED 131            /* int64 */
+#define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */
+#define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges drawn for one collapse */
+#define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
+#define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that windows and orders may take; 0: no
+                                                limit */
+#define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
+#define TETSTREAM_OPTION_AXIS 210            /* text: sweep of indexed input: "auto", "x", "y", "z" */
+
+#define TETSTREAM_OPTION_IS_INT64 1
+#define TETSTREAM_OPTION_IS_DOUBLE 2
+#define TETSTREAM_OPTION_IS_TEXT 3
+
+typedef struct tetstream_options tetstream_options;
+
+/* One row of the table. The library fills as many members as struct_size covers. */
+typedef struct tetstream_option_info {
+  size_t struct_size;       /* in: sizeof(tetstream_option_info) */
+  int32_t id;               /* TETSTREAM_OPTION_... */
+  int32_t type;             /* TETSTREAM_OPTION_IS_... */
+  const char *name;         /* "boundary-weight"; static */
+  const char *text;         /* one line; static */
+  double minimum, maximum;  /* of numbers, both included unless the text says otherwise */
+  const char *default_text; /* static */
+  const char *choices;      /* of texts, blank-separated; NULL: anything; static */
+} tetstream_option_info;
+
+/* The number of options. Since 0.1. */
+TETSTREAM_API int32_t tetstream_option_count(void);
+/* Row `index` of the table, 0 <= index < count. BAD_ARGUMENT outside. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_option_at(int32_t index, tetstream_option_info *info);
+
+/* All defaults. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_options_create(tetstream_options **options);
+/* Since 0.1. */
+TETSTREAM_API void tetstream_options_destroy(tetstream_options *options);
+/* Sets one option. BAD_ARGUMENT, and nothing changes, if there is no such option, it has another
+ * type or the value is out of its range. Texts are copied. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_options_set_int64(tetstream_options *options, int32_t id,
+                                                           int64_t value);
+TETSTREAM_API tetstream_status tetstream_options_set_double(tetstream_options *options, int32_t id,
+                                                            double value);
+TETSTREAM_API tetstream_status tetstream_options_set_text(tetstream_options *options, int32_t id,
+                                                          const char *value);
+/* Sets an option of any type by its name and the text of its value, as on a command line; integers
+ * may have a suffix k, M, G (powers of 1024 for memory, of 1000 otherwise) or an exponent. Since
+ * 0.1. */
+TETSTREAM_API tetstream_status tetstream_options_parse(tetstream_options *options,
+                                                       const char *name, const char *value);
+/* Reads one option. A text lives until the option is set again or the handle destroyed. Since 0.1.
+ */
+TETSTREAM_API tetstream_status tetstream_options_get_int64(const tetstream_options *options,
+                                                           int32_t id, int64_t *value);
+TETSTREAM_API tetstream_status tetstream_options_get_double(const tetstream_options *options,
+                                                            int32_t id, double *value);
+TETSTREAM_API tetstream_status tetstream_options_get_text(const tetstream_options *options,
+                                                          int32_t id, const char **value);
+/* Measures the field of that name with that weight (>= 0, 1 is usual; 0: carried along, not
+ * measured). The first call turns off the default, which measures every nodal float field with
+ * weight 1; fields not named are then carried. That the field exists is checked when the stream
+ * begins. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_options_add_field(tetstream_options *options,
+                                                           const char *name, double weight);
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
+TETSTREAM_API const char *tetstream_options_message(const tetstream_options *options);
+
+/* -------------------------------------------------------- streams: what they are made of */
+
+/* A named array of a stream. */
+typedef struct tetstream_column {
+  const char *name;    /* 1 to 255 bytes, UTF-8 */
+  int32_t components;  /* 1 to 9 */
+  int32_t type;        /* TETSTREAM_TYPE_...; floats are interpolated (fields) or averaged by volume
+                          (cell data), integers are picked */
+} tetstream_column;
+
+#define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
+                                      and ordered by the library before it is streamed */
+
+/* What a stream carries. Unknown counts are -1. The arrays are read during the call only, or, in a
+ * reader's `open`, until `close`. */
+typedef struct tetstream_stream_info {
+  size_t struct_size;    /* sizeof(tetstream_stream_info) */
+  int32_t position_type; /* TETSTREAM_TYPE_FLOAT32 or _FLOAT64 */
+  uint32_t flags;        /* TETSTREAM_STREAM_... */
+  int32_t field_count;
+  int32_t cell_data_count;
+  const tetstream_column *fields;    /* may be NULL if there are none */
+  const tetstream_column *cell_data; /* may be NULL if there are none */
+  int64_t vertex_count, cell_count;  /* -1: not known */
+  int64_t front_width;               /* active vertices at once, at most; -1: not known */
+  int64_t front_span;                /* -1: not known */
+  int64_t front_cells;               /* cells that touch a vertex not yet finalized, at most; -1: not
+                                        known. It sets the window. */
+  const double *box_min; /* x y z and each component of each field, in order; NULL: not known */
+  const double *box_max;
+} tetstream_stream_info;
+
+/* Events, some thousands at a time: the batch's vertices, then its cells in order, each with the
+ * finalizations that it carries, then the explicit finalizations. A vertex comes in the batch of
+ * the first cell that uses it, or before. Unused pointers are NULL. How a stream is cut into
+ * batches does not change the result. */
+typedef struct tetstream_batch {
+  size_t struct_size;        /* sizeof(tetstream_batch) */
+  int64_t vertex_count;
+  const void *positions;     /* [vertex_count][3] of position_type */
+  const void *const *fields; /* one pointer per field: [vertex_count][components] */
+  const uint8_t *locked;     /* [vertex_count], non-zero: the vertex is never moved; NULL: none */
+  int64_t cell_count;
+  const int64_t *cells;         /* [cell_count][4] vertex ids */
+  const uint8_t *last_uses;     /* [cell_count], bit j: no later cell uses corner j's vertex; NULL:
+                                   none */
+  const void *const *cell_data; /* one pointer per cell array: [cell_count][components] */
+  int64_t finalized_count;
+  const int64_t *finalized;     /* vertices that no later cell uses */
+} tetstream_batch;
+
+/* -------------------------------------------------------------------------------- reader */
+
+/* Where a stream comes from, as callbacks. Members may be added at the end in later versions;
+ * struct_size says which ones the caller knows. Every callback returns 0 to go on; another value
+ * stops the run, which fails with TETSTREAM_CALLBACK.
+ *
+ *   static int32_t next(void *user, tetstream_batch *batch) {
+ *     struct mine *m = user;
+ *     if (m->at == m->end) return 0;      // an empty batch ends the stream
+ *     batch->cells = m->cells + 4 * m->at;  batch->cell_count = ...;  return 0;
+ *   }
+ */
+typedef struct tetstream_reader_callbacks {
+  size_t struct_size;
+  void *user;
+  /* Required. Called once, first. Fills *info (struct_size is set); its arrays live until close. */
+  int32_t (*open)(void *user, tetstream_stream_info *info);
+  /* Required. Called until it gives a batch with no vertex, cell or finalization. *batch comes
+   * with struct_size set and the rest zero. Its arrays are read before the next call. */
+  int32_t (*next)(void *user, tetstream_batch *batch);
+  /* Optional, may be NULL. Called once if open was called, whatever happened since. */
+  void (*close)(void *user);
+} tetstream_reader_callbacks;
+
+typedef struct tetstream_reader tetstream_reader;
+
+/* A reader of the caller's. The table is copied. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_create(const tetstream_reader_callbacks *callbacks,
+                                                       tetstream_reader **reader);
+/* A file. `format` is a name such as "vtu", or NULL: by the path's extension. The header is read
+ * at once. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_open_file(const char *path, const char *format,
+                                                          tetstream_reader **reader);
+/* A file descriptor, which stays the caller's to close; for formats that must seek, a pipe is
+ * spooled to a temporary file. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *format,
+                                                        tetstream_reader **reader);
+/* The bytes of a file in memory, which must stay as they are until the reader is destroyed. Since
+ * 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, size_t size,
+                                                            const char *format,
+                                                            tetstream_reader **reader);
+/* An indexed mesh in arrays of the caller's, which must stay as they are until the reader is
+ * destroyed: `mesh` is one batch that holds everything; its last_uses and finalized are not looked
+ * at. Counts of `info` are not looked at either. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info *info,
+                                                          const tetstream_batch *mesh,
+                                                          tetstream_reader **reader);
+/* A mesh made on the fly, in constant memory: kind "fluid" (a jittered box of 1 x 1 x 4, swept
+ * along its long axis; scalar "density", vector "velocity") or "ball" (a unit ball, scalar
+ * "density", vector "velocity"), of about `cells` cells. The same arguments give the same mesh.
+ * Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_generate(const char *kind, int64_t cells,
+                                                         int64_t seed, tetstream_reader **reader);
+/* Since 0.1. */
+TETSTREAM_API void tetstream_reader_destroy(tetstream_reader *reader);
+/* What the stream carries, as far as it is known without reading it. For callback readers: opens
+ * them. The pointers in *info live as long as the reader. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reader,
+                                                         tetstream_stream_info *info);
+/* What the reader left out or assumed, as sentences: note `index`, or NULL if there are fewer.
+ * Lives as long as the reader. Since 0.1. */
+TETSTREAM_API const char *tetstream_reader_note(const tetstream_reader *reader, int32_t index);
+/* The sentence for the last failure with this handle. Since 0.1. */
+TETSTREAM_API const char *tetstream_reader_message(const tetstream_reader *reader);
+
+/* -------------------------------------------------------------------------------- writer */
+
+/* Where a stream goes, as callbacks; the rules of tetstream_reader_callbacks hold. Output is final:
+ * what was handed over is never changed or taken back. */
+typedef struct tetstream_writer_callbacks {
+  size_t struct_size;
+  void *user;
+  /* Optional, may be NULL. Called once, first. *info lives during the call; counts are -1 where
+   * only the end will tell. */
+  int32_t (*open)(void *user, const tetstream_stream_info *info);
+  /* Required. Called any number of times. *batch and its arrays live during the call. */
+  int32_t (*put)(void *user, const tetstream_batch *batch);
+  /* Optional, may be NULL. Called once after a complete stream; never after a failure. */
+  int32_t (*finish)(void *user);
+  /* Optional, may be NULL. Called once if open was called or would have been, last. */
+  void (*close)(void *user);
+} tetstream_writer_callbacks;
+
+typedef struct tetstream_writer tetstream_writer;
+
+/* A writer of the caller's. The table is copied. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_writer_create(const tetstream_writer_callbacks *callbacks,
+                                                       tetstream_writer **writer);
+/* A file, written under a temporary name beside `path` and renamed when complete. `format` as for
+ * readers. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_writer_create_file(const char *path, const char *format,
+                                                            tetstream_writer **writer);
+/* A file descriptor, which stays the caller's to close. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_writer_create_fd(int32_t fd, const char *format,
+                                                          tetstream_writer **writer);
+/* Memory: the bytes of a file of that format. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_writer_create_memory(const char *format,
+                                                              tetstream_writer **writer);
+/* The bytes of a memory writer, once the stream is finished; they live as long as the writer.
+ * BAD_STATE before. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_writer_get_memory(const tetstream_writer *writer,
+                                                           const void **data, size_t *size);
+/* A property of the format, before the stream begins: "compress" ("yes", "no"; .tets, .vtu),
+ * "order" ("pre", "post"; .sva, .svb). BAD_ARGUMENT if there is none such. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_writer_set(tetstream_writer *writer, const char *property,
+                                                    const char *value);
+/* Since 0.1. */
+TETSTREAM_API void tetstream_writer_destroy(tetstream_writer *writer);
+/* What the format could not hold and was left out: note `index`, or NULL. Since 0.1. */
+TETSTREAM_API const char *tetstream_writer_note(const tetstream_writer *writer, int32_t index);
+/* The sentence for the last failure with this handle. Since 0.1. */
+TETSTREAM_API const char *tetstream_writer_message(const tetstream_writer *writer);
+
+/* ----------------------------------------------------------------------------- simplifier */
+
+/* How far a run is. Fractions need counts: -1 where they are not known. */
+typedef struct tetstream_progress {
+  size_t struct_size;
+  int64_t cells_read, cells_total, cells_written;
+  double fraction; /* of the whole run, 0 to 1, or -1 */
+  const char *phase; /* "order", "simplify", "convert", ...; static */
+} tetstream_progress;
+
+/* Called at least once per window, and often enough for a bar; non-zero cancels the run, which
+ * fails with TETSTREAM_CANCELLED. */
+typedef int32_t (*tetstream_progress_callback)(void *user, const tetstream_progress *progress);
+
+/* What came out. Members may be added at the end. */
+typedef struct tetstream_report {
+  size_t struct_size;
+  int64_t cells_in, vertices_in, cells_out, vertices_out;
+  int64_t target_cells;
+  int64_t window_cells;      /* cells that the window held at most */
+  int64_t front_width, front_span, front_cells; /* of the input, as it was streamed */
+  int64_t collapses;
+  int64_t rejected_orientation; /* a cell would have been flat or inverted */
+  int64_t rejected_link;        /* the topology would have changed */
+  int64_t rejected_locked;      /* a vertex was locked: interfaces, non-manifold boundary, caller */
+  int64_t rejected_other;       /* non-finite results, overshoot of the target */
+  int64_t locked_cells;         /* flat or folded in the input, passed on as they are */
+  int64_t unused_vertices;      /* in no cell, left out */
+  double largest_error;         /* largest quadric error of a collapse: volume times field error
+                                   squared, field in units of its range, lengths of the extent */
+  double seconds;               /* from begin to finish */
+  uint64_t peak_window_bytes;   /* of the arrays that the memory option bounds */
+  uint64_t peak_resident_bytes; /* of the process, 0 where the system does not tell */
+  const char *regions;          /* what was taken as region labels, in words; lives as the handle */
+  const char *limited_by;       /* what stopped the run short of its target, or "" */
+} tetstream_report;
+
+typedef struct tetstream_simplifier tetstream_simplifier;
+
+/* A simplifier that writes to `writer`. The options are copied; the writer is borrowed until the
+ * simplifier is destroyed and serves one stream. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_create(const tetstream_options *options,
+                                                           tetstream_writer *writer,
+                                                           tetstream_simplifier **simplifier);
+/* Since 0.1. */
+TETSTREAM_API void tetstream_simplifier_destroy(tetstream_simplifier *simplifier);
+/* Optional, before the stream begins. `progress` may be NULL. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_set_progress(tetstream_simplifier *simplifier,
+                                                                 tetstream_progress_callback progress,
+                                                                 void *user);
+/* Pull: reads everything from `reader`, writes everything, finishes the writer. Returns OK, or
+ * TARGET_MISSED, or a failure. Once per simplifier. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_run(tetstream_simplifier *simplifier,
+                                                        tetstream_reader *reader);
+/* Push: the stream begins. Once per simplifier. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_begin(tetstream_simplifier *simplifier,
+                                                          const tetstream_stream_info *info);
+/* Push: the next events. Nothing of *batch is kept. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_push(tetstream_simplifier *simplifier,
+                                                         const tetstream_batch *batch);
+/* Push: the stream ends; the rest is simplified and written, the writer finished. Returns OK,
+ * TARGET_MISSED or a failure. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_finish(tetstream_simplifier *simplifier);
+/* What was done so far; complete after run or finish. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_get_report(
+    const tetstream_simplifier *simplifier, tetstream_report *report);
+/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifier *simplifier);
+
+/* ---------------------------------------------------------------------- without simplifying */
+
+/* Reads everything from `reader`, ordering it if it is indexed and the writer's format is a stream,
+ * and writes it. `options` may be NULL: defaults; the memory, tmpdir and axis options count. On
+ * failure the message is the writer's. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_convert(tetstream_reader *reader, tetstream_writer *writer,
+                                                 const tetstream_options *options,
+                                                 tetstream_progress_callback progress, void *user);
+/* Reads everything and fills *info completely: counts, box, front width, span and cells, as it
+ * stands or, for an indexed mesh, as `run` would stream it. The pointers in *info live as long as
+ * the reader. On failure the message is the reader's. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_inspect(tetstream_reader *reader,
+                                                 const tetstream_options *options,
+                                                 tetstream_progress_callback progress, void *user,
+                                                 tetstream_stream_info *info);
+
+/* Row `index` of the table of file formats: name, extensions and one line, static, and whether it
+ * is read and written. BAD_ARGUMENT past the end. Any pointer may be NULL. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_format_at(int32_t index, const char **name,
+                                                   const char **extensions, const char **text,
+                                                   int32_t *can_read, int32_t *can_write);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

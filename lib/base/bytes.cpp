@@ -1,0 +1,312 @@
+#include "bytes.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "status.h"
+
+namespace tetstream {
+
+[[noreturn]] static void failIo(const std::string& name, const char* what) {
+  const int error = errno;
+  fail(Status::kIo, "%s: cannot %s: %s", name.c_str(), what, std::strerror(error));
+}
+
+static size_t readSome(int fd, void* out, size_t size, const std::string& name) {
+  for (;;) {
+    const ssize_t got = ::read(fd, out, size);
+    if (got >= 0) return static_cast<size_t>(got);
+    if (errno != EINTR) failIo(name, "read");
+  }
+}
+
+static size_t readFully(int fd, uint64_t offset, void* out, size_t size, const std::string& name) {
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t got = ::pread(fd, static_cast<char*>(out) + done, size - done,
+                                static_cast<off_t>(offset + done));
+    if (got == 0) break;
+    if (got < 0 && errno != EINTR) failIo(name, "read");
+    if (got > 0) done += static_cast<size_t>(got);
+  }
+  return done;
+}
+
+static void writeFully(int fd, const void* data, size_t size, const std::string& name) {
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t put = ::write(fd, static_cast<const char*>(data) + done, size - done);
+    if (put < 0 && errno != EINTR) failIo(name, "write");
+    if (put > 0) done += static_cast<size_t>(put);
+  }
+}
+
+static void writeFullyAt(int fd, uint64_t offset, const void* data, size_t size,
+                         const std::string& name) {
+  size_t done = 0;
+  while (done < size) {
+    const ssize_t put = ::pwrite(fd, static_cast<const char*>(data) + done, size - done,
+                                 static_cast<off_t>(offset + done));
+    if (put < 0 && errno != EINTR) failIo(name, "write");
+    if (put > 0) done += static_cast<size_t>(put);
+  }
+}
+
+// ---------------------------------------------------------------------------------- sources
+
+namespace {
+
+class DescriptorSource final : public ByteSource {
+ public:
+  DescriptorSource(int fd, bool owned, std::string name)
+      : ByteSource(std::move(name)), fd_(fd), owned_(owned) {
+    struct stat info;
+    if (::fstat(fd, &info) != 0) {
+      const int error = errno;
+      if (owned) ::close(fd);
+      errno = error;
+      failIo(this->name(), "open");
+    }
+    seekable_ = S_ISREG(info.st_mode) && ::lseek(fd, 0, SEEK_CUR) == 0;
+    size_ = seekable_ ? static_cast<uint64_t>(info.st_size) : 0;
+  }
+  ~DescriptorSource() override {
+    if (owned_) ::close(fd_);
+  }
+  size_t read(void* out, size_t size) override { return readSome(fd_, out, size, name()); }
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    return readFully(fd_, offset, out, size, name());
+  }
+  bool seekable() const override { return seekable_; }
+  uint64_t size() const override { return size_; }
+
+ private:
+  int fd_;
+  bool owned_, seekable_;
+  uint64_t size_;
+};
+
+class MemorySource final : public ByteSource {
+ public:
+  MemorySource(const void* data, size_t size, const std::string& name)
+      : ByteSource(name), data_(static_cast<const char*>(data)), size_(size) {}
+  size_t read(void* out, size_t size) override {
+    const size_t got = readAt(place_, out, size);
+    place_ += got;
+    return got;
+  }
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    if (offset >= size_) return 0;
+    const size_t got = size < size_ - offset ? size : static_cast<size_t>(size_ - offset);
+    if (got) std::memcpy(out, data_ + offset, got);
+    return got;
+  }
+  bool seekable() const override { return true; }
+  uint64_t size() const override { return size_; }
+
+ private:
+  const char* data_;
+  uint64_t size_, place_ = 0;
+};
+
+class SpooledSource final : public ByteSource {
+ public:
+  SpooledSource(ByteSource& from, const std::string& temp_dir)
+      : ByteSource(from.name()), spool_(temp_dir) {
+    std::vector<unsigned char> block(1 << 16);
+    while (const size_t got = from.read(block.data(), block.size()))
+      spool_.append(block.data(), got);
+  }
+  size_t read(void* out, size_t size) override {
+    const size_t got = readAt(place_, out, size);
+    place_ += got;
+    return got;
+  }
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    return readFully(spool_.descriptor(), offset, out, size, name());
+  }
+  bool seekable() const override { return true; }
+  uint64_t size() const override { return spool_.size(); }
+
+ private:
+  SpoolFile spool_;
+  uint64_t place_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ByteSource> openFile(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0) failIo(path, "open");
+  return std::make_unique<DescriptorSource>(fd, true, path);
+}
+
+std::unique_ptr<ByteSource> openDescriptor(int fd, const std::string& name) {
+  return std::make_unique<DescriptorSource>(fd, false, name);
+}
+
+std::unique_ptr<ByteSource> openMemory(const void* data, size_t size, const std::string& name) {
+  return std::make_unique<MemorySource>(data, size, name);
+}
+
+std::unique_ptr<ByteSource> makeSeekable(std::unique_ptr<ByteSource> source,
+                                         const std::string& temp_dir) {
+  if (source->seekable()) return source;
+  return std::make_unique<SpooledSource>(*source, temp_dir);
+}
+
+// ------------------------------------------------------------------------------------ sinks
+
+namespace {
+
+class DescriptorSink final : public ByteSink {
+ public:
+  DescriptorSink(int fd, bool owned, const std::string& name)
+      : ByteSink(name), fd_(fd), owned_(owned) {
+    struct stat info;
+    seekable_ = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_size == 0 &&
+                ::lseek(fd, 0, SEEK_CUR) == 0 && !(::fcntl(fd, F_GETFL) & O_APPEND);
+  }
+  ~DescriptorSink() override {
+    if (owned_) ::close(fd_);
+  }
+  void write(const void* data, size_t size) override { writeFully(fd_, data, size, name()); }
+  void writeAt(uint64_t offset, const void* data, size_t size) override {
+    writeFullyAt(fd_, offset, data, size, name());
+  }
+  bool seekable() const override { return seekable_; }
+  void commit() override {}
+
+ private:
+  int fd_;
+  bool owned_, seekable_;
+};
+
+// A temporary beside the final name: the rename is atomic only within one file system.
+class TemporaryNamedSink final : public ByteSink {
+ public:
+  explicit TemporaryNamedSink(const std::string& path)
+      : ByteSink(path), temporary_(path + ".XXXXXX") {
+    fd_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
+    if (fd_ < 0) failIo(path, "create");
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    ::fchmod(fd_, 0666 & ~mask);
+  }
+  ~TemporaryNamedSink() override {
+    if (fd_ >= 0) ::close(fd_);
+    if (!committed_) ::unlink(temporary_.c_str());
+  }
+  void write(const void* data, size_t size) override { writeFully(fd_, data, size, name()); }
+  void writeAt(uint64_t offset, const void* data, size_t size) override {
+    writeFullyAt(fd_, offset, data, size, name());
+  }
+  bool seekable() const override { return true; }
+  void commit() override {
+    const int fd = fd_;
+    fd_ = -1;
+    if (::close(fd) != 0) failIo(name(), "write");
+    if (::rename(temporary_.c_str(), name().c_str()) != 0) failIo(name(), "rename into place");
+    committed_ = true;
+  }
+
+ private:
+  std::string temporary_;
+  int fd_ = -1;
+  bool committed_ = false;
+};
+
+class MemorySink final : public ByteSink {
+ public:
+  explicit MemorySink(std::vector<unsigned char>& out) : ByteSink("memory"), out_(out) {
+    out_.clear();
+  }
+  void write(const void* data, size_t size) override {
+    const unsigned char* bytes = static_cast<const unsigned char*>(data);
+    out_.insert(out_.end(), bytes, bytes + size);
+  }
+  void writeAt(uint64_t offset, const void* data, size_t size) override {
+    if (offset > out_.size() || size > out_.size() - offset)
+      fail(Status::kInternal, "memory: bytes to be overwritten were never written");
+    if (size) std::memcpy(out_.data() + offset, data, size);
+  }
+  bool seekable() const override { return true; }
+  void commit() override {}
+
+ private:
+  std::vector<unsigned char>& out_;
+};
+
+}  // namespace
+
+std::unique_ptr<ByteSink> createFile(const std::string& path) {
+  struct stat info;
+  if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) {
+    const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd < 0) failIo(path, "open");
+    return std::make_unique<DescriptorSink>(fd, true, path);
+  }
+  return std::make_unique<TemporaryNamedSink>(path);
+}
+
+std::unique_ptr<ByteSink> createDescriptor(int fd, const std::string& name) {
+  return std::make_unique<DescriptorSink>(fd, false, name);
+}
+
+std::unique_ptr<ByteSink> createMemory(std::vector<unsigned char>& out) {
+  return std::make_unique<MemorySink>(out);
+}
+
+// ------------------------------------------------------------------------------------ spool
+
+SpoolFile::SpoolFile(const std::string& temp_dir) {
+  std::string dir = temp_dir;
+  if (dir.empty()) {
+    const char* set = std::getenv("TMPDIR");
+    dir = set && *set ? set : "/tmp";
+  }
+  name_ = dir + "/tetstream.XXXXXX";
+  fd_ = ::mkostemp(name_.data(), O_CLOEXEC);
+  if (fd_ < 0) failIo(name_, "create a temporary file");
+  ::unlink(name_.c_str());
+}
+
+SpoolFile::~SpoolFile() { ::close(fd_); }
+
+void SpoolFile::append(const void* data, size_t size) {
+  writeFully(fd_, data, size, name_);
+  size_ += size;
+}
+
+void SpoolFile::readAt(uint64_t offset, void* out, size_t size) {
+  if (readFully(fd_, offset, out, size, name_) != size)
+    fail(Status::kIo, "%s: the temporary file is shorter than what was written", name_.c_str());
+}
+
+BufferedSink::BufferedSink(ByteSink& sink, size_t capacity) : sink_(sink) {
+  buffer_.reserve(capacity);
+}
+
+void BufferedSink::write(const void* data, size_t size) {
+  if (size > buffer_.capacity() - buffer_.size()) flush();
+  if (size >= buffer_.capacity()) {
+    sink_.write(data, size);
+    flushed_ += size;
+    return;
+  }
+  const unsigned char* bytes = static_cast<const unsigned char*>(data);
+  buffer_.insert(buffer_.end(), bytes, bytes + size);
+}
+
+void BufferedSink::flush() {
+  if (buffer_.empty()) return;
+  sink_.write(buffer_.data(), buffer_.size());
+  flushed_ += buffer_.size();
+  buffer_.clear();
+}
+
+}  // namespace tetstream

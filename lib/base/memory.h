@@ -1,0 +1,75 @@
+// base: memory that is counted against a budget. Depends on status.h.
+//
+// An Account is the budget of one handle; every large array of the window and of the layout is
+// an Array that charges it. Small things (names, headers) use the standard containers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+namespace tetstream {
+
+// a * b, or throws kNoMemory when it does not fit.
+size_t checkedMultiply(size_t a, size_t b);
+size_t checkedAdd(size_t a, size_t b);
+
+class Account {
+ public:
+  explicit Account(size_t limit_bytes = 0) : limit_(limit_bytes) {}
+  Account(const Account&) = delete;
+  Account& operator=(const Account&) = delete;
+
+  void charge(size_t bytes);   // throws kNoMemory when the limit (0: none) would be passed
+  void release(size_t bytes) noexcept { used_ -= bytes; }
+  size_t used() const noexcept { return used_; }
+  size_t peak() const noexcept { return peak_; }
+  size_t limit() const noexcept { return limit_; }
+
+ private:
+  size_t limit_, used_ = 0, peak_ = 0;
+};
+
+void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_bytes);
+void freeBytes(Account& account, void* old, size_t old_bytes) noexcept;
+
+// An array of plain data that never constructs, zeroes or touches its elements: memory that is
+// not used is never paid for. Growing keeps the contents and, for large arrays, does not copy.
+template <class T>
+class Array {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  explicit Array(Account& account) : account_(&account) {}
+  Array(Account& account, size_t size) : account_(&account) { resize(size); }
+  ~Array() { freeBytes(*account_, data_, size_ * sizeof(T)); }
+  Array(Array&& other) noexcept
+      : account_(other.account_),
+        data_(std::exchange(other.data_, nullptr)),
+        size_(std::exchange(other.size_, 0)) {}
+  Array(const Array&) = delete;
+  Array& operator=(const Array&) = delete;
+  Array& operator=(Array&&) = delete;
+
+  void resize(size_t size) {
+    data_ = static_cast<T*>(reallocateBytes(*account_, data_, size_ * sizeof(T),
+                                            checkedMultiply(size, sizeof(T))));
+    size_ = size;
+  }
+  size_t size() const noexcept { return size_; }
+  T* data() noexcept { return data_; }
+  const T* data() const noexcept { return data_; }
+  T& operator[](size_t i) noexcept { return data_[i]; }
+  const T& operator[](size_t i) const noexcept { return data_[i]; }
+
+ private:
+  Account* account_;
+  T* data_ = nullptr;
+  size_t size_ = 0;
+};
+
+// Peak resident set of this process in bytes, 0 where the system does not tell.
+uint64_t peakResidentBytes();
+
+}  // namespace tetstream

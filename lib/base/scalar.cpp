@@ -1,0 +1,39 @@
+#include "scalar.h"
+
+#include <cstring>
+
+namespace tetstream {
+
+template <class In, class Out>
+static void convert(const void* in, void* out, size_t count) {
+  const In* from = static_cast<const In*>(in);
+  Out* to = static_cast<Out*>(out);
+  for (size_t i = 0; i < count; ++i) to[i] = static_cast<Out>(from[i]);
+}
+
+template <class In>
+static void convertFrom(const void* in, void* out, ScalarType out_type, size_t count) {
+  switch (out_type) {
+    case ScalarType::kFloat32: return convert<In, float>(in, out, count);
+    case ScalarType::kFloat64: return convert<In, double>(in, out, count);
+    case ScalarType::kInt32: return convert<In, int32_t>(in, out, count);
+    case ScalarType::kInt64: return convert<In, int64_t>(in, out, count);
+  }
+}
+
+void convertScalars(const void* in, ScalarType in_type, void* out, ScalarType out_type,
+                    size_t count) {
+  if (count == 0) return;
+  if (in_type == out_type) {
+    std::memcpy(out, in, count * sizeOf(in_type));
+    return;
+  }
+  switch (in_type) {
+    case ScalarType::kFloat32: return convertFrom<float>(in, out, out_type, count);
+    case ScalarType::kFloat64: return convertFrom<double>(in, out, out_type, count);
+    case ScalarType::kInt32: return convertFrom<int32_t>(in, out, out_type, count);
+    case ScalarType::kInt64: return convertFrom<int64_t>(in, out, out_type, count);
+  }
+}
+
+}  // namespace tetstream

@@ -1,0 +1,60 @@
+#include "registry.h"
+
+#include <cstring>
+
+#include "status.h"
+
+namespace tetstream {
+
+static const Format kFormats[] = {
+    {"tets", ".tets", "tetstream's own stream: any fields and cell data, checksums",
+     {true, -1, true}, true, true, openTets, createTets},
+    {"vtu", ".vtu", "VTK XML unstructured grid", {true, -1, true}, false, true, openVtu, createVtu},
+    {"sva", ".sva", "streaming volume mesh of Isenburg, text",
+     {true, -1, true}, true, true, openSva, createSva},
+    {"svb", ".svb", "streaming volume mesh of Isenburg, binary",
+     {false, 1, false}, true, true, openSvb, createSvb},
+};
+
+const Format* formats(size_t* count) {
+  *count = sizeof kFormats / sizeof kFormats[0];
+  return kFormats;
+}
+
+const Format* findFormat(const std::string& name) {
+  for (const Format& f : kFormats)
+    if (name == f.name) return &f;
+  return nullptr;
+}
+
+static bool listHas(const char* list, const std::string& word) {
+  for (const char* at = list; *at;) {
+    const size_t length = std::strcspn(at, " ");
+    if (word.size() == length && word.compare(0, length, at, length) == 0) return true;
+    at += length + (at[length] == ' ');
+  }
+  return false;
+}
+
+const Format* formatOfPath(const std::string& path) {
+  const size_t slash = path.find_last_of('/');
+  const size_t dot = path.find_last_of('.');
+  if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return nullptr;
+  for (const Format& f : kFormats)
+    if (listHas(f.extensions, path.substr(dot))) return &f;
+  return nullptr;
+}
+
+const Format& needFormat(const std::string& name, const std::string& path) {
+  const Format* found = name.empty() ? formatOfPath(path) : findFormat(name);
+  if (found) return *found;
+  std::string known;
+  for (const Format& f : kFormats) known += std::string(known.empty() ? "" : ", ") + f.name;
+  if (!name.empty())
+    fail(Status::kUnsupported, "there is no format \"%s\"; there are %s", name.c_str(),
+         known.c_str());
+  fail(Status::kUnsupported, "%s: the name does not tell the format; there are %s", path.c_str(),
+       known.c_str());
+}
+
+}  // namespace tetstream

@@ -1,0 +1,61 @@
+// format: the table of file formats, one row per format, one source file per row.
+// Depends on stream, base.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "bytes.h"
+#include "source.h"
+
+namespace tetstream {
+
+struct ReadOptions {
+  std::string temp_dir;                           // for spools; empty: $TMPDIR or /tmp
+  std::function<void(const std::string&)> note;   // what was left out or assumed; may be empty
+};
+
+struct WriteOptions {
+  std::string temp_dir;
+  std::function<void(const std::string&)> note;
+  bool compress = true;      // .tets: zstd where built in; .vtu: zlib
+  bool post_order = false;   // .sva, .svb
+};
+
+// What a format can hold, so that values are rounded before and not after they were checked.
+struct Capabilities {
+  bool float64;              // else positions and fields are rounded to float32
+  int max_field_components;  // of all fields together; -1: any number
+  bool cell_data;
+};
+
+struct Format {
+  const char* name;        // "tets", the word of --format
+  const char* extensions;  // ".tets", blank-separated
+  const char* text;        // one line
+  Capabilities holds;
+  bool pipes_in, pipes_out;  // can be read from, written to a pipe as it comes
+  // Null where the format is not read or not written.
+  Input (*open)(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+  std::unique_ptr<Sink> (*create)(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+};
+
+const Format* formats(size_t* count);
+const Format* findFormat(const std::string& name);           // null: no such format
+const Format* formatOfPath(const std::string& path);         // by extension; null: unknown
+// As above, but throw kUnsupported with a sentence that lists what there is. `name` may be empty:
+// then the path's extension decides.
+const Format& needFormat(const std::string& name, const std::string& path);
+
+// The rows, each defined in its own file.
+Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createTets(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+
+}  // namespace tetstream

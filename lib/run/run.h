@@ -1,0 +1,44 @@
+// run: joins reader, layout, simplifier and writer. Depends on layout, simplify, format, stream.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "options.h"
+#include "source.h"
+
+namespace tetstream {
+
+struct RunOptions {
+  SimplifyOptions simplify;
+  std::string axis = "auto";  // sweep of indexed input
+  std::string temp_dir;
+};
+
+// One simplification. Pull: run. Push: begin, put as often as wanted, finish; an indexed mesh that
+// is pushed is collected first and ordered at finish. Not to be used after an Error.
+class SimplifyRun {
+ public:
+  SimplifyRun(const RunOptions& options, Sink& out, ProgressFunction progress);
+  ~SimplifyRun();
+
+  void run(Input& input);
+
+  void begin(const Schema& schema, bool indexed);
+  void put(const BatchView& batch);
+  void finish();
+
+  const Report& report() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Copies a mesh, ordering it on the way if it is indexed.
+void convert(Input& input, Sink& out, const RunOptions& options, const ProgressFunction& progress);
+
+// The schema with everything known: counts, box, front. Reads the whole input.
+Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& progress);
+
+}  // namespace tetstream

@@ -1,0 +1,52 @@
+// simplify: what the user can ask for and what he is told. Depends on stream.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "schema.h"
+
+namespace tetstream {
+
+enum class QuadricForm { kDeterminant, kGarlandZhou };
+enum class Mode { kPaper };
+
+struct SimplifyOptions {
+  double ratio = 0.1;        // cells out / cells in
+  int64_t cells = 0;         // cells out; 0: the ratio decides
+  std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
+  double boundary_weight = 1000;
+  std::string regions = "auto";
+  Mode mode = Mode::kPaper;
+  QuadricForm quadric = QuadricForm::kDeterminant;
+  int64_t seed = 1;
+  int64_t candidates = 8;
+  int64_t window_cells = 0;  // 0: from the front
+  int64_t memory_bytes = 0;  // 0: no limit
+};
+
+struct Report {
+  int64_t cells_in = 0, vertices_in = 0, cells_out = 0, vertices_out = 0;
+  int64_t target_cells = 0, window_cells = 0;
+  int64_t front_width = 0, front_span = 0, front_cells = 0;
+  int64_t collapses = 0;
+  int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
+  int64_t locked_cells = 0, unused_vertices = 0;
+  double largest_error = 0;
+  double seconds = 0;
+  uint64_t peak_window_bytes = 0;
+  std::string regions;     // what was taken as region labels, a sentence
+  std::string limited_by;  // what stopped the run short of its target; empty: reached
+};
+
+struct Progress {
+  int64_t cells_read = 0, cells_total = -1, cells_written = 0;
+  double fraction = -1;
+  const char* phase = "";
+};
+using ProgressFunction = std::function<void(const Progress&)>;  // throws kCancelled to stop; or empty
+
+}  // namespace tetstream

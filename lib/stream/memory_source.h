@@ -1,0 +1,27 @@
+// stream: an indexed mesh in arrays of somebody else's. Depends on source.h.
+#pragma once
+
+#include <vector>
+
+#include "source.h"
+
+namespace tetstream {
+
+// The whole mesh is one batch, whose arrays must live as long as the source; its finalizations are
+// not looked at. Vertex ids are checked when cells are read.
+class MemorySource : public IndexedSource {
+ public:
+  MemorySource(const Schema& schema, const BatchView& mesh);
+  const Schema& schema() const override { return schema_; }
+  void readPositions(uint64_t first, size_t count, void* out) override;
+  void readField(size_t column, uint64_t first, size_t count, void* out) override;
+  void readCells(uint64_t first, size_t count, int64_t* out) override;
+  void readCellData(size_t column, uint64_t first, size_t count, void* out) override;
+
+ private:
+  Schema schema_;
+  std::vector<const void*> fields_, cell_data_;
+  BatchView mesh_;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,43 @@
+#include "schema.h"
+
+#include "status.h"
+
+namespace tetstream {
+
+size_t Schema::fieldComponents() const {
+  size_t sum = 0;
+  for (const Column& c : fields) sum += static_cast<size_t>(c.components);
+  return sum;
+}
+
+static void checkColumns(const std::vector<Column>& columns, const char* kind) {
+  for (size_t i = 0; i < columns.size(); ++i) {
+    const Column& c = columns[i];
+    if (c.name.empty() || c.name.size() > 255)
+      fail(Status::kBadArgument, "%s %zu: a name has 1 to 255 bytes, this one %zu", kind, i,
+           c.name.size());
+    if (c.components < 1 || c.components > kMaxComponents)
+      fail(Status::kBadArgument, "%s \"%s\": %d components, 1 to %d are possible", kind,
+           c.name.c_str(), c.components, kMaxComponents);
+    if (!isKnown(c.type))
+      fail(Status::kBadArgument, "%s \"%s\": unknown number type %d", kind, c.name.c_str(),
+           static_cast<int>(c.type));
+    if (findColumn(columns, c.name) != static_cast<int>(i))
+      fail(Status::kBadArgument, "%s \"%s\" is there twice", kind, c.name.c_str());
+  }
+}
+
+void checkSchema(const Schema& schema) {
+  if (!isFloat(schema.position_type))
+    fail(Status::kBadArgument, "positions must be float32 or float64");
+  checkColumns(schema.fields, "field");
+  checkColumns(schema.cell_data, "cell array");
+}
+
+int findColumn(const std::vector<Column>& columns, const std::string& name) {
+  for (size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == name) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,48 @@
+// stream: what the events of a mesh stream carry. Depends on base.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scalar.h"
+
+namespace tetstream {
+
+constexpr int kMaxComponents = 9;  // of one column: a scalar, a vector, ... a 3x3 tensor
+
+// A named array: a field (one row per vertex) or cell data (one row per cell). Float fields are
+// interpolated, float cell data averaged by volume; integers are picked, never averaged.
+struct Column {
+  std::string name;
+  int components = 1;
+  ScalarType type = ScalarType::kFloat32;
+  size_t bytesPerRow() const { return static_cast<size_t>(components) * sizeOf(type); }
+};
+
+struct Schema {
+  ScalarType position_type = ScalarType::kFloat32;  // a float type
+  std::vector<Column> fields;
+  std::vector<Column> cell_data;
+
+  // What is known beforehand; -1 or empty where it is not.
+  int64_t vertex_count = -1;
+  int64_t cell_count = -1;
+  int64_t front_width = -1;  // vertices active at once, at most
+  int64_t front_span = -1;   // highest minus lowest active vertex + 1, at most
+  int64_t front_cells = -1;  // cells read that touch a vertex not yet finalized, at most
+  std::vector<double> box_min, box_max;  // x y z, then every component of every field in order
+
+  size_t fieldComponents() const;  // of all fields together
+  size_t boxSize() const { return 3 + fieldComponents(); }
+  bool hasBox() const { return box_min.size() == boxSize() && box_max.size() == boxSize(); }
+};
+
+// Throws kBadArgument, naming the column: names empty, repeated or longer than 255 bytes,
+// components outside 1..9, unknown types, positions that are not floats.
+void checkSchema(const Schema& schema);
+
+// Index of the column of that name, or -1.
+int findColumn(const std::vector<Column>& columns, const std::string& name);
+
+}  // namespace tetstream

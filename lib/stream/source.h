@@ -1,0 +1,60 @@
+// stream: where events come from and where they go. Depends on batch.h.
+//
+// Pull on the left, push on the right: whoever needs data asks a Source; whoever has data hands it
+// to a Sink. All of them throw Error; messages of sources name the place in the input.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "batch.h"
+
+namespace tetstream {
+
+constexpr size_t kBatchCells = 4096;  // what our own sources put into a batch, about
+
+// A mesh as a stream of events.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual const Schema& schema() const = 0;
+  // Fills the view with the next events and returns true, or returns false at the end of the
+  // stream (and again at every later call). The arrays live until the next call.
+  virtual bool next(BatchView& batch) = 0;
+};
+
+// A mesh whose points and cells can be read by range, as often as wanted; sequential ranges are
+// the fast ones. Its schema's counts are known. Nothing is said about order.
+class IndexedSource {
+ public:
+  virtual ~IndexedSource() = default;
+  virtual const Schema& schema() const = 0;
+  // Rows [first, first + count) into `out`, laid out as in BatchView.
+  virtual void readPositions(uint64_t first, size_t count, void* out) = 0;
+  virtual void readField(size_t column, uint64_t first, size_t count, void* out) = 0;
+  virtual void readCells(uint64_t first, size_t count, int64_t* out) = 0;
+  virtual void readCellData(size_t column, uint64_t first, size_t count, void* out) = 0;
+};
+
+// What a reader opens: exactly one of the two.
+struct Input {
+  std::unique_ptr<Source> stream;
+  std::unique_ptr<IndexedSource> indexed;
+  const Schema& schema() const { return stream ? stream->schema() : indexed->schema(); }
+};
+
+// Takes a stream of events: begin, put any number of times, finish. A sink that is destroyed
+// without finish (after an error) leaves nothing under its final name.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  // The schema's `known beforehand` part describes the stream that is to come, where known.
+  virtual void begin(const Schema& schema) = 0;
+  virtual void put(const BatchView& batch) = 0;
+  virtual void finish() = 0;
+};
+
+// Joins both ends without anything in between.
+void copyStream(Source& source, Sink& sink);
+
+}  // namespace tetstream

@@ -1,0 +1,1 @@
+# The installed package: written by its own room.
