@@ -1,11 +1,11 @@
 #include "bytes.h"
 
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 
 #include "status.h"
 
@@ -27,8 +27,8 @@ static size_t readSome(int fd, void* out, size_t size, const std::string& name) 
 static size_t readFully(int fd, uint64_t offset, void* out, size_t size, const std::string& name) {
   size_t done = 0;
   while (done < size) {
-    const ssize_t got = ::pread(fd, static_cast<char*>(out) + done, size - done,
-                                static_cast<off_t>(offset + done));
+    const ssize_t got =
+        ::pread(fd, static_cast<char*>(out) + done, size - done, static_cast<off_t>(offset + done));
     if (got == 0) break;
     if (got < 0 && errno != EINTR) failIo(name, "read");
     if (got > 0) done += static_cast<size_t>(got);
@@ -275,7 +275,9 @@ SpoolFile::SpoolFile(const std::string& temp_dir) {
   ::unlink(name_.c_str());
 }
 
-SpoolFile::~SpoolFile() { ::close(fd_); }
+SpoolFile::~SpoolFile() {
+  ::close(fd_);
+}
 
 void SpoolFile::append(const void* data, size_t size) {
   writeFully(fd_, data, size, name_);

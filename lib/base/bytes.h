@@ -20,7 +20,7 @@ class ByteSource {
   // asked for only at the end.
   virtual size_t readAt(uint64_t offset, void* out, size_t size) = 0;
   virtual bool seekable() const = 0;
-  virtual uint64_t size() const = 0;  // of seekable sources
+  virtual uint64_t size() const = 0;                 // of seekable sources
   const std::string& name() const { return name_; }  // for messages
 
  protected:

@@ -21,7 +21,7 @@ class Account {
   Account(const Account&) = delete;
   Account& operator=(const Account&) = delete;
 
-  void charge(size_t bytes);   // throws kNoMemory when the limit (0: none) would be passed
+  void charge(size_t bytes);  // throws kNoMemory when the limit (0: none) would be passed
   void release(size_t bytes) noexcept { used_ -= bytes; }
   size_t used() const noexcept { return used_; }
   size_t peak() const noexcept { return peak_; }
@@ -53,8 +53,8 @@ class Array {
   Array& operator=(Array&&) = delete;
 
   void resize(size_t size) {
-    data_ = static_cast<T*>(reallocateBytes(*account_, data_, size_ * sizeof(T),
-                                            checkedMultiply(size, sizeof(T))));
+    data_ = static_cast<T*>(
+        reallocateBytes(*account_, data_, size_ * sizeof(T), checkedMultiply(size, sizeof(T))));
     size_ = size;
   }
   size_t size() const noexcept { return size_; }

@@ -14,10 +14,14 @@ static void convert(const void* in, void* out, size_t count) {
 template <class In>
 static void convertFrom(const void* in, void* out, ScalarType out_type, size_t count) {
   switch (out_type) {
-    case ScalarType::kFloat32: return convert<In, float>(in, out, count);
-    case ScalarType::kFloat64: return convert<In, double>(in, out, count);
-    case ScalarType::kInt32: return convert<In, int32_t>(in, out, count);
-    case ScalarType::kInt64: return convert<In, int64_t>(in, out, count);
+    case ScalarType::kFloat32:
+      return convert<In, float>(in, out, count);
+    case ScalarType::kFloat64:
+      return convert<In, double>(in, out, count);
+    case ScalarType::kInt32:
+      return convert<In, int32_t>(in, out, count);
+    case ScalarType::kInt64:
+      return convert<In, int64_t>(in, out, count);
   }
 }
 
@@ -29,10 +33,14 @@ void convertScalars(const void* in, ScalarType in_type, void* out, ScalarType ou
     return;
   }
   switch (in_type) {
-    case ScalarType::kFloat32: return convertFrom<float>(in, out, out_type, count);
-    case ScalarType::kFloat64: return convertFrom<double>(in, out, out_type, count);
-    case ScalarType::kInt32: return convertFrom<int32_t>(in, out, out_type, count);
-    case ScalarType::kInt64: return convertFrom<int64_t>(in, out, out_type, count);
+    case ScalarType::kFloat32:
+      return convertFrom<float>(in, out, out_type, count);
+    case ScalarType::kFloat64:
+      return convertFrom<double>(in, out, out_type, count);
+    case ScalarType::kInt32:
+      return convertFrom<int32_t>(in, out, out_type, count);
+    case ScalarType::kInt64:
+      return convertFrom<int64_t>(in, out, out_type, count);
   }
 }
 

@@ -9,7 +9,9 @@ namespace tetstream {
 // Numbers equal TETSTREAM_TYPE_* of the public header and the type codes of `.tets`.
 enum class ScalarType : int32_t { kFloat32 = 1, kFloat64 = 2, kInt32 = 3, kInt64 = 4 };
 
-inline bool isKnown(ScalarType t) { return t >= ScalarType::kFloat32 && t <= ScalarType::kInt64; }
+inline bool isKnown(ScalarType t) {
+  return t >= ScalarType::kFloat32 && t <= ScalarType::kInt64;
+}
 inline bool isFloat(ScalarType t) {
   return t == ScalarType::kFloat32 || t == ScalarType::kFloat64;
 }

@@ -33,18 +33,30 @@ void fail(Status status, const char* format, ...) {
 
 const char* statusName(Status status) noexcept {
   switch (status) {
-    case Status::kOk: return "TETSTREAM_OK";
-    case Status::kEnd: return "TETSTREAM_END";
-    case Status::kTargetMissed: return "TETSTREAM_TARGET_MISSED";
-    case Status::kBadArgument: return "TETSTREAM_BAD_ARGUMENT";
-    case Status::kBadState: return "TETSTREAM_BAD_STATE";
-    case Status::kNoMemory: return "TETSTREAM_NO_MEMORY";
-    case Status::kBadData: return "TETSTREAM_BAD_DATA";
-    case Status::kIo: return "TETSTREAM_IO";
-    case Status::kUnsupported: return "TETSTREAM_UNSUPPORTED";
-    case Status::kCancelled: return "TETSTREAM_CANCELLED";
-    case Status::kCallback: return "TETSTREAM_CALLBACK";
-    case Status::kInternal: return "TETSTREAM_INTERNAL";
+    case Status::kOk:
+      return "TETSTREAM_OK";
+    case Status::kEnd:
+      return "TETSTREAM_END";
+    case Status::kTargetMissed:
+      return "TETSTREAM_TARGET_MISSED";
+    case Status::kBadArgument:
+      return "TETSTREAM_BAD_ARGUMENT";
+    case Status::kBadState:
+      return "TETSTREAM_BAD_STATE";
+    case Status::kNoMemory:
+      return "TETSTREAM_NO_MEMORY";
+    case Status::kBadData:
+      return "TETSTREAM_BAD_DATA";
+    case Status::kIo:
+      return "TETSTREAM_IO";
+    case Status::kUnsupported:
+      return "TETSTREAM_UNSUPPORTED";
+    case Status::kCancelled:
+      return "TETSTREAM_CANCELLED";
+    case Status::kCallback:
+      return "TETSTREAM_CALLBACK";
+    case Status::kInternal:
+      return "TETSTREAM_INTERNAL";
   }
   return "TETSTREAM_UNKNOWN_STATUS";
 }

@@ -18,19 +18,19 @@ namespace tetstream {
 struct BatchView {
   uint64_t first_vertex = 0;  // rank in the stream of the batch's first vertex
   size_t vertex_count = 0;
-  const void* positions = nullptr;               // [vertex_count][3] of position_type
-  const void* const* fields = nullptr;           // per column: [vertex_count][components]
-  const uint8_t* locked = nullptr;               // [vertex_count], non-zero: never moved; or null
+  const void* positions = nullptr;      // [vertex_count][3] of position_type
+  const void* const* fields = nullptr;  // per column: [vertex_count][components]
+  const uint8_t* locked = nullptr;      // [vertex_count], non-zero: never moved; or null
   size_t cell_count = 0;
-  const int64_t* cells = nullptr;                // [cell_count][4] vertex ranks
-  const uint8_t* last_uses = nullptr;            // [cell_count], bit j: corner j is its vertex's
-                                                 // last use; or null: none
-  const void* const* cell_data = nullptr;        // per column: [cell_count][components]
+  const int64_t* cells = nullptr;          // [cell_count][4] vertex ranks
+  const uint8_t* last_uses = nullptr;      // [cell_count], bit j: corner j is its vertex's
+                                           // last use; or null: none
+  const void* const* cell_data = nullptr;  // per column: [cell_count][components]
   size_t finalized_count = 0;
-  const int64_t* finalized = nullptr;            // ranks, final after the batch's last cell
+  const int64_t* finalized = nullptr;  // ranks, final after the batch's last cell
   size_t face_count = 0;
-  const int64_t* faces = nullptr;                // [face_count][3] labelled boundary faces
-  const int64_t* face_labels = nullptr;          // [face_count]
+  const int64_t* faces = nullptr;        // [face_count][3] labelled boundary faces
+  const int64_t* face_labels = nullptr;  // [face_count]
 };
 
 // An owned batch, filled row by row or column by column. Capacity is kept from fill to fill, so
@@ -43,7 +43,7 @@ class Batch {
   // Makes room for `count` more rows and returns the index of the first one; the caller writes
   // them through the pointers below, which the next add may move.
   size_t addVertices(size_t count);
-  size_t addCells(size_t count);           // last_uses of the new cells are 0
+  size_t addCells(size_t count);  // last_uses of the new cells are 0
   void addFinalized(int64_t vertex) { finalized_.push_back(vertex); }
   void addFace(const int64_t corners[3], int64_t label);
   void lock(size_t vertex_row);
@@ -62,7 +62,9 @@ class Batch {
   size_t vertexCount() const { return vertex_count_; }
   size_t cellCount() const { return cell_count_; }
   size_t finalizedCount() const { return finalized_.size(); }
-  bool empty() const { return vertex_count_ + cell_count_ + finalized_.size() + face_labels_.size() == 0; }
+  bool empty() const {
+    return vertex_count_ + cell_count_ + finalized_.size() + face_labels_.size() == 0;
+  }
 
   BatchView view();  // valid until the batch changes
 
