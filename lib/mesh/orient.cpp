@@ -1,0 +1,128 @@
+#include "orient.h"
+
+#include <cmath>
+
+#include "orient_lanes.inl"
+
+namespace tetstream {
+
+#ifdef TETSTREAM_V3_KERNELS
+void orientationLanesV3(const double x[3], const TriangleLanes& triangles,
+                        signed char sign[kLanes]);
+#endif
+
+void orientationLanes(const double x[3], const TriangleLanes& triangles, int count,
+                      signed char sign[kLanes]) {
+#ifdef TETSTREAM_V3_KERNELS
+  static const bool has_v3 =
+      __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi2") != 0;
+  if (has_v3)
+    orientationLanesV3(x, triangles, sign);
+  else
+#endif
+    lanes(x, triangles, sign);
+  for (int k = count; k < kLanes; ++k) sign[k] = 1;
+}
+
+// ------------------------------------------------------------------------- exact arithmetic
+// An expansion is a sum of doubles, none overlapping another, in increasing magnitude; its sign is
+// that of its last term. Zeros are left out, so that simple coordinates stay short.
+
+namespace {
+
+struct Sum {
+  double value, error;
+};
+
+inline Sum twoSum(double a, double b) {
+  const double s = a + b, b_part = s - a, a_part = s - b_part;
+  return {s, (a - a_part) + (b - b_part)};
+}
+
+inline Sum twoProduct(double a, double b) {
+  const double p = a * b;
+  return {p, std::fma(a, b, -p)};
+}
+
+// Room for the largest: 3 products of a difference (2 terms) and a minor (16 terms): 3 * 64.
+struct Expansion {
+  double term[192];
+  int size = 0;
+
+  void add(double b) {
+    int kept = 0;
+    for (int i = 0; i < size; ++i) {
+      const Sum s = twoSum(b, term[i]);
+      if (s.error != 0) term[kept++] = s.error;
+      b = s.value;
+    }
+    if (b != 0) term[kept++] = b;
+    size = kept;
+  }
+  void add(const Expansion& other) {
+    for (int i = 0; i < other.size; ++i) add(other.term[i]);
+  }
+  int sign() const { return size == 0 ? 0 : (term[size - 1] > 0) - (term[size - 1] < 0); }
+};
+
+Expansion differenceOf(double a, double b) {
+  Expansion e;
+  const Sum s = twoSum(a, -b);
+  if (s.error != 0) e.term[e.size++] = s.error;
+  if (s.value != 0) e.term[e.size++] = s.value;
+  return e;
+}
+
+// out += sign * a * b
+void addProduct(const Expansion& a, const Expansion& b, double sign, Expansion& out) {
+  for (int i = 0; i < a.size; ++i)
+    for (int j = 0; j < b.size; ++j) {
+      const Sum p = twoProduct(sign * a.term[i], b.term[j]);
+      if (p.error != 0) out.add(p.error);
+      if (p.value != 0) out.add(p.value);
+    }
+}
+
+// Powers of two change no sign; with the largest coordinate near 1 no product over- or underflows.
+double scaleFor(const double* const p[4]) {
+  double largest = 0;
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) largest = std::fmax(largest, std::fabs(p[k][i]));
+  int exponent = 0;
+  if (largest > 0) std::frexp(largest, &exponent);
+  return std::ldexp(1.0, exponent > 1000 ? -1000 : exponent < -1000 ? 1000 : -exponent);
+}
+
+int exactOrientation(const double* const p[4]) {
+  const double scale = scaleFor(p);
+  Expansion d[3][3];
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) d[k][i] = differenceOf(p[k + 1][i] * scale, p[0][i] * scale);
+  Expansion det;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    Expansion minor, part;
+    addProduct(d[1][j], d[2][k], 1, minor);
+    addProduct(d[1][k], d[2][j], -1, minor);
+    addProduct(d[0][i], minor, 1, part);
+    det.add(part);
+  }
+  return det.sign();
+}
+
+}  // namespace
+
+int orientation(const double a[3], const double b[3], const double c[3], const double d[3]) {
+  TriangleLanes one;
+  const double* const corners[3] = {b, c, d};
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i)
+      for (int lane = 0; lane < kLanes; ++lane) one.xyz[3 * k + i][lane] = corners[k][i];
+  signed char sign[kLanes];
+  orientationLanes(a, one, 1, sign);
+  if (sign[0] != 0) return sign[0];
+  const double* const p[4] = {a, b, c, d};
+  return exactOrientation(p);
+}
+
+}  // namespace tetstream

@@ -1,0 +1,128 @@
+// mesh: the cells of the window as a corner table. Depends on base.
+//
+// After Vo et al. 2007, section 4: corner c = 4 * cell + j belongs to the j-th vertex of its cell;
+// V[c] is that vertex and L[c] the next corner of the same vertex, in a circle; each vertex knows
+// one of its corners. Cells die lazily: a dead cell's corners stay in their circles until somebody
+// walks over them or the window is packed.
+#pragma once
+
+#include <cstdint>
+
+#include "memory.h"
+
+namespace tetstream {
+
+constexpr uint32_t kNone = 0xffffffffu;
+
+enum VertexFlag : uint8_t {
+  kFinal = 1,     // no later cell will use it
+  kBoundary = 2,  // on the boundary of the domain (known once final)
+  kLocked = 4,    // never moved: non-manifold boundary, interface, flat cell, or the caller's wish
+  kWritten = 8,   // a cell that uses it has left: it is frozen
+  kCollapsed = 16,  // merged into another vertex
+};
+
+enum CellFlag : uint8_t {
+  kNegative = 1,  // stored with negative volume; the order is the user's and is kept
+  kDead = 2,
+  kBad = 4,  // flat, or folded onto a neighbour, in the input
+};
+
+// One cell round a centre: the triangle opposite, ordered so that det(t0 - x, t1 - x, t2 - x) > 0
+// for a centre x that keeps the cell's orientation.
+struct StarCell {
+  uint32_t cell, corner;  // corner: the centre's, 4 * cell + j
+  uint32_t t[3];
+  bool has(uint32_t v) const { return t[0] == v || t[1] == v || t[2] == v; }
+};
+
+class Star {
+ public:
+  explicit Star(Account& account) : cells_(account, 256) {}
+  size_t size() const { return size_; }
+  const StarCell& operator[](size_t i) const { return cells_[i]; }
+  const StarCell* begin() const { return cells_.data(); }
+  const StarCell* end() const { return cells_.data() + size_; }
+  void clear() { size_ = 0; }
+  StarCell& add() {
+    if (size_ == cells_.size()) cells_.resize(2 * size_);
+    return cells_[size_++];
+  }
+
+ private:
+  Array<StarCell> cells_;
+  size_t size_ = 0;
+};
+
+class Topology {
+ public:
+  Topology(Account& account, size_t cell_capacity, size_t vertex_capacity);
+
+  size_t cellCapacity() const { return cell_flags_.size(); }
+  size_t vertexCapacity() const { return first_corner_.size(); }
+  void growCells(size_t capacity);
+  void growVertices(size_t capacity);
+
+  uint32_t addVertex(uint8_t flags);
+  uint32_t addCell(const uint32_t corners[4], uint8_t flags);
+
+  uint32_t vertexEnd() const { return vertex_end_; }  // all slots in use are below
+  uint32_t cellEnd() const { return cell_end_; }
+  uint32_t liveCells() const { return live_cells_; }
+
+  const uint32_t* corners(uint32_t cell) const { return &vertex_of_[4 * size_t{cell}]; }
+  uint8_t vertexFlags(uint32_t v) const { return vertex_flags_[v]; }
+  void flagVertex(uint32_t v, uint8_t flags) { vertex_flags_[v] |= flags; }
+  uint8_t cellFlags(uint32_t c) const { return cell_flags_[c]; }
+  void flagCell(uint32_t c, uint8_t flags) { cell_flags_[c] |= flags; }
+  bool isLive(uint32_t c) const { return !(cell_flags_[c] & kDead); }
+  // May be merged with another such vertex, as far as the vertex itself goes.
+  bool isFree(uint32_t v) const {
+    return (vertex_flags_[v] & (kFinal | kLocked | kWritten | kCollapsed)) == kFinal;
+  }
+
+  // All live cells round v; takes dead corners out of v's circle on the way.
+  void gather(uint32_t v, Star& star);
+
+  void kill(uint32_t cell);
+  // Cells of both stars that hold both vertices die, those of v's star get u in its place, v is
+  // gone. `around_u`, `around_v` as gathered.
+  void merge(uint32_t u, uint32_t v, const Star& around_u, const Star& around_v);
+
+  // Drops dead cells and the vertices for which keep[v] is kNone; keep[v] otherwise is v's new
+  // slot, increasing with v. Cells keep their order; calls moved(old, new) for each that stays.
+  template <class Moved>
+  void pack(const uint32_t* keep, uint32_t kept_vertices, Moved moved);
+
+ private:
+  void link(uint32_t corner, uint32_t v);
+
+  Array<uint32_t> vertex_of_, next_;  // per corner: V and L
+  Array<uint8_t> cell_flags_;
+  Array<uint32_t> first_corner_;  // per vertex
+  Array<uint8_t> vertex_flags_;
+  uint32_t vertex_end_ = 0, cell_end_ = 0, live_cells_ = 0;
+};
+
+template <class Moved>
+void Topology::pack(const uint32_t* keep, uint32_t kept_vertices, Moved moved) {
+  for (uint32_t v = 0; v < vertex_end_; ++v)
+    if (keep[v] != kNone) vertex_flags_[keep[v]] = vertex_flags_[v];
+  vertex_end_ = kept_vertices;
+  for (uint32_t v = 0; v < vertex_end_; ++v) first_corner_[v] = kNone;
+  uint32_t to = 0;
+  for (uint32_t from = 0; from < cell_end_; ++from) {
+    if (!isLive(from)) continue;
+    cell_flags_[to] = cell_flags_[from];
+    for (uint32_t j = 0; j < 4; ++j) {
+      const uint32_t v = keep[vertex_of_[4 * size_t{from} + j]];
+      vertex_of_[4 * size_t{to} + j] = v;
+      link(4 * to + j, v);
+    }
+    moved(from, to);
+    ++to;
+  }
+  cell_end_ = live_cells_ = to;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,76 @@
+#include "window.h"
+
+#include <algorithm>
+
+namespace tetstream {
+
+template <class S>
+void Window<S>::sizeVertices() {
+  const size_t n = mesh.vertexCapacity();
+  values_.resize(checkedMultiply(n, static_cast<size_t>(shape_.values)));
+  quadrics_.resize(checkedMultiply(n, static_cast<size_t>(shape_.quadric)));
+  picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.picks)));
+  out_rank_.resize(n);
+  remap_.resize(n);
+}
+
+template <class S>
+void Window<S>::sizeCells() {
+  const size_t n = mesh.cellCapacity();
+  cell_means_.resize(checkedMultiply(n, static_cast<size_t>(meansStride())));
+  cell_picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.cell_picks)));
+}
+
+template <class S>
+uint32_t Window<S>::chooseVertices(uint64_t* unused) {
+  const uint32_t end = mesh.vertexEnd();
+  std::fill(remap_.data(), remap_.data() + end, kNone);
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
+    if (mesh.isLive(c))
+      for (int j = 0; j < 4; ++j) remap_[mesh.corners(c)[j]] = 0;
+  uint32_t kept = 0;
+  for (uint32_t v = 0; v < end; ++v) {
+    const uint8_t flags = mesh.vertexFlags(v);
+    if (remap_[v] == 0 || !(flags & kFinal))
+      remap_[v] = kept++;
+    else if (!(flags & (kCollapsed | kWritten)))
+      ++*unused;
+  }
+  return kept;
+}
+
+template <class T>
+static void moveRow(T* array, size_t stride, uint32_t from, uint32_t to) {
+  std::copy_n(array + from * stride, stride, array + to * stride);
+}
+
+template <class S>
+void Window<S>::moveVertices() {
+  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
+    const uint32_t to = remap_[v];
+    if (to == kNone || to == v) continue;
+    moveRow(values_.data(), static_cast<size_t>(shape_.values), v, to);
+    moveRow(quadrics_.data(), static_cast<size_t>(shape_.quadric), v, to);
+    moveRow(picks_.data(), static_cast<size_t>(shape_.picks), v, to);
+    out_rank_[to] = out_rank_[v];
+  }
+}
+
+template <class S>
+uint64_t Window<S>::pack(Front& front) {
+  uint64_t unused = 0;
+  const uint32_t kept = chooseVertices(&unused);
+  moveVertices();
+  front.remap(remap_.data());
+  mesh.pack(remap_.data(), kept, [this](uint32_t from, uint32_t to) {
+    if (from == to) return;
+    moveRow(cell_means_.data(), static_cast<size_t>(meansStride()), from, to);
+    moveRow(cell_picks_.data(), static_cast<size_t>(shape_.cell_picks), from, to);
+  });
+  return unused;
+}
+
+template class Window<float>;
+template class Window<double>;
+
+}  // namespace tetstream

@@ -1,0 +1,80 @@
+// mesh: the bounded in-core part of the mesh: topology, and what each vertex and cell carries.
+// Depends on topology.h, stream (front).
+//
+// Vertices and cells lie in the order of their arrival; packing keeps it. All arrays are allocated
+// for a capacity; they grow only between chunks.
+#pragma once
+
+#include "front.h"
+#include "topology.h"
+
+namespace tetstream {
+
+// What one row carries, fixed for a run. Values are kept in the user's units.
+struct WindowShape {
+  int values = 3;      // S per vertex: x y z, then components that are interpolated
+  int quadric = 0;     // S per vertex
+  int picks = 0;       // int64 per vertex: integer fields, picked
+  int cell_means = 0;  // double per cell: float cell data
+  int cell_picks = 0;  // int64 per cell: integer cell data
+};
+
+template <class S>
+class Window {
+ public:
+  Window(Account& account, const WindowShape& shape, size_t cells, size_t vertices)
+      : mesh(account, cells, vertices),
+        shape_(shape),
+        values_(account),
+        quadrics_(account),
+        picks_(account),
+        out_rank_(account),
+        cell_means_(account),
+        cell_picks_(account),
+        remap_(account) {
+    sizeVertices();
+    sizeCells();
+  }
+
+  Topology mesh;
+
+  const WindowShape& shape() const { return shape_; }
+  S* values(uint32_t v) { return &values_[size_t{v} * shape_.values]; }
+  const S* values(uint32_t v) const { return &values_[size_t{v} * shape_.values]; }
+  S* quadric(uint32_t v) { return &quadrics_[size_t{v} * shape_.quadric]; }
+  int64_t* picks(uint32_t v) { return &picks_[size_t{v} * shape_.picks]; }
+  uint64_t& outRank(uint32_t v) { return out_rank_[v]; }  // of a vertex that is kWritten
+  // Volume that the cell stands for, then the means over it.
+  double* cellMeans(uint32_t c) { return &cell_means_[size_t{c} * meansStride()]; }
+  int64_t* cellPicks(uint32_t c) { return &cell_picks_[size_t{c} * shape_.cell_picks]; }
+
+  void growCells(size_t capacity) {
+    mesh.growCells(capacity);
+    sizeCells();
+  }
+  void growVertices(size_t capacity) {
+    mesh.growVertices(capacity);
+    sizeVertices();
+  }
+
+  // Drops dead cells, and the vertices that are final and in no cell; tells the front. Returns how
+  // many vertices were dropped that no cell ever used.
+  uint64_t pack(Front& front);
+
+ private:
+  int meansStride() const { return shape_.cell_means ? 1 + shape_.cell_means : 0; }
+  void sizeVertices();
+  void sizeCells();
+  uint32_t chooseVertices(uint64_t* unused);
+  void moveVertices();
+
+  WindowShape shape_;
+  Array<S> values_, quadrics_;
+  Array<int64_t> picks_;
+  Array<uint64_t> out_rank_;
+  Array<double> cell_means_;
+  Array<int64_t> cell_picks_;
+  Array<uint32_t> remap_;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,60 @@
+// quadric: generalised quadrics in R^n, n = 3 + measured field components, and the minimizer of an
+// edge. Arithmetic only: nothing is allocated, nothing called. Depends on nothing.
+//
+// A quadric is kept as (A, p, e): Q(x) = (x - p)^T A (x - p) + e with its minimum e at p (Vo et al.
+// 2007, section 3.4): no large numbers cancel near the minimum, and e1 + e2 bounds the error of a
+// merge from below without a solve. p is the vertex itself, position and fields, in the user's
+// units. A and e are in normalised units: component i of a difference is multiplied by scale[i].
+// In memory a quadric is the lower triangle of A by rows, n (n + 1) / 2 numbers, then e.
+#pragma once
+
+#include <cstddef>
+
+namespace tetstream {
+
+constexpr int quadricSize(int n) {
+  return n * (n + 1) / 2 + 1;
+}
+constexpr int kMaxDimension = 128;  // 3 + measured components: bounds the kernels' local arrays
+
+// Weight of the shape regulariser, 1/unit^0: each cell adds kShapeWeight V |x - p|^2 in space. It
+// keeps flat and linear fields from making every position equally good, which locks a run; above
+// 1e-3 it costs field error, below 1e-6 float32 loses it.
+constexpr double kShapeWeight = 1e-4;
+// CG drops directions whose curvature is below mean eigenvalue / kMaxCondition.
+constexpr double kMaxCondition = 1e4;
+// A cell is treated as if it had at least this volume, times 6, of the cube of its edges' norm:
+// gradients of near-flat cells mean nothing and would freeze their vertices.
+constexpr double kFlatVolume = 1e-5;
+
+// One entry per dimension, chosen once per run.
+template <class S>
+struct QuadricKernels {
+  // Adds the quadric of a cell, a quarter of it to each of its vertices. Field form: the integral
+  // of the squared field error, sum over components c of V (g_c, -1)(g_c, -1)^T with g_c the
+  // cell's gradient: n n^T / V with n the determinant of the edges (section 3.4).
+  void (*addCellField)(const S* const x[4], const S* scale, int n, S* const q[4]);
+  // The same with the squared distance to the cell's hyperplane: V (I - sum of e_i e_i^T) over an
+  // orthonormal basis of the cell in R^n (Garland and Zhou 2005).
+  void (*addCellDistance)(const S* const x[4], const S* scale, int n, S* const q[4]);
+  // Adds a boundary face to its vertices: weight * area^(3/2) / 3 times the squared distance to
+  // its plane in space, or to its 2-flat in R^n.
+  void (*addFacePlane)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
+  void (*addFaceDistance)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
+  // Minimizes Q1 + Q2 by conjugate gradients from the midpoint m: z = scale (x - m). Returns the
+  // error there, not less than e1 + e2; not finite if the arithmetic overflowed.
+  S (*minimizeEdge)
+  (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, S* z);
+  // The error of Q1 + Q2 at a given z.
+  S (*errorAt)
+  (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, const S* z);
+};
+
+// The kernels for dimension n, built for this processor; every build gives the same numbers.
+template <class S>
+const QuadricKernels<S>& quadricKernels(int n);
+
+// "x86-64-v3" or "plain": which build quadricKernels gives here.
+const char* kernelBuild();
+
+}  // namespace tetstream

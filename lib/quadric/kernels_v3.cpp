@@ -1,0 +1,16 @@
+// quadric: the kernels for x86-64-v3 processors (AVX2); this file alone is compiled for them.
+#include "kernel_builds.h"
+#ifdef TETSTREAM_V3_KERNELS
+#include "kernels.inl"
+
+namespace tetstream {
+
+const QuadricKernels<float>& v3KernelsFloat(int n) {
+  return kernelsFor<float>(n);
+}
+const QuadricKernels<double>& v3KernelsDouble(int n) {
+  return kernelsFor<double>(n);
+}
+
+}  // namespace tetstream
+#endif
