@@ -1,4 +1,4 @@
-// generate: meshes made on the fly, in memory of the size of their front. Depends on stream.
+// generate: meshes made on the fly, in constant memory. Depends on stream.
 #pragma once
 
 #include <cstdint>
@@ -10,10 +10,13 @@
 namespace tetstream {
 
 // kind "fluid": [0,1] x [0,1] x [0,4], n x n x 4n cubes of six cells, vertices jittered, emitted
-// along z so that the front is at most 6.5 n^2 cells. Fields: float32 "density" (a
-// Rayleigh-Taylor-like mixing layer) and "velocity" (3). kind "ball": a unit ball with a curved
-// boundary, same fields. About `cells` cells; the same arguments give the same bytes. The schema
-// says counts, box and front. Throws kBadArgument.
+// along z so that the front is at most 6 n^2 + 3 n + 5 cells (6.5 n^2 from n = 8 on). Fields:
+// float32 "density" (a Rayleigh-Taylor-like mixing layer) and "velocity" (3). kind "ball": a unit
+// ball with a curved boundary, n x n x n cubes, n even, same fields; its front is at most
+// 6 n^2 + 6 n + 12 cells. The count is the one nearest to `cells`; the same arguments give the same
+// bytes on every machine. The schema says counts, front and box: of positions exactly, of fields
+// bounds. Memory does not depend on `cells`. Throws kBadArgument: another kind, `cells` outside
+// 1 ... 10^15.
 std::unique_ptr<Source> generate(const std::string& kind, int64_t cells, int64_t seed);
 
 }  // namespace tetstream

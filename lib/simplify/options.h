@@ -15,8 +15,8 @@ enum class QuadricForm { kDeterminant, kGarlandZhou };
 enum class Mode { kPaper };
 
 struct SimplifyOptions {
-  double ratio = 0.1;        // cells out / cells in
-  int64_t cells = 0;         // cells out; 0: the ratio decides
+  double ratio = 0.1;                                  // cells out / cells in
+  int64_t cells = 0;                                   // cells out; 0: the ratio decides
   std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
   double boundary_weight = 1000;
   std::string regions = "auto";
@@ -47,6 +47,7 @@ struct Progress {
   double fraction = -1;
   const char* phase = "";
 };
-using ProgressFunction = std::function<void(const Progress&)>;  // throws kCancelled to stop; or empty
+using ProgressFunction =
+    std::function<void(const Progress&)>;  // throws kCancelled to stop; or empty
 
 }  // namespace tetstream

@@ -13,6 +13,8 @@ class MemorySource : public IndexedSource {
  public:
   MemorySource(const Schema& schema, const BatchView& mesh);
   const Schema& schema() const override { return schema_; }
+  bool randomAccess() const override { return true; }
+  const uint8_t* locked() const override { return mesh_.locked; }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
   void readCells(uint64_t first, size_t count, int64_t* out) override;

@@ -29,6 +29,10 @@ class IndexedSource {
  public:
   virtual ~IndexedSource() = default;
   virtual const Schema& schema() const = 0;
+  // Whether single rows in any order are as cheap as sequential ones.
+  virtual bool randomAccess() const { return false; }
+  // Per point, non-zero: never moved; null where there are none.
+  virtual const uint8_t* locked() const { return nullptr; }
   // Rows [first, first + count) into `out`, laid out as in BatchView.
   virtual void readPositions(uint64_t first, size_t count, void* out) = 0;
   virtual void readField(size_t column, uint64_t first, size_t count, void* out) = 0;

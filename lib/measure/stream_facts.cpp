@@ -1,0 +1,56 @@
+#include "stream_facts.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+namespace tetstream {
+
+StreamFacts::StreamFacts(const Schema& schema) : schema_(schema), meter_(account_) {
+  schema_.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
+  schema_.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
+}
+
+static void growColumn(const void* rows, ScalarType type, size_t components, size_t count,
+                       double* low, double* high) {
+  std::vector<double> values(components * count);
+  convertScalars(rows, type, values.data(), ScalarType::kFloat64, values.size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    low[i % components] = std::min(low[i % components], values[i]);
+    high[i % components] = std::max(high[i % components], values[i]);
+  }
+}
+
+void StreamFacts::growBox(const BatchView& batch) {
+  growColumn(batch.positions, schema_.position_type, 3, batch.vertex_count, schema_.box_min.data(),
+             schema_.box_max.data());
+  size_t at = 3;
+  for (size_t f = 0; f < schema_.fields.size(); ++f) {
+    const Column& c = schema_.fields[f];
+    growColumn(batch.fields[f], c.type, static_cast<size_t>(c.components), batch.vertex_count,
+               schema_.box_min.data() + at, schema_.box_max.data() + at);
+    at += static_cast<size_t>(c.components);
+  }
+}
+
+void StreamFacts::put(const BatchView& batch) {
+  meter_.put(batch);
+  vertices_ += batch.vertex_count;
+  if (batch.vertex_count > 0) growBox(batch);
+}
+
+Schema StreamFacts::schema() const {
+  Schema s = schema_;
+  s.vertex_count = static_cast<int64_t>(vertices_);
+  s.cell_count = static_cast<int64_t>(meter_.cellsSeen());
+  s.front_width = meter_.statistics().width;
+  s.front_span = meter_.statistics().span;
+  s.front_cells = meter_.statistics().cells;
+  if (vertices_ == 0) {
+    s.box_min.clear();
+    s.box_max.clear();
+  }
+  return s;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,209 @@
+// run: the page that joins the pieces: reader -> [layout] -> simplifier -> writer.
+#include "run.h"
+
+#include <chrono>
+#include <cstring>
+
+#include "front_meter.h"
+#include "memory_source.h"
+#include "ordered_source.h"
+#include "simplifier.h"
+#include "status.h"
+#include "stream_facts.h"
+
+namespace tetstream {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Ordering takes about this share of the time of a whole run on an indexed mesh.
+constexpr double kOrderShare = 0.2;
+
+OrderOptions orderOptions(const RunOptions& options, const ProgressFunction& progress,
+                          int64_t cells) {
+  OrderOptions order;
+  order.axis = options.axis;
+  order.temp_dir = options.temp_dir;
+  if (progress)
+    order.tell = [&progress, cells](double fraction) {
+      Progress p;
+      p.cells_total = cells;
+      p.fraction = kOrderShare * fraction;
+      p.phase = "order";
+      progress(p);
+    };
+  return order;
+}
+
+// A source of an input, ordered if need be.
+struct Stream {
+  Stream(Input& input, const RunOptions& options, const ProgressFunction& progress) {
+    if (input.stream) {
+      source = input.stream.get();
+      return;
+    }
+    ordered = std::make_unique<OrderedSource>(
+        *input.indexed, orderOptions(options, progress, input.indexed->schema().cell_count));
+    source = ordered.get();
+  }
+  std::unique_ptr<OrderedSource> ordered;
+  Source* source;
+};
+
+// Batches of an indexed mesh that is pushed, put together.
+class Collector {
+ public:
+  explicit Collector(const Schema& schema) : schema_(schema), mesh_(schema) { mesh_.clear(0); }
+
+  void put(const BatchView& batch) {
+    const size_t vertex = mesh_.addVertices(batch.vertex_count);
+    copy(mesh_.position(vertex), batch.positions,
+         batch.vertex_count * 3 * sizeOf(schema_.position_type));
+    for (size_t i = 0; i < schema_.fields.size(); ++i)
+      if (batch.vertex_count)
+        copy(mesh_.field(i, vertex), batch.fields[i],
+             batch.vertex_count * schema_.fields[i].bytesPerRow());
+    for (size_t i = 0; batch.locked && i < batch.vertex_count; ++i)
+      if (batch.locked[i]) mesh_.lock(vertex + i);
+    const size_t cell = mesh_.addCells(batch.cell_count);
+    copy(mesh_.cell(cell), batch.cells, batch.cell_count * 4 * sizeof(int64_t));
+    for (size_t i = 0; i < schema_.cell_data.size(); ++i)
+      if (batch.cell_count)
+        copy(mesh_.cellData(i, cell), batch.cell_data[i],
+             batch.cell_count * schema_.cell_data[i].bytesPerRow());
+  }
+  Input input() {
+    Input input;
+    input.indexed = std::make_unique<MemorySource>(schema_, mesh_.view());
+    return input;
+  }
+
+ private:
+  static void copy(void* to, const void* from, size_t bytes) {
+    if (bytes) std::memcpy(to, from, bytes);
+  }
+  Schema schema_;
+  Batch mesh_;
+};
+
+}  // namespace
+
+struct SimplifyRun::State {
+  State(const RunOptions& the_options, Sink& out, ProgressFunction the_progress)
+      : options(the_options),
+        progress(std::move(the_progress)),
+        simplifier(the_options.simplify, out, [this](const Progress& p) { tell(p); }) {}
+
+  // The simplifier's progress after the part that ordering took.
+  void tell(Progress p) {
+    if (!progress) return;
+    if (after_ordering && p.fraction >= 0)
+      p.fraction = kOrderShare + (1 - kOrderShare) * p.fraction;
+    progress(p);
+  }
+
+  RunOptions options;
+  ProgressFunction progress;
+  bool after_ordering = false;
+  Simplifier simplifier;
+  std::unique_ptr<Collector> collector;
+  Clock::time_point start;
+  Report report;
+
+  void simplify(Input& input) {
+    Stream stream(input, options, progress);
+    after_ordering = stream.ordered != nullptr;
+    simplifier.begin(stream.source->schema());
+    BatchView batch;
+    while (stream.source->next(batch)) simplifier.put(batch);
+    simplifier.finish();
+    close();
+    if (stream.ordered) report.unused_vertices += stream.ordered->unusedVertices();
+  }
+  void close() {
+    report = simplifier.report();
+    report.seconds = secondsSince(start);
+  }
+};
+
+SimplifyRun::SimplifyRun(const RunOptions& options, Sink& out, ProgressFunction progress)
+    : state_(std::make_unique<State>(options, out, std::move(progress))) {}
+
+SimplifyRun::~SimplifyRun() = default;
+
+void SimplifyRun::run(Input& input) {
+  state_->start = Clock::now();
+  state_->simplify(input);
+}
+
+void SimplifyRun::begin(const Schema& schema, bool indexed) {
+  state_->start = Clock::now();
+  if (indexed)
+    state_->collector = std::make_unique<Collector>(schema);
+  else
+    state_->simplifier.begin(schema);
+}
+
+void SimplifyRun::put(const BatchView& batch) {
+  if (state_->collector)
+    state_->collector->put(batch);
+  else
+    state_->simplifier.put(batch);
+}
+
+void SimplifyRun::finish() {
+  if (state_->collector) {
+    Input input = state_->collector->input();
+    state_->simplify(input);
+  } else {
+    state_->simplifier.finish();
+    state_->close();
+  }
+}
+
+const Report& SimplifyRun::report() const {
+  return state_->report.cells_in > 0 ? state_->report : state_->simplifier.report();
+}
+
+void convert(Input& input, Sink& out, const RunOptions& options, const ProgressFunction& progress) {
+  Stream stream(input, options, progress);
+  const Schema& schema = stream.source->schema();
+  out.begin(schema);
+  BatchView batch;
+  Progress p;
+  p.cells_total = schema.cell_count;
+  p.phase = "convert";
+  while (stream.source->next(batch)) {
+    out.put(batch);
+    p.cells_read += static_cast<int64_t>(batch.cell_count);
+    p.cells_written = p.cells_read;
+    if (p.cells_total > 0)
+      p.fraction = static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total);
+    if (progress) progress(p);
+  }
+  out.finish();
+}
+
+Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& progress) {
+  Stream stream(input, options, progress);
+  const int64_t total = stream.source->schema().cell_count;
+  StreamFacts facts(stream.source->schema());
+  BatchView batch;
+  Progress p;
+  p.cells_total = total;
+  p.phase = "inspect";
+  while (stream.source->next(batch)) {
+    facts.put(batch);
+    p.cells_read += static_cast<int64_t>(batch.cell_count);
+    if (total > 0) p.fraction = static_cast<double>(p.cells_read) / static_cast<double>(total);
+    if (progress) progress(p);
+  }
+  return facts.schema();
+}
+
+}  // namespace tetstream

@@ -1,0 +1,174 @@
+#include "intake.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "status.h"
+
+namespace tetstream {
+
+// Values of one row of a column, converted.
+template <class From, class To>
+static void copyAs(const void* row, int count, To* out) {
+  for (int i = 0; i < count; ++i) {
+    From value;
+    std::memcpy(&value, static_cast<const char*>(row) + sizeof(From) * static_cast<size_t>(i),
+                sizeof value);
+    out[i] = static_cast<To>(value);
+  }
+}
+
+template <class To>
+static void readFloats(const void* rows, ScalarType type, size_t row, int count, To* out) {
+  const char* at = static_cast<const char*>(rows) + row * static_cast<size_t>(count) * sizeOf(type);
+  type == ScalarType::kFloat32 ? copyAs<float>(at, count, out) : copyAs<double>(at, count, out);
+}
+
+static void readIntegers(const void* rows, ScalarType type, size_t row, int count, int64_t* out) {
+  const char* at = static_cast<const char*>(rows) + row * static_cast<size_t>(count) * sizeOf(type);
+  type == ScalarType::kInt32 ? copyAs<int32_t>(at, count, out) : copyAs<int64_t>(at, count, out);
+}
+
+template <class T>
+static bool allFinite(const T* values, int count) {
+  for (int i = 0; i < count; ++i)
+    if (!std::isfinite(values[i])) return false;
+  return true;
+}
+
+template <class S>
+void Intake<S>::startBatch(const BatchView& batch) {
+  if (batch.first_vertex != declared_)
+    fail(Status::kBadData, "a batch starts with vertex %llu, vertex %llu is next",
+         static_cast<unsigned long long>(batch.first_vertex),
+         static_cast<unsigned long long>(declared_));
+  batch_ = batch;
+  declared_ += batch.vertex_count;
+}
+
+template <class S>
+void Intake<S>::readColumn(size_t column, size_t row, uint32_t slot) {
+  const Column& c = core_.plan.schema.fields[column];
+  const ColumnPlan& place = core_.plan.fields[column];
+  if (place.treatment == Treatment::kPicked) {
+    readIntegers(batch_.fields[column], c.type, row, c.components,
+                 core_.window.picks(slot) + place.offset);
+    return;
+  }
+  S* out = core_.window.values(slot) + place.offset;
+  readFloats(batch_.fields[column], c.type, row, c.components, out);
+  if (!allFinite(out, c.components))
+    fail(Status::kBadData, "vertex %llu: field \"%s\" is not finite",
+         static_cast<unsigned long long>(batch_.first_vertex + row), c.name.c_str());
+}
+
+template <class S>
+void Intake<S>::takeVertex(size_t row) {
+  Window<S>& window = core_.window;
+  if (window.mesh.vertexEnd() == window.mesh.vertexCapacity())
+    window.growVertices(window.mesh.vertexCapacity() + window.mesh.vertexCapacity() / 4 + 64);
+  const bool locked = batch_.locked && batch_.locked[row];
+  const uint32_t slot = window.mesh.addVertex(locked ? kLocked | kCallerLocked : 0);
+  readFloats(batch_.positions, core_.plan.schema.position_type, row, 3, window.values(slot));
+  if (!allFinite(window.values(slot), 3))
+    fail(Status::kBadData, "vertex %llu: its position is not finite",
+         static_cast<unsigned long long>(batch_.first_vertex + row));
+  for (size_t i = 0; i < core_.plan.fields.size(); ++i) readColumn(i, row, slot);
+  std::fill_n(window.quadric(slot), window.shape().quadric, S(0));
+  core_.front.introduce(slot);
+}
+
+template <class S>
+void Intake<S>::introduceUpTo(uint64_t vertex) {
+  while (core_.front.introduced() <= vertex)
+    takeVertex(static_cast<size_t>(core_.front.introduced() - batch_.first_vertex));
+}
+
+template <class S>
+uint32_t Intake<S>::slotOf(int64_t vertex) {
+  if (vertex < 0 || static_cast<uint64_t>(vertex) >= declared_)
+    fail(Status::kBadData, "cell %llu: vertex %lld is not declared before it",
+         static_cast<unsigned long long>(cells_read_), static_cast<long long>(vertex));
+  introduceUpTo(static_cast<uint64_t>(vertex));
+  const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
+  if (slot == kNoSlot)
+    fail(Status::kBadData, "cell %llu: vertex %lld was finalized before it",
+         static_cast<unsigned long long>(cells_read_), static_cast<long long>(vertex));
+  return slot;
+}
+
+template <class S>
+void Intake<S>::takeCellData(size_t row, uint32_t cell) {
+  const Plan& plan = core_.plan;
+  for (size_t i = 0; i < plan.cell_data.size(); ++i) {
+    const Column& c = plan.schema.cell_data[i];
+    const int offset = plan.cell_data[i].offset;
+    if (plan.cell_data[i].treatment == Treatment::kPicked) {
+      readIntegers(batch_.cell_data[i], c.type, row, c.components,
+                   core_.window.cellPicks(cell) + offset);
+      continue;
+    }
+    double* means = core_.window.cellMeans(cell) + 1 + offset;
+    readFloats(batch_.cell_data[i], c.type, row, c.components, means);
+    if (!allFinite(means, c.components))
+      fail(Status::kBadData, "cell %llu: cell array \"%s\" is not finite",
+           static_cast<unsigned long long>(cells_read_), c.name.c_str());
+  }
+}
+
+template <class S>
+void Intake<S>::takeCell(size_t row) {
+  const int64_t* ids = batch_.cells + 4 * row;
+  uint32_t slots[4];
+  for (int j = 0; j < 4; ++j) {
+    slots[j] = slotOf(ids[j]);
+    for (int i = 0; i < j; ++i)
+      if (slots[i] == slots[j])
+        fail(Status::kBadData, "cell %llu: vertex %lld is there twice",
+             static_cast<unsigned long long>(cells_read_), static_cast<long long>(ids[j]));
+  }
+  const uint32_t cell = core_.window.mesh.addCell(slots, 0);
+  takeCellData(row, cell);
+  const unsigned last = batch_.last_uses ? batch_.last_uses[row] : 0;
+  for (int j = 0; j < 4; ++j)
+    if (last >> j & 1) finalize(ids[j]);
+  ++cells_read_;
+}
+
+template <class S>
+void Intake<S>::finalize(int64_t vertex) {
+  if (vertex < 0 || static_cast<uint64_t>(vertex) >= declared_)
+    fail(Status::kBadData, "finalized vertex %lld is not declared", static_cast<long long>(vertex));
+  introduceUpTo(static_cast<uint64_t>(vertex));
+  const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
+  if (slot == kNoSlot)
+    fail(Status::kBadData, "vertex %lld is finalized twice", static_cast<long long>(vertex));
+  core_.front.finalize(static_cast<uint64_t>(vertex));
+  queueFinal(slot);
+}
+
+template <class S>
+void Intake<S>::queueFinal(uint32_t slot) {
+  core_.window.mesh.flagVertex(slot, kFinal);
+  if (finalized_count_ == finalized_.size()) finalized_.resize(2 * finalized_.size());
+  finalized_[finalized_count_++] = slot;
+}
+
+template <class S>
+void Intake<S>::finishBatch() {
+  if (declared_ > 0) introduceUpTo(declared_ - 1);
+  for (size_t i = 0; i < batch_.finalized_count; ++i) finalize(batch_.finalized[i]);
+  batch_ = {};
+  batch_.first_vertex = declared_;
+}
+
+template <class S>
+void Intake<S>::finalizeAll() {
+  for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v)
+    if (!(core_.window.mesh.vertexFlags(v) & kFinal)) queueFinal(v);
+}
+
+template class Intake<float>;
+template class Intake<double>;
+
+}  // namespace tetstream

@@ -1,0 +1,190 @@
+#include "metric.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "orient.h"
+
+namespace tetstream {
+
+// Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
+constexpr double kRescaleStep = 1.25;
+
+template <class S>
+Metric<S>::Metric(Core<S>& core)
+    : core_(core),
+      box_known_(core.plan.schema.hasBox()),
+      low_(static_cast<size_t>(core.plan.dimension), std::numeric_limits<double>::infinity()),
+      high_(low_.size(), -std::numeric_limits<double>::infinity()),
+      used_range_(low_.size(), -1) {
+  if (!box_known_) return;
+  const Schema& schema = core.plan.schema;
+  size_t in_box = 3;
+  for (size_t f = 0; f < schema.fields.size(); ++f) {
+    const ColumnPlan& place = core.plan.fields[f];
+    for (int i = 0; i < schema.fields[f].components; ++i, ++in_box) {
+      if (place.treatment != Treatment::kMeasured) continue;
+      low_[static_cast<size_t>(place.offset + i)] = schema.box_min[in_box];
+      high_[static_cast<size_t>(place.offset + i)] = schema.box_max[in_box];
+    }
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    low_[i] = schema.box_min[i];
+    high_[i] = schema.box_max[i];
+  }
+  for (size_t i = 0; i < low_.size(); ++i)
+    if (!(low_[i] <= high_[i]) || !std::isfinite(high_[i] - low_[i])) box_known_ = false;
+}
+
+// Only vertices of cells count: what a batch brings beyond them must not matter yet.
+template <class S>
+void Metric<S>::growBox(uint32_t first, uint32_t end) {
+  for (uint32_t c = first; c < end; ++c)
+    for (int j = 0; j < 4; ++j) {
+      const S* x = core_.window.values(core_.window.mesh.corners(c)[j]);
+      for (size_t i = 0; i < low_.size(); ++i) {
+        low_[i] = std::min(low_[i], static_cast<double>(x[i]));
+        high_[i] = std::max(high_[i], static_cast<double>(x[i]));
+      }
+    }
+}
+
+template <class S>
+double Metric<S>::extent() const {
+  return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
+}
+
+template <class S>
+double Metric<S>::rangeOf(size_t component) const {
+  const std::vector<int>& column = core_.plan.measured_column;
+  double largest = 0;  // scaled by it, so that no square overflows
+  for (size_t i = 3; i < low_.size(); ++i)
+    if (column[i - 3] == column[component - 3]) largest = std::max(largest, high_[i] - low_[i]);
+  if (!(largest > 0)) return 0;
+  double sum = 0;
+  for (size_t i = 3; i < low_.size(); ++i)
+    if (column[i - 3] == column[component - 3]) {
+      const double r = (high_[i] - low_[i]) / largest;
+      sum += r * r;
+    }
+  return largest * std::sqrt(sum);
+}
+
+template <class S>
+void Metric<S>::chooseLengthUnit(uint32_t first, uint32_t end) {
+  double longest = 0, sum = 0;
+  for (int pass = 0; pass < 2; ++pass)
+    for (uint32_t c = first; c < end; ++c) {
+      const S* a = core_.window.values(core_.window.mesh.corners(c)[0]);
+      const S* b = core_.window.values(core_.window.mesh.corners(c)[1]);
+      double largest = 0;
+      for (int i = 0; i < 3; ++i)
+        largest =
+            std::max(largest, std::fabs(static_cast<double>(b[i]) - static_cast<double>(a[i])));
+      if (pass == 0)
+        longest = std::max(longest, largest);
+      else
+        sum += largest / longest;
+    }
+  if (!(longest > 0) || end == first) return;
+  int exponent;
+  std::frexp(longest * (sum / (end - first)), &exponent);
+  length_unit_ = std::ldexp(1.0, std::clamp(exponent, -1000, 1000));
+  unit_known_ = true;
+}
+
+template <class S>
+void Metric<S>::updateScales() {
+  bool grown = false;
+  std::vector<double> range(low_.size());
+  for (size_t i = 0; i < range.size(); ++i) {
+    range[i] = i < 3 ? extent() : rangeOf(i);
+    grown =
+        grown ||
+        (used_range_[i] < 0 ? true : range[i] > (box_known_ ? 1 : kRescaleStep) * used_range_[i]);
+  }
+  if (!grown) return;
+  const bool first_time = used_range_[0] < 0;
+  std::vector<S> factor(range.size(), S(1));
+  for (size_t i = 0; i < range.size(); ++i) {
+    const double weight = i < 3 ? 1 : std::sqrt(core_.plan.weights[i - 3]);
+    const double size = extent() > 0 ? extent() : 1;  // all points coincide: every cell is flat
+    const double unit = i < 3 ? length_unit_ : length_unit_ * (range[i] / size) / weight;
+    const S scale = i >= 3 && !(range[i] > 0) ? S(0) : static_cast<S>(1 / unit);
+    if (!first_time && core_.scale[i] > 0) factor[i] = core_.scale[i] / scale;
+    core_.scale[i] = scale;
+    core_.inverse_scale[i] = scale > 0 ? static_cast<S>(unit) : S(0);
+  }
+  used_range_ = range;
+  const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;
+  core_.error_unit = unit_share * unit_share * unit_share * unit_share * unit_share;
+  if (!first_time) rescaleQuadrics(factor);
+}
+
+template <class S>
+void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
+  for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v) {
+    S* a = core_.window.quadric(v);
+    for (size_t i = 0; i < factor.size(); ++i)
+      for (size_t j = 0; j <= i; ++j) *a++ *= factor[i] * factor[j];
+  }
+}
+
+template <class S>
+void Metric<S>::addCell(uint32_t cell) {
+  Window<S>& window = core_.window;
+  const uint32_t* v = window.mesh.corners(cell);
+  double p[4][3];
+  for (int j = 0; j < 4; ++j) positionOf(window, v[j], p[j]);
+  const int side = orientation(p[0], p[1], p[2], p[3]);
+  if (side < 0) window.mesh.flagCell(cell, kNegative);
+  if (core_.plan.cell_means) {
+    double e[3][3];
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) e[k][i] = (p[k + 1][i] - p[0][i]) / length_unit_;
+    window.cellMeans(cell)[0] = std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                                          e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                                          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
+  }
+  if (side == 0) {
+    window.mesh.flagCell(cell, kFlat);
+    for (int j = 0; j < 4; ++j) window.mesh.flagVertex(v[j], kLocked);
+    ++core_.report.locked_cells;
+    return;
+  }
+  const S* x[4];
+  S* q[4];
+  for (int j = 0; j < 4; ++j) {
+    x[j] = window.values(v[j]);
+    q[j] = window.quadric(v[j]);
+  }
+  const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
+                       ? core_.kernels.addCellDistance
+                       : core_.kernels.addCellField;
+  add(x, core_.scale.data(), core_.plan.dimension, q);
+}
+
+template <class S>
+void Metric<S>::addCells(uint32_t first, uint32_t end) {
+  if (first == end) return;
+  if (!box_known_) growBox(first, end);
+  if (!unit_known_) chooseLengthUnit(first, end);
+  updateScales();
+  for (uint32_t c = first; c < end; ++c) addCell(c);
+}
+
+template <class S>
+void Metric<S>::addBoundaryFace(uint32_t a, uint32_t b, uint32_t c) {
+  Window<S>& window = core_.window;
+  const S* x[3] = {window.values(a), window.values(b), window.values(c)};
+  S* q[3] = {window.quadric(a), window.quadric(b), window.quadric(c)};
+  const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
+                       ? core_.kernels.addFaceDistance
+                       : core_.kernels.addFacePlane;
+  add(x, core_.scale.data(), core_.plan.dimension, core_.options.boundary_weight, q);
+}
+
+template class Metric<float>;
+template class Metric<double>;
+
+}  // namespace tetstream

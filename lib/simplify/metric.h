@@ -1,0 +1,41 @@
+// simplify: the units of the metric, and the quadrics of what was read. Depends on core.h.
+//
+// No unit of the user's may change the result. Lengths are divided by a power of two near the
+// first cells' edges, so that no product over- or underflows. A field is brought to the extent of
+// the mesh (paper, section 3: "normalised to the geometry range"). Where the stream does not say
+// its box, extent and ranges are those met so far; when they grow, the quadrics in the window are
+// carried over into the new units.
+#pragma once
+
+#include "core.h"
+
+namespace tetstream {
+
+template <class S>
+class Metric {
+ public:
+  explicit Metric(Core<S>& core);
+
+  // Cells [first, end) of the window are new: their orientation is settled, their quadrics are
+  // added; flat ones are marked and their vertices locked.
+  void addCells(uint32_t first, uint32_t end);
+  // A boundary face adds its quadric to its three vertices.
+  void addBoundaryFace(uint32_t a, uint32_t b, uint32_t c);
+
+ private:
+  void growBox(uint32_t first, uint32_t end);
+  double rangeOf(size_t component) const;  // of the field it belongs to
+  double extent() const;
+  void chooseLengthUnit(uint32_t first, uint32_t end);
+  void updateScales();
+  void rescaleQuadrics(const std::vector<S>& factor);
+  void addCell(uint32_t cell);
+
+  Core<S>& core_;
+  bool box_known_, unit_known_ = false;
+  double length_unit_ = 1;
+  std::vector<double> low_, high_;  // x y z, then measured components
+  std::vector<double> used_range_;  // that the scales were made for; [0]: the extent
+};
+
+}  // namespace tetstream

@@ -1,0 +1,75 @@
+#include "plan.h"
+
+#include "kernels.h"
+#include "status.h"
+
+namespace tetstream {
+
+static std::string namesOf(const std::vector<Column>& columns) {
+  std::string names;
+  for (const Column& c : columns) names += (names.empty() ? "" : ", ") + c.name;
+  return names.empty() ? "none" : names;
+}
+
+// The weight of each field; 0 where it is carried.
+static std::vector<double> fieldWeights(const Schema& schema, const SimplifyOptions& options) {
+  std::vector<double> weights(schema.fields.size(), options.fields.empty() ? 1.0 : 0.0);
+  for (const auto& [name, weight] : options.fields) {
+    const int i = findColumn(schema.fields, name);
+    if (i < 0)
+      fail(Status::kBadArgument, "there is no field \"%s\"; the stream has: %s", name.c_str(),
+           namesOf(schema.fields).c_str());
+    if (!isFloat(schema.fields[static_cast<size_t>(i)].type))
+      fail(Status::kBadArgument, "field \"%s\" holds integers, which are picked, not measured",
+           name.c_str());
+    if (!(weight >= 0))
+      fail(Status::kBadArgument, "field \"%s\": a weight is not negative", name.c_str());
+    weights[static_cast<size_t>(i)] = weight;
+  }
+  return weights;
+}
+
+static void placeField(Plan& plan, const Column& column, double weight, Treatment pass,
+                       ColumnPlan& place) {
+  const Treatment treatment = !isFloat(column.type) ? Treatment::kPicked
+                              : weight > 0          ? Treatment::kMeasured
+                                                    : Treatment::kCarried;
+  if (treatment != pass) return;
+  int& end = treatment == Treatment::kPicked ? plan.picks : plan.values;
+  place = {treatment, end};
+  end += column.components;
+  if (column.type == ScalarType::kFloat64) plan.double_window = true;
+}
+
+// Measured components come first, so that the quadric's part of a vertex is one piece.
+Plan makePlan(const Schema& schema, const SimplifyOptions& options) {
+  checkSchema(schema);
+  Plan plan;
+  plan.schema = schema;
+  plan.double_window = schema.position_type == ScalarType::kFloat64;
+  plan.fields.resize(schema.fields.size());
+  const std::vector<double> weights = fieldWeights(schema, options);
+  for (Treatment pass : {Treatment::kMeasured, Treatment::kCarried, Treatment::kPicked}) {
+    for (size_t i = 0; i < schema.fields.size(); ++i) {
+      placeField(plan, schema.fields[i], weights[i], pass, plan.fields[i]);
+      while (pass == Treatment::kMeasured &&
+             static_cast<int>(plan.weights.size()) + 3 < plan.values) {
+        plan.weights.push_back(weights[i]);
+        plan.measured_column.push_back(static_cast<int>(i));
+      }
+    }
+    if (pass == Treatment::kMeasured) plan.dimension = plan.values;
+  }
+  if (plan.dimension > kMaxDimension)
+    fail(Status::kUnsupported,
+         "%d field components are measured, %d are possible: name the fields that matter",
+         plan.dimension - 3, kMaxDimension - 3);
+  for (const Column& c : schema.cell_data) {
+    int& end = isFloat(c.type) ? plan.cell_means : plan.cell_picks;
+    plan.cell_data.push_back({isFloat(c.type) ? Treatment::kCarried : Treatment::kPicked, end});
+    end += c.components;
+  }
+  return plan;
+}
+
+}  // namespace tetstream

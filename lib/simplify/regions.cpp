@@ -1,0 +1,72 @@
+#include "regions.h"
+
+#include <algorithm>
+
+#include "status.h"
+
+namespace tetstream {
+
+template <class S>
+Regions<S>::Regions(Core<S>& core) : core_(core) {
+  const std::string& wish = core.options.regions;
+  const std::vector<Column>& columns = core.plan.schema.cell_data;
+  if (wish == "none") return;
+  if (wish != "auto" && findColumn(columns, wish) < 0)
+    fail(Status::kBadArgument, "there is no cell array \"%s\" to take as regions", wish.c_str());
+  for (size_t i = 0; i < columns.size(); ++i) {
+    if (wish != "auto" && columns[i].name != wish) continue;
+    if (isFloat(columns[i].type)) {
+      if (wish == "auto") continue;
+      fail(Status::kBadArgument, "cell array \"%s\" holds no integers: it labels no regions",
+           wish.c_str());
+    }
+    columns_.push_back(static_cast<int>(i));
+  }
+}
+
+// Ids: more than half of the rows differ from all others.
+template <class S>
+bool Regions<S>::looksLikeIds(int offset, int components) const {
+  std::vector<std::vector<int64_t>> rows;
+  for (uint32_t c = 0; c < core_.window.mesh.cellEnd(); ++c) {
+    const int64_t* row = core_.window.cellPicks(c) + offset;
+    rows.emplace_back(row, row + components);
+  }
+  std::sort(rows.begin(), rows.end());
+  const auto end = std::unique(rows.begin(), rows.end());
+  return static_cast<size_t>(end - rows.begin()) > std::max<size_t>(rows.size() / 2, 16);
+}
+
+template <class S>
+void Regions<S>::decide() {
+  if (decided_) return;
+  decided_ = true;
+  std::string taken, ids;
+  for (int column : columns_) {
+    const Column& c = core_.plan.schema.cell_data[static_cast<size_t>(column)];
+    const int offset = core_.plan.cell_data[static_cast<size_t>(column)].offset;
+    const bool is_id = core_.options.regions == "auto" && looksLikeIds(offset, c.components);
+    std::string& list = is_id ? ids : taken;
+    list += (list.empty() ? "" : ", ") + c.name;
+    for (int i = 0; !is_id && i < c.components; ++i) picks_.push_back(offset + i);
+  }
+  core_.report.regions = taken.empty() ? "none" : "by " + taken;
+  if (!ids.empty()) core_.report.regions += " (" + ids + ": nearly all different, taken as ids)";
+}
+
+template <class S>
+bool Regions<S>::differ(const Star& star) const {
+  if (star.size() == 0) return false;
+  const int64_t* first = core_.window.cellPicks(star[0].cell);
+  for (const StarCell& s : star) {
+    const int64_t* row = core_.window.cellPicks(s.cell);
+    for (int pick : picks_)
+      if (row[pick] != first[pick]) return true;
+  }
+  return false;
+}
+
+template class Regions<float>;
+template class Regions<double>;
+
+}  // namespace tetstream

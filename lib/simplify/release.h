@@ -1,0 +1,39 @@
+// simplify: WRITE. Cells leave the window in the order in which they came. Depends on core.h.
+#pragma once
+
+#include "core.h"
+#include "source.h"
+
+namespace tetstream {
+
+// The cells that have been in the window longest leave first (paper, section 4), each after its
+// vertices; cells that touch a vertex not yet final wait. A vertex that has left with a cell is
+// frozen from then on, and is finalized in the output by the last cell that uses it.
+template <class S>
+class Release {
+ public:
+  Release(Core<S>& core, Sink& out, Account& account)
+      : core_(core), out_(out), batch_(core.plan.schema), uses_(account) {}
+
+  // Lets cells go until `keep` live ones are left or no other may go, then packs the window.
+  void write(uint32_t keep);
+  void flush();
+
+  uint64_t cellsWritten() const { return cells_; }
+  uint64_t verticesWritten() const { return vertices_; }
+
+ private:
+  bool mayGo(uint32_t cell) const;
+  void countUses();
+  void writeCell(uint32_t cell);
+  void writeVertex(uint32_t v);
+  void writeCellData(uint32_t cell, size_t row);
+
+  Core<S>& core_;
+  Sink& out_;
+  Batch batch_;
+  Array<uint32_t> uses_;  // per vertex: live cells
+  uint64_t cells_ = 0, vertices_ = 0;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,119 @@
+#include "resolve.h"
+
+#include <algorithm>
+
+namespace tetstream {
+
+static uint64_t mix(uint64_t x) {
+  x = (x ^ (x >> 31)) * 0x7fb5d329728ea185ull;
+  x = (x ^ (x >> 27)) * 0x81dadef4bc2dd44dull;
+  return x ^ (x >> 33);
+}
+
+// The link of an inner vertex is closed: each of its edges is there once in each direction. A sum
+// of hashes that change sign with the direction is zero then, and otherwise only by a chance of
+// 2^-64.
+static bool isClosed(const Star& star) {
+  uint64_t sum = 0;
+  for (const StarCell& s : star)
+    for (int i = 0; i < 3; ++i) {
+      const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
+      sum += a < b ? mix(a << 32 | b) : -mix(b << 32 | a);
+    }
+  return sum == 0;
+}
+
+template <class S>
+void Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
+  for (size_t i = 0; i < count; ++i) resolve(vertices[i]);
+}
+
+template <class S>
+void Resolver<S>::resolve(uint32_t v) {
+  Topology& mesh = core_.window.mesh;
+  mesh.gather(v, star_);
+  if (!isClosed(star_)) resolveBoundary(v);
+  if (regions_.differ(star_)) mesh.flagVertex(v, kLocked);
+  mesh.flagVertex(v, kResolved);
+}
+
+// Two cells on the same side of their common face: both are passed on as they are. (A flat cell has
+// no side; it was marked, and its vertices locked, when it was read.)
+template <class S>
+void Resolver<S>::lockFold(uint32_t v, uint32_t a, uint32_t b) {
+  Topology& mesh = core_.window.mesh;
+  for (const StarCell& s : star_)
+    if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell) & kFlat)) return;
+  for (const StarCell& s : star_) {
+    if (!s.has(a) || !s.has(b)) continue;
+    if (!(mesh.cellFlags(s.cell) & kFolded)) ++core_.report.locked_cells;
+    mesh.flagCell(s.cell, kFolded);
+    for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell)[j], kLocked);
+  }
+  mesh.flagVertex(v, kLocked);
+}
+
+template <class S>
+void Resolver<S>::resolveBoundary(uint32_t v) {
+  Topology& mesh = core_.window.mesh;
+  // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
+  // 2^31. The lowest bit is the direction.
+  if (edges_.size() < 3 * star_.size()) edges_.resize(6 * star_.size());
+  size_t count = 0;
+  for (const StarCell& s : star_)
+    for (int i = 0; i < 3; ++i) {
+      const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
+      edges_[count++] = a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1;
+    }
+  std::sort(edges_.data(), edges_.data() + count);
+  boundary_.clear();
+  for (size_t i = 0, j; i < count; i = j) {
+    const uint64_t pair = edges_[i] >> 1;
+    for (j = i + 1; j < count && edges_[j] >> 1 == pair;) ++j;
+    const uint32_t a = static_cast<uint32_t>(pair >> 32), b = static_cast<uint32_t>(pair);
+    if (j - i == 1) {
+      boundary_.push_back(uint64_t{a} << 32 | b);
+      const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
+      if (!counted) metric_.addBoundaryFace(v, a, b);
+    } else if (j - i == 2) {
+      if ((edges_[i] & 1) == (edges_[i + 1] & 1)) lockFold(v, a, b);
+    } else {
+      mesh.flagVertex(v, kLocked);  // a face of three cells or more
+    }
+  }
+  if (boundary_.empty()) return;
+  mesh.flagVertex(v, kBoundary);
+  if (!isDisk(boundary_)) mesh.flagVertex(v, kLocked);
+}
+
+// Whether the boundary faces round a vertex form one fan: the edges of the link's boundary make a
+// single circle.
+template <class S>
+bool Resolver<S>::isDisk(const std::vector<uint64_t>& boundary) {
+  const uint32_t start = static_cast<uint32_t>(boundary[0] >> 32);
+  uint32_t at = start;
+  size_t came_by = boundary.size(), walked = 0;
+  do {
+    size_t next = boundary.size();
+    for (size_t i = 0; i < boundary.size(); ++i) {
+      const uint32_t a = static_cast<uint32_t>(boundary[i] >> 32),
+                     b = static_cast<uint32_t>(boundary[i]);
+      if (i == came_by || (a != at && b != at)) continue;
+      if (next != boundary.size()) return false;  // a third face at this edge
+      next = i;
+      if (came_by == boundary.size()) break;  // at the start either direction will do
+    }
+    if (next == boundary.size()) return false;  // the fan is open
+    const uint32_t a = static_cast<uint32_t>(boundary[next] >> 32),
+                   b = static_cast<uint32_t>(boundary[next]);
+    at = a == at ? b : a;
+    came_by = next;
+    ++walked;
+  } while (at != start);
+  return walked == boundary.size();
+}
+
+template class Resolver<float>;
+template class Resolver<double>;
+
+}  // namespace tetstream

@@ -1,0 +1,118 @@
+// simplify: every edge in order of its error. See select.h.
+#include <algorithm>
+#include <array>
+
+#include "select.h"
+
+namespace tetstream {
+namespace {
+
+template <class S>
+class ExhaustiveSelector final : public Selector<S> {
+ public:
+  ExhaustiveSelector(Core<S>& core, Collapser<S>& collapser)
+      : core_(core), collapser_(collapser), room_(static_cast<size_t>(core.plan.dimension)) {
+    for (auto& z : z_) z.resize(room_);
+  }
+
+  // Half of the edges at a time, the better half: the errors of the others change with it.
+  void decimate(const Goal& goal) override {
+    for (bool all = false; !reached(goal);) {
+      listEdges();
+      const size_t count = all ? edges_.size() : (edges_.size() + 1) / 2;
+      bool moved = false;
+      for (size_t i = 0; i < count && !reached(goal); ++i)
+        moved = tryEdge(edges_[i].u, edges_[i].v, goal) || moved;
+      if (!moved && all) return;
+      all = !moved;
+    }
+  }
+
+ private:
+  struct Edge {
+    S error;
+    uint32_t u, v;
+    bool operator<(const Edge& o) const {
+      return error != o.error ? error < o.error : u != o.u ? u < o.u : v < o.v;
+    }
+  };
+
+  bool reached(const Goal& goal) const { return core_.window.mesh.liveCells() <= goal.cells; }
+  void listEdges();
+  S minimize(uint32_t u, uint32_t v, S* z);
+  bool tryEdge(uint32_t u, uint32_t v, const Goal& goal);
+
+  Core<S>& core_;
+  Collapser<S>& collapser_;
+  size_t room_;
+  std::vector<Edge> edges_;
+  std::array<std::vector<S>, 4> z_;
+};
+
+template <class S>
+S ExhaustiveSelector<S>::minimize(uint32_t u, uint32_t v, S* z) {
+  return core_.kernels.minimizeEdge(core_.window.quadric(u), core_.window.values(u),
+                                    core_.window.quadric(v), core_.window.values(v),
+                                    core_.scale.data(), core_.plan.dimension, z);
+}
+
+template <class S>
+void ExhaustiveSelector<S>::listEdges() {
+  const Topology& mesh = core_.window.mesh;
+  std::vector<uint64_t> pairs;
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    const uint32_t* v = mesh.corners(c);
+    for (int i = 0; i < 4; ++i)
+      for (int j = i + 1; j < 4; ++j)
+        if (mesh.isFree(v[i]) && mesh.isFree(v[j]))
+          pairs.push_back(uint64_t{std::min(v[i], v[j])} << 32 | std::max(v[i], v[j]));
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  edges_.clear();
+  for (uint64_t pair : pairs) {
+    Edge e{0, static_cast<uint32_t>(pair >> 32), static_cast<uint32_t>(pair)};
+    e.error = minimize(e.u, e.v, z_[0].data());
+    if (std::isfinite(e.error)) edges_.push_back(e);
+  }
+  std::sort(edges_.begin(), edges_.end());
+}
+
+// The minimizer first, then the midpoint and the ends by their errors.
+template <class S>
+bool ExhaustiveSelector<S>::tryEdge(uint32_t u, uint32_t v, const Goal& goal) {
+  const Topology& mesh = core_.window.mesh;
+  if (!mesh.isFree(u) || !mesh.isFree(v)) return false;
+  std::array<S, 4> error;
+  error[0] = minimize(u, v, z_[0].data());
+  std::fill(z_[1].begin(), z_[1].end(), S(0));
+  collapser_.endOf(u, v, false, z_[2].data());
+  collapser_.endOf(u, v, true, z_[3].data());
+  for (size_t i = 1; i < 4; ++i)
+    error[i] = core_.kernels.errorAt(core_.window.quadric(u), core_.window.values(u),
+                                     core_.window.quadric(v), core_.window.values(v),
+                                     core_.scale.data(), core_.plan.dimension, z_[i].data());
+  std::array<size_t, 4> order = {0, 1, 2, 3};
+  std::sort(order.begin(), order.end(),
+            [&](size_t a, size_t b) { return error[a] != error[b] ? error[a] < error[b] : a < b; });
+  for (size_t i : order) {
+    const Outcome outcome = collapser_.collapse(u, v, z_[i].data(), error[i], goal.least_cells);
+    if (outcome == Outcome::kDone) return true;
+    if (outcome != Outcome::kOrientation && outcome != Outcome::kNotFinite) return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <class S>
+std::unique_ptr<Selector<S>> makeExhaustiveSelector(Core<S>& core, Collapser<S>& collapser) {
+  return std::make_unique<ExhaustiveSelector<S>>(core, collapser);
+}
+
+template std::unique_ptr<Selector<float>> makeExhaustiveSelector(Core<float>&, Collapser<float>&);
+template std::unique_ptr<Selector<double>> makeExhaustiveSelector(Core<double>&,
+                                                                  Collapser<double>&);
+
+}  // namespace tetstream

@@ -1,0 +1,170 @@
+// simplify: the best of a few random edges, tile by tile. See select.h.
+#include <algorithm>
+#include <limits>
+
+#include "random.h"
+#include "select.h"
+#include "tiles.h"
+
+namespace tetstream {
+namespace {
+
+// A tile is left when this many draws in a row gave nothing below the bound, or nothing legal.
+constexpr int kDrawsAboveBound = 12, kDrawsIllegal = 60;
+// The bound starts this far below the last window's and rises by this factor from pass to pass:
+// finer steps come closer to a global order and load each tile more often.
+constexpr double kFirstBound = 1.0 / 16, kBoundStep = 1.6;
+constexpr int kSamples = 256;  // draws from which the first window's bound is taken
+
+template <class S>
+class RandomSelector final : public Selector<S> {
+ public:
+  RandomSelector(Core<S>& core, Collapser<S>& collapser, Account& account)
+      : core_(core),
+        collapser_(collapser),
+        tiles_(core, account),
+        random_(static_cast<uint64_t>(core.options.seed)),
+        exhaustive_(makeExhaustiveSelector(core, collapser)),
+        z_(static_cast<size_t>(core.plan.dimension)),
+        best_z_(z_) {}
+
+  void decimate(const Goal& goal) override {
+    goal_ = goal;
+    if (reached()) return;
+    tiles_.build();
+    sweep();
+    if (goal.last && !reached()) exhaustive_->decimate(goal);
+  }
+
+ private:
+  struct Draw {
+    uint32_t u = kNone, v = kNone;
+    S error = std::numeric_limits<S>::infinity();
+  };
+
+  bool reached() const { return core_.window.mesh.liveCells() <= goal_.cells; }
+  void sweep();
+  void sweepTile(Tile& tile, S bound, bool* moved, bool* bounded);
+  bool drawEdge(Tile& tile, uint32_t* u, uint32_t* v);
+  Draw drawBest(Tile& tile);
+  S sampledBound();
+
+  Core<S>& core_;
+  Collapser<S>& collapser_;
+  Tiles<S> tiles_;
+  Random random_;
+  std::unique_ptr<Selector<S>> exhaustive_;
+  std::vector<S> z_, best_z_;
+  Goal goal_{};
+  S bound_ = 0;  // that the last window ended with
+};
+
+// A random live cell of the tile and two of its vertices; false if that edge may not collapse.
+template <class S>
+bool RandomSelector<S>::drawEdge(Tile& tile, uint32_t* u, uint32_t* v) {
+  static constexpr uint8_t kEdges[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+  const Topology& mesh = core_.window.mesh;
+  const uint64_t bits = random_.next();
+  const size_t place = tile.begin + (((bits >> 32) * tile.size()) >> 32);
+  const uint32_t cell = tiles_.cell(place);
+  if (!mesh.isLive(cell)) {
+    tiles_.remove(tile, place);
+    return false;
+  }
+  const uint8_t* edge = kEdges[((bits & 0xffffffffu) * 6) >> 32];
+  *u = mesh.corners(cell)[edge[0]];
+  *v = mesh.corners(cell)[edge[1]];
+  return mesh.isFree(*u) && mesh.isFree(*v);
+}
+
+template <class S>
+typename RandomSelector<S>::Draw RandomSelector<S>::drawBest(Tile& tile) {
+  Draw best;
+  const Window<S>& window = core_.window;
+  const int last = window.shape().quadric - 1;
+  int64_t found = 0;
+  for (int64_t tries = 0; found < core_.options.candidates && tile.size() > 0; ++tries) {
+    if (tries >= 8 * core_.options.candidates) break;
+    uint32_t u, v;
+    if (!drawEdge(tile, &u, &v)) continue;
+    ++found;
+    S *a = core_.window.quadric(u), *b = core_.window.quadric(v);
+    if (a[last] + b[last] >= best.error) continue;  // the merge cannot be better
+    const S error = core_.kernels.minimizeEdge(a, window.values(u), b, window.values(v),
+                                               core_.scale.data(), core_.plan.dimension, z_.data());
+    if (!(error < best.error)) continue;
+    best = {u, v, error};
+    std::swap(z_, best_z_);
+  }
+  return best;
+}
+
+template <class S>
+void RandomSelector<S>::sweepTile(Tile& tile, S bound, bool* moved, bool* bounded) {
+  int above = 0, illegal = 0;
+  while (!reached() && tile.size() > 0 && above < kDrawsAboveBound && illegal < kDrawsIllegal) {
+    const Draw best = drawBest(tile);
+    if (!(best.error <= bound)) {
+      ++above;
+      *bounded = *bounded || best.u != kNone;
+      continue;
+    }
+    const Outcome outcome =
+        collapser_.collapse(best.u, best.v, best_z_.data(), best.error, goal_.least_cells);
+    if (outcome == Outcome::kDone) {
+      above = illegal = 0;
+      *moved = true;
+    } else {
+      ++illegal;
+    }
+  }
+}
+
+// The error of the better edges: a tenth of all draws are below.
+template <class S>
+S RandomSelector<S>::sampledBound() {
+  std::vector<S> errors;
+  for (int i = 0; i < kSamples; ++i) {
+    Tile& tile = tiles_.tiles()[random_.below(static_cast<uint32_t>(tiles_.tiles().size()))];
+    const Draw draw = drawBest(tile);
+    if (draw.u != kNone && draw.error > 0 && std::isfinite(draw.error))
+      errors.push_back(draw.error);
+  }
+  if (errors.empty()) return std::numeric_limits<S>::min();
+  std::sort(errors.begin(), errors.end());
+  return errors[errors.size() / 10];
+}
+
+template <class S>
+void RandomSelector<S>::sweep() {
+  if (tiles_.tiles().empty()) return;
+  S bound = bound_ > 0 ? bound_ * S(kFirstBound) : sampledBound();
+  for (bool going = true; going;) {
+    bool moved = false, bounded = false;
+    for (Tile& tile : tiles_.tiles()) {
+      sweepTile(tile, bound, &moved, &bounded);
+      if (reached()) {
+        bound_ = bound;
+        return;
+      }
+    }
+    // Nothing left that is legal at any error, or everything dearer than any bound.
+    going = (moved || bounded) && std::isfinite(bound);
+    bound *= S(kBoundStep);
+  }
+}
+
+}  // namespace
+
+template <class S>
+std::unique_ptr<Selector<S>> makeRandomSelector(Core<S>& core, Collapser<S>& collapser,
+                                                Account& account) {
+  return std::make_unique<RandomSelector<S>>(core, collapser, account);
+}
+
+template std::unique_ptr<Selector<float>> makeRandomSelector(Core<float>&, Collapser<float>&,
+                                                             Account&);
+template std::unique_ptr<Selector<double>> makeRandomSelector(Core<double>&, Collapser<double>&,
+                                                              Account&);
+
+}  // namespace tetstream

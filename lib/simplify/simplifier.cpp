@@ -1,0 +1,242 @@
+#include "simplifier.h"
+
+#include <algorithm>
+
+#include "budget.h"
+#include "intake.h"
+#include "release.h"
+#include "resolve.h"
+#include "select.h"
+#include "status.h"
+
+namespace tetstream {
+namespace {
+
+// A window holds at least this many cells, some tiles: smaller ones save no memory worth having.
+constexpr int64_t kLeastWindow = 16384;
+// Without knowledge of the front: it grows as the front is met.
+constexpr int64_t kFirstWindow = 32768;
+constexpr int64_t kFrontsPerWindow = 4;
+
+int64_t windowFor(const Schema& schema, const SimplifyOptions& options) {
+  if (options.window_cells > 0) return std::max<int64_t>(options.window_cells, 64);
+  int64_t cells = schema.front_cells >= 0
+                      ? std::max(kFrontsPerWindow * schema.front_cells, kLeastWindow)
+                      : kFirstWindow;
+  if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
+  return cells;
+}
+
+double ratioFor(const Schema& schema, const SimplifyOptions& options) {
+  if (options.cells <= 0) return options.ratio;
+  if (schema.cell_count < 0)
+    fail(Status::kUnsupported,
+         "a number of cells was asked for, but the stream does not say how many it has: give a "
+         "ratio");
+  if (schema.cell_count == 0) return 1;
+  return std::min(1.0, static_cast<double>(options.cells) / static_cast<double>(schema.cell_count));
+}
+
+// READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
+//   - a vertex may move only when it is final and none of its cells has been written, so that its
+//     whole star is in the window: whatever a collapse changes lies between two such vertices;
+//   - cells leave in the order of their arrival, and only when all their vertices are final;
+//   - decisions depend on the cells read, never on how batches cut them;
+//   - memory is that of the window and of the front's map, allocated before the loop; the window
+//     grows between chunks only, when the front proves wider than expected.
+template <class S>
+class WindowedEngine final : public Simplifier::Engine {
+ public:
+  WindowedEngine(Plan plan, const SimplifyOptions& options, Sink& out,
+                 const ProgressFunction& progress)
+      : plan_(std::move(plan)),
+        options_(options),
+        progress_(progress),
+        account_(static_cast<size_t>(options.memory_bytes)),
+        capacity_(windowFor(plan_.schema, options)),
+        core_(plan_, options_, account_, static_cast<size_t>(capacity_),
+              static_cast<size_t>(capacity_ / 5 + 1024),
+              static_cast<uint64_t>(std::max<int64_t>(plan_.schema.front_span, 0))),
+        budget_(ratioFor(plan_.schema, options), options.cells),
+        intake_(core_, account_),
+        regions_(core_),
+        metric_(core_),
+        resolver_(core_, metric_, regions_, account_),
+        collapser_(core_, account_),
+        selector_(makeRandomSelector(core_, collapser_, account_)),
+        release_(core_, out, account_) {
+    core_.report.window_cells = capacity_;
+  }
+
+  void put(const BatchView& batch) override {
+    intake_.startBatch(batch);
+    for (size_t row = 0; row < batch.cell_count; ++row) {
+      if (mesh().cellEnd() == capacity_) turn();
+      intake_.takeCell(row);
+    }
+    intake_.finishBatch();
+  }
+
+  void finish() override {
+    intake_.finalizeAll();
+    resolveNew();
+    selector_->decimate(budget_.lastGoal(ledger()));
+    release_.write(0);
+    release_.flush();
+    closeReport();
+  }
+
+  const Report& report() const override { return core_.report; }
+
+ private:
+  Topology& mesh() { return core_.window.mesh; }
+
+  // The window is full: simplify it and make room.
+  void turn() {
+    resolveNew();
+    const Ledger now = ledger();
+    selector_->decimate(budget_.goalOf(now));
+    release_.write(static_cast<uint32_t>(capacity_ / 2));
+    resolved_cells_ = mesh().cellEnd();
+    core_.report.front_cells = std::max(core_.report.front_cells, now.front);
+    makeRoom(now.front);
+    tell();
+  }
+
+  // Everything that the cells read since the last turn made known.
+  void resolveNew() {
+    if (mesh().cellEnd() > resolved_cells_) regions_.decide();
+    metric_.addCells(resolved_cells_, mesh().cellEnd());
+    resolved_cells_ = mesh().cellEnd();
+    resolver_.resolve(intake_.finalized(), intake_.finalizedCount());
+    intake_.clearFinalized();
+  }
+
+  Ledger ledger() {
+    Ledger l;
+    l.read = static_cast<int64_t>(intake_.cellsRead());
+    l.written = static_cast<int64_t>(release_.cellsWritten());
+    for (uint32_t c = 0; c < mesh().cellEnd(); ++c) {
+      if (!mesh().isLive(c)) continue;
+      const uint32_t* v = mesh().corners(c);
+      const unsigned all = mesh().vertexFlags(v[0]) & mesh().vertexFlags(v[1]) &
+                           mesh().vertexFlags(v[2]) & mesh().vertexFlags(v[3]);
+      l.front += !(all & kFinal);
+    }
+    return l;
+  }
+
+  // A window that was not asked for follows the front; one that was grows only when it is stuck.
+  void makeRoom(int64_t front) {
+    const int64_t live = mesh().cellEnd();
+    int64_t wanted = capacity_;
+    if (options_.window_cells == 0 && plan_.schema.front_cells < 0)
+      wanted = std::max(wanted, front * kFrontsPerWindow);
+    if (live > capacity_ - capacity_ / 8) wanted = std::max(wanted, live + live / 2);
+    if (wanted <= capacity_) return;
+    wanted = std::max(wanted, capacity_ + capacity_ / 4);
+    try {
+      core_.window.growCells(static_cast<size_t>(wanted));
+    } catch (const Error& error) {
+      if (error.status() != Status::kNoMemory) throw;
+      if (capacity_ - live >= std::max<int64_t>(capacity_ / 64, 1)) return;
+      fail(Status::kNoMemory, "the front of the stream, %lld cells, does not fit the window: %s",
+           static_cast<long long>(front), error.text().c_str());
+    }
+    capacity_ = wanted;
+    core_.report.window_cells = capacity_;
+  }
+
+  void tell() {
+    core_.report.cells_out = static_cast<int64_t>(release_.cellsWritten());
+    if (!progress_) return;
+    Progress p;
+    p.cells_read = static_cast<int64_t>(intake_.cellsRead());
+    p.cells_total = plan_.schema.cell_count;
+    p.cells_written = core_.report.cells_out;
+    if (p.cells_total > 0)
+      p.fraction =
+          std::min(1.0, static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total));
+    p.phase = "simplify";
+    progress_(p);
+  }
+
+  void closeReport() {
+    Report& r = core_.report;
+    r.cells_in = static_cast<int64_t>(intake_.cellsRead());
+    r.vertices_in = static_cast<int64_t>(core_.front.introduced());
+    r.vertices_out = static_cast<int64_t>(release_.verticesWritten());
+    r.target_cells = budget_.target(r.cells_in);
+    r.front_width = core_.front.width();
+    r.front_span = core_.front.span();
+    if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
+    r.peak_window_bytes = account_.peak();
+    tell();
+    if (r.cells_out > r.target_cells) explainMiss();
+  }
+
+  void explainMiss() {
+    Report& r = core_.report;
+    const int64_t tests = r.rejected_orientation + r.rejected_link;
+    if (r.collapses == 0 && tests == 0)
+      r.limited_by = "no edge has two vertices that may move (interfaces, locks)";
+    else
+      r.limited_by = textOf(
+          "no legal collapse is left: of the last tries, cells would have turned over (%lld in all)"
+          " or the topology would have changed (%lld in all)",
+          static_cast<long long>(r.rejected_orientation), static_cast<long long>(r.rejected_link));
+  }
+
+  const Plan plan_;
+  const SimplifyOptions options_;
+  const ProgressFunction& progress_;
+  Account account_;
+  int64_t capacity_;  // cells
+  uint32_t resolved_cells_ = 0;
+  Core<S> core_;
+  UniformRatio budget_;
+  Intake<S> intake_;
+  Regions<S> regions_;
+  Metric<S> metric_;
+  Resolver<S> resolver_;
+  Collapser<S> collapser_;
+  std::unique_ptr<Selector<S>> selector_;
+  Release<S> release_;
+};
+
+}  // namespace
+
+Simplifier::Simplifier(const SimplifyOptions& options, Sink& out, ProgressFunction progress)
+    : options_(options), out_(out), progress_(std::move(progress)) {}
+
+Simplifier::~Simplifier() = default;
+
+void Simplifier::begin(const Schema& schema) {
+  Plan plan = makePlan(schema, options_);
+  const bool in_double = plan.double_window;
+  if (in_double)
+    engine_ = std::make_unique<WindowedEngine<double>>(std::move(plan), options_, out_, progress_);
+  else
+    engine_ = std::make_unique<WindowedEngine<float>>(std::move(plan), options_, out_, progress_);
+  Schema smaller = schema;
+  smaller.vertex_count = smaller.cell_count = -1;
+  smaller.front_width = smaller.front_span = smaller.front_cells = -1;
+  smaller.box_min.clear();
+  smaller.box_max.clear();
+  out_.begin(smaller);
+}
+
+void Simplifier::put(const BatchView& batch) {
+  engine_->put(batch);
+}
+
+void Simplifier::finish() {
+  engine_->finish();
+  out_.finish();
+}
+
+const Report& Simplifier::report() const {
+  return engine_ ? engine_->report() : no_report_;
+}
+
+}  // namespace tetstream

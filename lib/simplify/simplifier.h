@@ -1,0 +1,40 @@
+// simplify: a stream in, a smaller stream out, through a bounded window. Depends on stream, mesh,
+// quadric. The page to read first is simplifier.cpp.
+#pragma once
+
+#include <memory>
+
+#include "options.h"
+#include "source.h"
+
+namespace tetstream {
+
+// A Sink that feeds a Sink. Not to be used after an Error.
+class Simplifier : public Sink {
+ public:
+  Simplifier(const SimplifyOptions& options, Sink& out, ProgressFunction progress);
+  ~Simplifier() override;
+  void begin(const Schema& schema) override;
+  void put(const BatchView& batch) override;
+  void finish() override;
+
+  const Report& report() const;
+
+  // The loop for one scalar type. Internal.
+  class Engine {
+   public:
+    virtual ~Engine() = default;
+    virtual void put(const BatchView& batch) = 0;
+    virtual void finish() = 0;
+    virtual const Report& report() const = 0;
+  };
+
+ private:
+  SimplifyOptions options_;
+  Sink& out_;
+  ProgressFunction progress_;
+  Report no_report_;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace tetstream
