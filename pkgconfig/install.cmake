@@ -1,1 +1,59 @@
-# The installed package: written by its own room.
+# What `cmake --install` puts where: libraries, headers, and the descriptions by which pkg-config
+# and CMake find them. Nothing installed names the build tree or the prefix: the tree can be moved.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS tetstream EXPORT tetstreamTargets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
+          NAMELINK_COMPONENT development)
+install(TARGETS tetstream_static EXPORT tetstreamStaticTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../include/tetstream
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")
+
+# A program in C that links the static library needs the C++ library, too.
+target_link_libraries(tetstream_static INTERFACE $<INSTALL_INTERFACE:stdc++>
+                                                 $<INSTALL_INTERFACE:m>)
+
+# -------------------------------------------------------------------------------- pkg-config
+# The prefix is found from the place of the file itself, however deep the library folder is.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(pc_prefix ${CMAKE_INSTALL_PREFIX})
+  set(pc_libdir ${CMAKE_INSTALL_LIBDIR})
+else()
+  file(RELATIVE_PATH up /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)
+  string(REGEX REPLACE "/$" "" up ${up})
+  set(pc_prefix "\${pcfiledir}/${up}")
+  set(pc_libdir "\${prefix}/${CMAKE_INSTALL_LIBDIR}")
+endif()
+if(IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+  set(pc_includedir ${CMAKE_INSTALL_INCLUDEDIR})
+else()
+  set(pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
+endif()
+set(pc_requires "zlib expat")
+if(TETSTREAM_ZSTD)
+  string(APPEND pc_requires " libzstd")
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/tetstream.pc.in ${PROJECT_BINARY_DIR}/tetstream.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/tetstream.pc
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
+
+# ------------------------------------------------------------------------------------- CMake
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tetstream)
+foreach(export tetstreamTargets tetstreamStaticTargets)
+  install(EXPORT ${export} NAMESPACE tetstream:: DESTINATION ${package_dir}
+    COMPONENT development)
+endforeach()
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/tetstreamConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/tetstreamConfig.cmake INSTALL_DESTINATION ${package_dir})
+# The ABI is not frozen before 1.0: until then only the same minor version will do.
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(compatibility SameMinorVersion)
+else()
+  set(compatibility SameMajorVersion)
+endif()
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/tetstreamConfigVersion.cmake
+  COMPATIBILITY ${compatibility})
+install(FILES ${PROJECT_BINARY_DIR}/tetstreamConfig.cmake
+              ${PROJECT_BINARY_DIR}/tetstreamConfigVersion.cmake
+  DESTINATION ${package_dir} COMPONENT development)

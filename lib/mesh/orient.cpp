@@ -7,21 +7,21 @@
 namespace tetstream {
 
 #ifdef TETSTREAM_V3_KERNELS
-void orientationLanesV3(const double x[3], const TriangleLanes& triangles,
-                        signed char sign[kLanes]);
+void orientationLanesV3(const double x[3], const TriangleLanes& triangles, signed char sign[kLanes],
+                        double shape[kLanes]);
 #endif
 
 void orientationLanes(const double x[3], const TriangleLanes& triangles, int count,
-                      signed char sign[kLanes]) {
+                      signed char sign[kLanes], double shape[kLanes]) {
 #ifdef TETSTREAM_V3_KERNELS
   static const bool has_v3 =
       __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi2") != 0;
   if (has_v3)
-    orientationLanesV3(x, triangles, sign);
+    orientationLanesV3(x, triangles, sign, shape);
   else
 #endif
-    lanes(x, triangles, sign);
-  for (int k = count; k < kLanes; ++k) sign[k] = 1;
+    lanes(x, triangles, sign, shape);
+  for (int k = count; k < kLanes; ++k) sign[k] = 1, shape[k] = 1;
 }
 
 // ------------------------------------------------------------------------- exact arithmetic
@@ -113,16 +113,22 @@ int exactOrientation(const double* const p[4]) {
 }  // namespace
 
 int orientation(const double a[3], const double b[3], const double c[3], const double d[3]) {
-  TriangleLanes one;
+  double e[3][3];
   const double* const corners[3] = {b, c, d};
   for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i)
-      for (int lane = 0; lane < kLanes; ++lane) one.xyz[3 * k + i][lane] = corners[k][i];
-  signed char sign[kLanes];
-  orientationLanes(a, one, 1, sign);
-  if (sign[0] != 0) return sign[0];
-  const double* const p[4] = {a, b, c, d};
-  return exactOrientation(p);
+    for (int i = 0; i < 3; ++i) e[k][i] = corners[k][i] - a[i];
+  double det = 0, bound = 0;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    const double p = e[1][j] * e[2][k], q = e[1][k] * e[2][j];
+    det += e[0][i] * (p - q);
+    bound += magnitude(e[0][i]) * (magnitude(p) + magnitude(q));
+  }
+  bound *= kErrorBound;
+  if (det > bound) return 1;
+  if (det < -bound) return -1;
+  const double* const points[4] = {a, b, c, d};
+  return exactOrientation(points);
 }
 
 }  // namespace tetstream

@@ -17,8 +17,10 @@ struct TriangleLanes {
 };
 
 // Sign of det(t0 - x, t1 - x, t2 - x) in each lane: 1, -1, or 0 where rounding could have changed
-// it; the caller then asks orientation(). Lanes from `count` on are not looked at.
+// it; the caller then asks orientation(). `shape` is det / (sum of the six squared edges)^(3/2),
+// relative to the regular cell's: 1 for that, 0 for a flat one; its 2/3rd power is known as the
+// mean ratio. Lanes from `count` on are not looked at: sign 1, shape 1.
 void orientationLanes(const double x[3], const TriangleLanes& triangles, int count,
-                      signed char sign[kLanes]);
+                      signed char sign[kLanes], double shape[kLanes]);
 
 }  // namespace tetstream

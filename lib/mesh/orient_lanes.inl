@@ -10,11 +10,19 @@ namespace {
 // section 4.3). The factor is raised a little for the rounding of the bound itself.
 constexpr double kErrorBound = 8.0 / 9007199254740992.0;
 
+// (6 squared edges of 1)^(3/2) / (6 V of the regular cell, 1 / sqrt 2)
+constexpr double kRegular = 20.784609690826528;
+
+inline double squares(double a, double b, double c) {
+  return a * a + b * b + c * c;
+}
+
 inline double magnitude(double v) {
   return v < 0 ? -v : v;
 }
 
-inline void lanes(const double x[3], const TriangleLanes& t, signed char sign[kLanes]) {
+inline void lanes(const double x[3], const TriangleLanes& t, signed char sign[kLanes],
+                  double shape[kLanes]) {
   double det[kLanes], bound[kLanes];
   for (int k = 0; k < kLanes; ++k) {
     const double ax = t.xyz[0][k] - x[0], ay = t.xyz[1][k] - x[1], az = t.xyz[2][k] - x[2];
@@ -25,6 +33,10 @@ inline void lanes(const double x[3], const TriangleLanes& t, signed char sign[kL
     bound[k] = kErrorBound * (magnitude(ax) * (magnitude(p1) + magnitude(p2)) +
                               magnitude(ay) * (magnitude(p3) + magnitude(p4)) +
                               magnitude(az) * (magnitude(p5) + magnitude(p6)));
+    const double sum = squares(ax, ay, az) + squares(bx, by, bz) + squares(cx, cy, cz) +
+                       squares(ax - bx, ay - by, az - bz) + squares(bx - cx, by - cy, bz - cz) +
+                       squares(cx - ax, cy - ay, cz - az);
+    shape[k] = kRegular * det[k] / (sum * __builtin_sqrt(sum));
   }
   for (int k = 0; k < kLanes; ++k)
     sign[k] = static_cast<signed char>((det[k] > bound[k]) - (det[k] < -bound[k]));

@@ -4,9 +4,9 @@
 
 namespace tetstream {
 
-void orientationLanesV3(const double x[3], const TriangleLanes& triangles,
-                        signed char sign[kLanes]) {
-  lanes(x, triangles, sign);
+void orientationLanesV3(const double x[3], const TriangleLanes& triangles, signed char sign[kLanes],
+                        double shape[kLanes]) {
+  lanes(x, triangles, sign, shape);
 }
 
 }  // namespace tetstream

@@ -25,7 +25,8 @@ enum VertexFlag : uint8_t {
 enum CellFlag : uint8_t {
   kNegative = 1,  // stored with negative volume; the order is the user's and is kept
   kDead = 2,
-  kBad = 4,  // flat, or folded onto a neighbour, in the input
+  kFlat = 4,    // of volume zero in the input
+  kFolded = 8,  // on the same side of a face as the neighbour there, in the input
 };
 
 // One cell round a centre: the triangle opposite, ordered so that det(t0 - x, t1 - x, t2 - x) > 0

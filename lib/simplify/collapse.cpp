@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
-#include "orient.h"
-
 namespace tetstream {
+
+// Cells of less than this share of the regular cell's shape, a mean ratio of 0.01, are flat for all
+// purposes: rounding to float32 or another program's arithmetic may turn them over. Larger values
+// give better shapes at the price of field error.
+constexpr double kLeastShape = 1e-3;
 
 template <class S>
 Collapser<S>::Collapser(Core<S>& core, Account& account)
@@ -36,8 +39,8 @@ void Collapser<S>::placeAt(uint32_t u, uint32_t v, const S* z) {
 }
 
 template <class S>
-bool Collapser<S>::lanesPositive(const StarCell* const cells[], int count) {
-  TriangleLanes lanes;
+void Collapser<S>::gatherLanes(const StarCell* const cells[], int count,
+                               TriangleLanes& lanes) const {
   for (int k = 0; k < kLanes; ++k) {
     const StarCell& s = *cells[k < count ? k : 0];
     for (int i = 0; i < 3; ++i) {
@@ -45,11 +48,19 @@ bool Collapser<S>::lanesPositive(const StarCell* const cells[], int count) {
       for (int j = 0; j < 3; ++j) lanes.xyz[3 * i + j][k] = static_cast<double>(p[j]);
     }
   }
+}
+
+template <class S>
+bool Collapser<S>::lanesPositive(const StarCell* const cells[], int count, double* worst) {
+  TriangleLanes lanes;
+  gatherLanes(cells, count, lanes);
   const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
                        static_cast<double>(merged_[2])};
   signed char sign[kLanes];
-  orientationLanes(x, lanes, count, sign);
+  double shape[kLanes];
+  orientationLanes(x, lanes, count, sign, shape);
   for (int k = 0; k < count; ++k) {
+    *worst = std::min(*worst, shape[k]);
     if (sign[k] > 0) continue;
     if (sign[k] < 0) return false;
     double t[3][3];
@@ -59,18 +70,38 @@ bool Collapser<S>::lanesPositive(const StarCell* const cells[], int count) {
   return true;
 }
 
+// Of the cells of one star that outlive the collapse.
 template <class S>
-bool Collapser<S>::keepsOrientation(uint32_t other, const Star& star) {
+bool Collapser<S>::keepsOrientation(uint32_t other, const Star& star, double* worst) {
   const StarCell* lane[kLanes];
   int count = 0;
   for (const StarCell& s : star) {
     if (s.has(other)) continue;
     lane[count++] = &s;
     if (count < kLanes) continue;
-    if (!lanesPositive(lane, count)) return false;
+    if (!lanesPositive(lane, count, worst)) return false;
     count = 0;
   }
-  return count == 0 || lanesPositive(lane, count);
+  return count == 0 || lanesPositive(lane, count, worst);
+}
+
+// Of all cells of a star as it is.
+template <class S>
+double Collapser<S>::worstShape(uint32_t centre, const Star& star) {
+  double x[3], worst = 1;
+  positionOf(core_.window, centre, x);
+  for (size_t at = 0; at < star.size(); at += kLanes) {
+    const int count = static_cast<int>(std::min<size_t>(kLanes, star.size() - at));
+    const StarCell* cells[kLanes];
+    for (int k = 0; k < count; ++k) cells[k] = &star[at + static_cast<size_t>(k)];
+    TriangleLanes lanes;
+    gatherLanes(cells, count, lanes);
+    signed char sign[kLanes];
+    double shape[kLanes];
+    orientationLanes(x, lanes, count, sign, shape);
+    for (int k = 0; k < count; ++k) worst = std::min(worst, shape[k]);
+  }
+  return worst;
 }
 
 template <class S>
@@ -85,7 +116,10 @@ Outcome Collapser<S>::test(uint32_t u, uint32_t v, int64_t least_cells) {
   for (const StarCell& s : around_u_) dying += s.has(v);
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh.liveCells() - dying < least_cells) return Outcome::kTooMany;
-  if (!keepsOrientation(v, around_u_) || !keepsOrientation(u, around_v_))
+  double worst = 1;
+  if (!keepsOrientation(v, around_u_, &worst) || !keepsOrientation(u, around_v_, &worst))
+    return Outcome::kOrientation;
+  if (worst < kLeastShape && worst < std::min(worstShape(u, around_u_), worstShape(v, around_v_)))
     return Outcome::kOrientation;
   return link_.holds(mesh, u, v, around_u_, around_v_) ? Outcome::kDone : Outcome::kTopology;
 }
@@ -169,6 +203,7 @@ void Collapser<S>::interpolateCarried(uint32_t u, uint32_t v) {
   for (int i = 0; i < 3; ++i) x[i] = static_cast<double>(merged_[static_cast<size_t>(i)]);
   for (const Star* star : {&around_u_, &around_v_})
     for (const StarCell& s : *star) {
+      if (best >= 0) break;  // x lies in that cell
       const uint32_t c[4] = {star == &around_u_ ? u : v, s.t[0], s.t[1], s.t[2]};
       double p[4][3], w[4];
       for (int k = 0; k < 4; ++k) positionOf(core_.window, c[k], p[k]);

@@ -3,6 +3,7 @@
 
 #include "core.h"
 #include "link.h"
+#include "orient.h"
 
 namespace tetstream {
 
@@ -25,7 +26,8 @@ class Collapser {
 
   // Merges v into u at z, normalised and relative to the edge's midpoint, if the result is legal:
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
-  // before, decided exactly on the values as they will be written; no fewer than `least_cells`
+  // before, decided exactly on the values as they will be written, and none so thin as kLeastShape
+  // unless one was as thin before; no fewer than `least_cells`
   // cells left in the window. Counts what happened in the report.
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells);
 
@@ -35,8 +37,10 @@ class Collapser {
  private:
   Outcome test(uint32_t u, uint32_t v, int64_t least_cells);
   void placeAt(uint32_t u, uint32_t v, const S* z);
-  bool keepsOrientation(uint32_t other, const Star& star);
-  bool lanesPositive(const StarCell* const cells[], int count);
+  bool keepsOrientation(uint32_t other, const Star& star, double* worst);
+  bool lanesPositive(const StarCell* const cells[], int count, double* worst);
+  double worstShape(uint32_t centre, const Star& star);
+  void gatherLanes(const StarCell* const cells[], int count, TriangleLanes& lanes) const;
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);

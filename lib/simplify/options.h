@@ -18,7 +18,7 @@ struct SimplifyOptions {
   double ratio = 0.1;                                  // cells out / cells in
   int64_t cells = 0;                                   // cells out; 0: the ratio decides
   std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
-  double boundary_weight = 1000;
+  double boundary_weight = 300;
   std::string regions = "auto";
   Mode mode = Mode::kPaper;
   QuadricForm quadric = QuadricForm::kDeterminant;

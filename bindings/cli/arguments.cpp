@@ -1,0 +1,294 @@
+#include "arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cctype>
+
+#include "failure.h"
+#include "text.h"
+
+namespace tetstream::cli {
+
+namespace {
+
+constexpr size_t kHelpColumn = 26;  // where the texts of a help page begin
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 ok, 1 usage, 2 bad data, 3 input or output, 4 memory, 5 target missed (the\n"
+    "output is complete), 6 unsupported, 7 cancelled, 8 internal error. More: man tetstream";
+
+// Every row of the library's table of formats, one line each.
+std::string formatsText() {
+  std::string text = "formats:\n";
+  const char *name, *extensions, *line;
+  int32_t read, write;
+  for (int32_t i = 0;
+       tetstream_format_at(i, &name, &extensions, &line, &read, &write) == TETSTREAM_OK; ++i) {
+    const char* ways = read && write ? "reads, writes" : read ? "reads" : "writes";
+    text += textOf("  %-6s %-14s %-14s %s\n", name, extensions, ways, line);
+  }
+  return text;
+}
+
+std::string versionText() {
+  return std::string("tetstream ") + tetstream_version_text() + "\n" + formatsText();
+}
+
+// CLI11's sentences, in the voice of the others, and where to look.
+Failure usageFailure(std::string sentence, const std::string& command) {
+  sentence = oneLine(std::move(sentence));
+  if (sentence.size() > 1 && std::islower(static_cast<unsigned char>(sentence[1])))
+    sentence[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(sentence[0])));
+  const std::string name = command.empty() ? "tetstream" : "tetstream " + command;
+  return {kUsage, sentence + "; see `" + name + " --help`"};
+}
+
+// The words of the command line, as CLI11 is told about them.
+class Parser {
+ public:
+  Parser();
+  Arguments parse(int argc, const char* const* argv);
+
+ private:
+  CLI::App* addCommand(const char* name, const char* text, Arguments::Command command);
+  void addSimplify();
+  void addInfo();
+  void addConvert();
+  void addGenerate();
+  void addHelp();
+  void addIn(CLI::App* command);
+  void addOut(CLI::App* command);
+  void addFormat(CLI::App* command);
+  void addProgress(CLI::App* command);
+  void addTableOption(CLI::App* command, const tetstream_option_info& info);
+  void addStreamOptions(CLI::App* command);
+  std::string helpOf(const std::string& command);
+  std::string chosenCommand() const;
+  void settleFormats();
+
+  CLI::App app_{"Simplifies tetrahedral meshes with fields as a stream.", "tetstream"};
+  std::vector<std::pair<CLI::App*, Arguments::Command>> commands_;
+  Arguments arguments_;
+  std::string format_, help_about_;
+  bool version_ = false;
+};
+
+Parser::Parser() {
+  app_.get_formatter()->column_width(kHelpColumn);
+  app_.get_formatter()->label("Positionals", "Arguments");
+  app_.get_formatter()->label("Usage", "usage");
+  app_.get_formatter()->label("OPTIONS", "options");
+  app_.get_formatter()->label("SUBCOMMAND", "command");
+  app_.get_formatter()->label("REQUIRED", "");
+  app_.require_subcommand(0, 1);  // further words are names, whatever they are
+  app_.set_help_flag("-h,--help", "Show this text and stop");
+  app_.add_flag("--version", version_, "Show the library's version and formats and stop");
+  app_.footer(std::string("`tetstream help COMMAND` says more about one.\n") + kExitCodes);
+  addSimplify();
+  addInfo();
+  addConvert();
+  addGenerate();
+  addHelp();
+}
+
+CLI::App* Parser::addCommand(const char* name, const char* text, Arguments::Command command) {
+  CLI::App* added = app_.add_subcommand(name, text)->group("Commands");
+  added->footer("");
+  commands_.emplace_back(added, command);
+  return added;
+}
+
+void Parser::addIn(CLI::App* command) {
+  command->add_option("IN", arguments_.in.path, "The mesh: a file, or - for standard input")
+      ->required()
+      ->option_text(" ");
+  command
+      ->add_option("--format-in", arguments_.in.format, "Format of IN (its extension, tets for -)")
+      ->option_text("NAME");
+}
+
+void Parser::addOut(CLI::App* command) {
+  command->add_option("OUT", arguments_.out.path, "The result: a file, or - for standard output")
+      ->required()
+      ->option_text(" ");
+  const auto addProperty = [&](const char* property, const char* values, const char* text) {
+    command
+        ->add_option_function<std::string>(
+            std::string("--") + property,
+            [=, this](const std::string& value) {
+              arguments_.properties.push_back({property, value});
+            },
+            text)
+        ->option_text(values);
+  };
+  addProperty("compress", "yes|no", "Compress OUT (tets, vtu)");
+  addProperty("order", "pre|post", "Vertices before or after their cells (sva, svb)");
+}
+
+void Parser::addFormat(CLI::App* command) {
+  command
+      ->add_option("--format", format_,
+                   "Format of what is -, or of OUT if nothing is (default tets)")
+      ->option_text("NAME");
+}
+
+void Parser::addProgress(CLI::App* command) {
+  command->add_flag("--progress", arguments_.always_progress,
+                    "Show progress even where standard error is no terminal");
+  command->add_flag("--quiet", arguments_.quiet, "Say nothing but errors");
+}
+
+void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
+  const std::string name = info.name;
+  command
+      ->add_option_function<std::string>(
+          "--" + name,
+          [this, name](const std::string& word) {
+            arguments_.options.values.emplace_back(name, word);
+          },
+          helpText(info))
+      ->option_text(metavariable(info));
+}
+
+// What counts where nothing is simplified.
+void Parser::addStreamOptions(CLI::App* command) {
+  for (const tetstream_option_info& info : optionTable())
+    if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
+        info.id == TETSTREAM_OPTION_AXIS)
+      addTableOption(command, info);
+}
+
+void Parser::addSimplify() {
+  CLI::App* command = addCommand("simplify", "Make a mesh smaller, following its fields",
+                                 Arguments::Command::kSimplify);
+  addIn(command);
+  addOut(command);
+  for (tetstream_option_info info : optionTable()) {
+    // The defaults of the two targets do not hold here: one has to be given.
+    if (info.id == TETSTREAM_OPTION_RATIO || info.id == TETSTREAM_OPTION_CELLS)
+      info.default_text = nullptr;
+    addTableOption(command, info);
+  }
+  command
+      ->add_option("--field", arguments_.options.fields,
+                   "Measure this field, with that weight (default: all, with 1); may be repeated")
+      ->option_text("NAME[:WEIGHT]")
+      ->allow_extra_args(false);
+  addFormat(command);
+  command->add_option("--report", arguments_.report, "Form of the closing report (default text)")
+      ->option_text("text|json")
+      ->check(CLI::IsMember({"text", "json"}));
+  addProgress(command);
+  command->footer(std::string("One of --ratio and --cells has to be given. ") +
+                  "The report goes to standard output, or to\nstandard error if OUT is -.\n" +
+                  kExitCodes);
+}
+
+void Parser::addInfo() {
+  CLI::App* command = addCommand("info", "Say what a mesh holds, how large and how coherent it is",
+                                 Arguments::Command::kInfo);
+  command->add_option("FILE", arguments_.in.path, "The mesh: a file, or - for standard input")
+      ->required()
+      ->option_text(" ");
+  command
+      ->add_option("--format,--format-in", arguments_.in.format,
+                   "Format of FILE (its extension, tets for -)")
+      ->option_text("NAME");
+  command->add_flag("--json", arguments_.json, "Print one JSON object");
+  addStreamOptions(command);
+  addProgress(command);
+}
+
+void Parser::addConvert() {
+  CLI::App* command =
+      addCommand("convert", "Copy a mesh into another format", Arguments::Command::kConvert);
+  addIn(command);
+  addOut(command);
+  addFormat(command);
+  addStreamOptions(command);
+  addProgress(command);
+}
+
+void Parser::addGenerate() {
+  CLI::App* command =
+      addCommand("generate", "Make a mesh to try things with", Arguments::Command::kGenerate);
+  command->add_option("KIND", arguments_.kind, "fluid: a box of 1 x 1 x 4; ball: a unit ball")
+      ->required()
+      ->option_text(" ");
+  addOut(command);
+  for (tetstream_option_info info : optionTable()) {
+    if (info.id == TETSTREAM_OPTION_CELLS) {
+      info.text = "how many cells, about: 20000, 3M, 2e7";
+      info.default_text = nullptr;
+      info.minimum = 1;
+      addTableOption(command, info);
+      command->get_option("--cells")->required();
+    } else if (info.id == TETSTREAM_OPTION_SEED) {
+      info.text = "another seed gives another mesh of the same kind";
+      addTableOption(command, info);
+    }
+  }
+  addFormat(command);
+  addProgress(command);
+}
+
+void Parser::addHelp() {
+  CLI::App* command = addCommand("help", "Show the help of a command", Arguments::Command::kText);
+  command->add_option("COMMAND", help_about_, "Its name")->option_text(" ");
+}
+
+std::string Parser::helpOf(const std::string& command) {
+  if (command.empty()) return app_.get_formatter()->make_help(&app_, "tetstream", {});
+  for (const auto& [app, id] : commands_)
+    if (app->get_name() == command)
+      return app->get_formatter()->make_help(app, "tetstream " + command, {});
+  throw usageFailure("there is no command \"" + command + "\"", "");
+}
+
+// --format is for "-", on either side; if there is none, for OUT.
+void Parser::settleFormats() {
+  if (format_.empty()) return;
+  const bool any_standard = arguments_.in.isStandard() || arguments_.out.isStandard();
+  if (arguments_.in.isStandard() && arguments_.in.format.empty()) arguments_.in.format = format_;
+  if (arguments_.out.isStandard() || !any_standard) arguments_.out.format = format_;
+}
+
+// The command among the words read so far, or nothing.
+std::string Parser::chosenCommand() const {
+  const std::vector<CLI::App*> chosen = app_.get_subcommands();
+  return chosen.empty() ? "" : chosen.front()->get_name();
+}
+
+Arguments Parser::parse(int argc, const char* const* argv) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    arguments_.text = helpOf(chosenCommand());
+    return arguments_;
+  } catch (const CLI::ArgumentMismatch& error) {
+    const std::string_view what = error.what();
+    throw usageFailure(std::string(what.substr(0, what.find(':'))) + " takes one value, once",
+                       chosenCommand());
+  } catch (const CLI::ParseError& error) {
+    throw usageFailure(error.what(), chosenCommand());
+  }
+  if (version_) {
+    arguments_.text = versionText();
+    return arguments_;
+  }
+  for (const auto& [app, id] : commands_)
+    if (app->parsed()) {
+      arguments_.command = id;
+      if (id == Arguments::Command::kText) arguments_.text = helpOf(help_about_);
+      settleFormats();
+      return arguments_;
+    }
+  throw usageFailure("which command? simplify, info, convert, generate or help", "");
+}
+
+}  // namespace
+
+Arguments parseArguments(int argc, const char* const* argv) {
+  return Parser().parse(argc, argv);
+}
+
+}  // namespace tetstream::cli

@@ -1,0 +1,31 @@
+// cli: what the command line asks for. Depends on files.h, option_table.h.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "files.h"
+#include "option_table.h"
+
+namespace tetstream::cli {
+
+struct Arguments {
+  enum class Command { kText, kSimplify, kInfo, kConvert, kGenerate };
+  enum class ReportForm { kText, kJson };
+
+  Command command = Command::kText;
+  std::string text;  // kText: what to print: help, version
+  Place in, out;
+  std::vector<Property> properties;  // of the output's format
+  OptionWords options;
+  std::string kind;              // of generate
+  std::string report;            // "text", "json"; empty: not asked for
+  bool json = false;             // info
+  bool quiet = false;            // no bar, no notes, no report that was not asked for
+  bool always_progress = false;  // a bar, or lines, wherever standard error goes
+};
+
+// Throws Failure if the words make no command.
+Arguments parseArguments(int argc, const char* const* argv);
+
+}  // namespace tetstream::cli

@@ -1,0 +1,21 @@
+// cli: the commands; each returns the exit code or throws Failure. Depends on arguments.h.
+#pragma once
+
+#include "arguments.h"
+#include "failure.h"
+#include "progress.h"
+
+namespace tetstream::cli {
+
+ExitCode simplify(const Arguments& arguments);
+ExitCode info(const Arguments& arguments);
+ExitCode convert(const Arguments& arguments);
+ExitCode generate(const Arguments& arguments);
+
+// When a bar is shown, for all of them.
+ProgressBar::Show progressOf(const Arguments& arguments);
+// Says what reader and writer left out, once a run is over; a null handle has nothing to say.
+void printNotes(const Arguments& arguments, const tetstream_reader* reader,
+                const tetstream_writer* writer);
+
+}  // namespace tetstream::cli

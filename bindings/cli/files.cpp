@@ -1,0 +1,144 @@
+#include "files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "failure.h"
+#include "process.h"
+#include "text.h"
+
+namespace tetstream::cli {
+
+static constexpr const char* kStandardFormat = "tets";  // of "-": the one that holds everything
+
+[[noreturn]] static void failSystem(const std::string& path, const char* what) {
+  const int error = errno;
+  throw Failure{kIo, textOf("%s: cannot %s: %s", path.c_str(), what, std::strerror(error))};
+}
+
+static void checkDirectoryOf(const std::string& path) {
+  const size_t slash = path.find_last_of('/');
+  const std::string directory = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  struct stat info;
+  if (::stat(directory.c_str(), &info) != 0 || ::access(directory.c_str(), W_OK | X_OK) != 0)
+    failSystem(path, "create");
+}
+
+static bool isTerminal(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool terminal = ::isatty(fd) == 1;
+  ::close(fd);
+  return terminal;
+}
+
+void checkOutput(const Place& out) {
+  struct stat info;
+  bool terminal = false;
+  if (out.isStandard()) {
+    terminal = ::isatty(STDOUT_FILENO) == 1;
+  } else if (out.path.empty()) {
+    throw Failure{kUsage, "the name of the output is empty"};
+  } else if (::stat(out.path.c_str(), &info) != 0) {
+    checkDirectoryOf(out.path);
+  } else if (S_ISDIR(info.st_mode)) {
+    errno = EISDIR;
+    failSystem(out.path, "create");
+  } else if (S_ISREG(info.st_mode)) {
+    checkDirectoryOf(out.path);  // the output is written beside and renamed
+  } else {
+    terminal = S_ISCHR(info.st_mode) && isTerminal(out.path);
+  }
+  if (terminal)
+    throw Failure{kUsage,
+                  "a mesh is not written to a terminal: give a file name, or send it to a file "
+                  "or a pipe"};
+}
+
+bool isStandardOutput(const Place& out) {
+  struct stat at_path, standard;
+  return out.isStandard() ||
+         (::stat(out.path.c_str(), &at_path) == 0 && ::fstat(STDOUT_FILENO, &standard) == 0 &&
+          at_path.st_dev == standard.st_dev && at_path.st_ino == standard.st_ino);
+}
+
+bool isPipe(const Place& out) {
+  struct stat info;
+  return out.isStandard() && ::fstat(STDOUT_FILENO, &info) == 0 && S_ISFIFO(info.st_mode);
+}
+
+static const char* formatOf(const Place& place) {
+  if (!place.format.empty()) return place.format.c_str();
+  return place.isStandard() ? kStandardFormat : nullptr;
+}
+
+// The library asks the environment where no option reaches: when a reader opens.
+static void passTemporaryFolder(const tetstream_options* options) {
+  const char* folder = "";
+  check(tetstream_options_get_text(options, TETSTREAM_OPTION_TMPDIR, &folder), options);
+  if (*folder) ::setenv("TMPDIR", folder, 1);
+}
+
+Reader openReader(const Place& in, const tetstream_options* options) {
+  passTemporaryFolder(options);
+  tetstream_reader* handle = nullptr;
+  tetstream_status status;
+  if (in.isStandard()) {
+    if (::isatty(STDIN_FILENO) == 1)
+      throw Failure{kUsage, "a mesh is not read from a terminal: give a file name or a pipe"};
+    interruptTransfersOf(STDIN_FILENO);
+    status = tetstream_reader_open_fd(STDIN_FILENO, formatOf(in), &handle);
+  } else {
+    status = tetstream_reader_open_file(in.path.c_str(), formatOf(in), &handle);
+  }
+  Reader reader(handle);
+  check(status, handle);
+  return reader;
+}
+
+Reader generateReader(const std::string& kind, int64_t cells, int64_t seed) {
+  tetstream_reader* handle = nullptr;
+  const tetstream_status status = tetstream_reader_generate(kind.c_str(), cells, seed, &handle);
+  Reader reader(handle);
+  check(status, handle);
+  return reader;
+}
+
+Writer createWriter(const Place& out, const std::vector<Property>& properties) {
+  tetstream_writer* handle = nullptr;
+  tetstream_status status;
+  if (out.isStandard()) {
+    interruptTransfersOf(STDOUT_FILENO);
+    status = tetstream_writer_create_fd(STDOUT_FILENO, formatOf(out), &handle);
+  } else {
+    status = tetstream_writer_create_file(out.path.c_str(), formatOf(out), &handle);
+  }
+  Writer writer(handle);
+  check(status, handle);
+  for (const Property& p : properties)
+    check(tetstream_writer_set(handle, p.name.c_str(), p.value.c_str()), handle);
+  return writer;
+}
+
+// `note_at` gives note number i or null.
+template <class NoteAt>
+static std::vector<std::string> collectNotes(NoteAt note_at) {
+  std::vector<std::string> notes;
+  for (int32_t i = 0; const char* note = note_at(i); ++i) notes.emplace_back(note);
+  return notes;
+}
+
+std::vector<std::string> notesOf(const tetstream_reader* reader) {
+  return collectNotes([=](int32_t i) { return tetstream_reader_note(reader, i); });
+}
+
+std::vector<std::string> notesOf(const tetstream_writer* writer) {
+  return collectNotes([=](int32_t i) { return tetstream_writer_note(writer, i); });
+}
+
+}  // namespace tetstream::cli

@@ -1,0 +1,37 @@
+// cli: the two ends of a run, by name; "-" is standard input or output. Depends on handles.h.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "handles.h"
+
+namespace tetstream::cli {
+
+struct Place {
+  std::string path;
+  std::string format;  // empty: by the path's extension, or tets for "-"
+  bool isStandard() const { return path == "-"; }
+};
+
+// A property of the output's format, as for tetstream_writer_set.
+struct Property {
+  std::string name, value;
+};
+
+// Before any work: throws Failure if nothing can be written there, or a terminal would get it.
+void checkOutput(const Place& out);
+// True if what is written there comes out of standard output, whatever its name.
+bool isStandardOutput(const Place& out);
+// True if it is standard output and that is a pipe.
+bool isPipe(const Place& out);
+
+// The tmpdir option holds for a pipe that has to be spooled, too.
+Reader openReader(const Place& in, const tetstream_options* options);
+Writer createWriter(const Place& out, const std::vector<Property>& properties);
+Reader generateReader(const std::string& kind, int64_t cells, int64_t seed);
+
+std::vector<std::string> notesOf(const tetstream_reader* reader);
+std::vector<std::string> notesOf(const tetstream_writer* writer);
+
+}  // namespace tetstream::cli

@@ -1,0 +1,21 @@
+// cli: the library's handles with owners. Depends on the public header.
+#pragma once
+
+#include <tetstream/tetstream.h>
+
+#include <memory>
+
+namespace tetstream::cli {
+
+struct Destroy {
+  void operator()(tetstream_options* handle) const { tetstream_options_destroy(handle); }
+  void operator()(tetstream_reader* handle) const { tetstream_reader_destroy(handle); }
+  void operator()(tetstream_writer* handle) const { tetstream_writer_destroy(handle); }
+  void operator()(tetstream_simplifier* handle) const { tetstream_simplifier_destroy(handle); }
+};
+using Options = std::unique_ptr<tetstream_options, Destroy>;
+using Reader = std::unique_ptr<tetstream_reader, Destroy>;
+using Writer = std::unique_ptr<tetstream_writer, Destroy>;
+using Simplifier = std::unique_ptr<tetstream_simplifier, Destroy>;
+
+}  // namespace tetstream::cli

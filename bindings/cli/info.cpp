@@ -1,0 +1,140 @@
+#include "commands.h"
+#include "json.h"
+#include "text.h"
+
+namespace tetstream::cli {
+
+namespace {
+
+// Bounds of `count` numbers of the box, from `first`; none if the box is not known.
+struct Bounds {
+  const double *low = nullptr, *high = nullptr;
+  int32_t count = 0;
+};
+
+Bounds boundsAt(const tetstream_stream_info& info, int32_t first, int32_t count) {
+  if (!info.box_min || !info.box_max) return {};
+  return {info.box_min + first, info.box_max + first, count};
+}
+
+std::string boundsText(const Bounds& bounds) {
+  std::string text;
+  for (int32_t i = 0; i < bounds.count; ++i)
+    text += textOf("%s%.9g .. %.9g", i == 0 ? "" : ", ", bounds.low[i], bounds.high[i]);
+  return bounds.count == 0 ? "unknown" : text;
+}
+
+std::string columnText(const tetstream_column& column) {
+  return textOf("%s, %d x %s", oneLine(column.name).c_str(), static_cast<int>(column.components),
+                typeName(column.type).data());
+}
+
+std::string infoText(const tetstream_stream_info& info) {
+  const bool indexed = (info.flags & TETSTREAM_STREAM_INDEXED) != 0;
+  std::string text =
+      row("kind", indexed ? "indexed mesh; the front is that of its order here" : "mesh stream") +
+      row("vertices", countText(info.vertex_count)) + row("cells", countText(info.cell_count)) +
+      row("positions", std::string(typeName(info.position_type))) +
+      row("box", boundsText(boundsAt(info, 0, 3)));
+  int32_t first = 3;
+  for (int32_t i = 0; i < info.field_count; ++i) {
+    const tetstream_column& field = info.fields[i];
+    text += row("field",
+                columnText(field) + ", " + boundsText(boundsAt(info, first, field.components)));
+    first += field.components;
+  }
+  for (int32_t i = 0; i < info.cell_data_count; ++i)
+    text += row("cell array", columnText(info.cell_data[i]));
+  return text + row("front width", countText(info.front_width) + " vertices") +
+         row("front span", countText(info.front_span) + " vertices") +
+         row("front cells", countText(info.front_cells));
+}
+
+void addNumbers(JsonText& json, const char* name, const double* numbers, int32_t count) {
+  json.key(name);
+  if (!numbers) {
+    json.null();
+    return;
+  }
+  json.open('[');
+  for (int32_t i = 0; i < count; ++i) json.value(numbers[i]);
+  json.close(']');
+}
+
+void addColumn(JsonText& json, const tetstream_column& column) {
+  json.key("name").value(std::string_view(column.name));
+  json.key("components").value(column.components);
+  json.key("type").value(typeName(column.type));
+}
+
+// A count that is not known is null.
+void addCount(JsonText& json, const char* name, int64_t count) {
+  json.key(name);
+  if (count < 0)
+    json.null();
+  else
+    json.value(count);
+}
+
+void addFields(JsonText& json, const tetstream_stream_info& info) {
+  json.key("fields").open('[');
+  int32_t first = 3;
+  for (int32_t i = 0; i < info.field_count; ++i) {
+    const tetstream_column& field = info.fields[i];
+    const Bounds bounds = boundsAt(info, first, field.components);
+    json.open('{');
+    addColumn(json, field);
+    addNumbers(json, "min", bounds.low, field.components);
+    addNumbers(json, "max", bounds.high, field.components);
+    json.close('}');
+    first += field.components;
+  }
+  json.close(']');
+}
+
+std::string infoJson(const Arguments& arguments, const tetstream_stream_info& info,
+                     const std::vector<std::string>& notes) {
+  JsonText json;
+  json.open('{');
+  json.key("file").value(std::string_view(arguments.in.path));
+  json.key("indexed").value((info.flags & TETSTREAM_STREAM_INDEXED) != 0);
+  addCount(json, "vertices", info.vertex_count);
+  addCount(json, "cells", info.cell_count);
+  json.key("position_type").value(typeName(info.position_type));
+  addNumbers(json, "box_min", info.box_min, 3);
+  addNumbers(json, "box_max", info.box_max, 3);
+  addFields(json, info);
+  json.key("cell_arrays").open('[');
+  for (int32_t i = 0; i < info.cell_data_count; ++i) {
+    json.open('{');
+    addColumn(json, info.cell_data[i]);
+    json.close('}');
+  }
+  json.close(']');
+  addCount(json, "front_width", info.front_width);
+  addCount(json, "front_span", info.front_span);
+  addCount(json, "front_cells", info.front_cells);
+  json.key("notes").open('[');
+  for (const std::string& note : notes) json.value(std::string_view(note));
+  json.close(']');
+  return json.close('}').take();
+}
+
+}  // namespace
+
+ExitCode info(const Arguments& arguments) {
+  const Options options = makeOptions(arguments.options);
+  const Reader reader = openReader(arguments.in, options.get());
+  ProgressBar bar(progressOf(arguments));
+  tetstream_stream_info found = {};
+  found.struct_size = sizeof found;
+  const tetstream_status status =
+      tetstream_inspect(reader.get(), options.get(), ProgressBar::callback, &bar, &found);
+  bar.clear();
+  printNotes(arguments, reader.get(), nullptr);
+  check(status, reader.get());
+  printOut(arguments.json ? infoJson(arguments, found, notesOf(reader.get())) : infoText(found));
+  return exitCodeOf(status);
+}
+
+}  // namespace tetstream::cli

@@ -1,0 +1,17 @@
+// cli: what the command asks of the system: signals and the standard descriptors.
+#pragma once
+
+namespace tetstream::cli {
+
+// First of all: descriptors 0 to 2 are open from here on, broken pipes are errors of write, and
+// SIGINT, SIGTERM and SIGHUP are counted (unless they were ignored: nohup).
+void prepareProcess();
+
+// True after the first such signal; at the second the process ends at once.
+bool interrupted();
+
+// From here on a signal also makes pending and later transfers on that descriptor fail, so that a
+// run does not wait for a pipe whose other end is silent.
+void interruptTransfersOf(int standard_fd);
+
+}  // namespace tetstream::cli

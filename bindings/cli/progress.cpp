@@ -1,0 +1,96 @@
+#include "progress.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "process.h"
+#include "text.h"
+
+namespace tetstream::cli {
+
+// Ten a second look smooth; a log wants fewer lines.
+static constexpr std::chrono::milliseconds kRedraw{100}, kLogInterval{1000};
+static constexpr int kBarCharacters = 20;
+
+ProgressBar::ProgressBar(Show show)
+    : terminal_(::isatty(STDERR_FILENO) == 1),
+      start_(Clock::now()),
+      drawn_(start_),
+      phase_start_(start_) {
+  shown_ = show == Show::kAlways || (show == Show::kOnTerminal && terminal_);
+}
+
+int32_t ProgressBar::callback(void* user, const tetstream_progress* progress) {
+  static_cast<ProgressBar*>(user)->update(*progress);
+  return interrupted() ? 1 : 0;
+}
+
+void ProgressBar::update(const tetstream_progress& progress) {
+  if (!shown_) return;
+  const Clock::time_point now = Clock::now();
+  const char* phase = progress.phase ? progress.phase : "";
+  if (phase_ != phase) {
+    phase_ = phase;
+    phase_start_ = now;
+    phase_first_cell_ = progress.cells_read;
+  }
+  if (now - drawn_ < (terminal_ ? kRedraw : kLogInterval)) return;
+  drawn_ = now;
+  draw(lineOf(progress, now));
+}
+
+static double secondsBetween(std::chrono::steady_clock::time_point from,
+                             std::chrono::steady_clock::time_point to) {
+  return std::chrono::duration<double>(to - from).count();
+}
+
+std::string ProgressBar::lineOf(const tetstream_progress& progress, Clock::time_point now) const {
+  std::string line = phase_;
+  const double fraction = std::min(progress.fraction, 1.0);
+  if (fraction >= 0) {
+    const size_t filled = static_cast<size_t>(fraction * kBarCharacters);
+    line += textOf(" %3d%% [", static_cast<int>(fraction * 100));
+    line += std::string(filled, '#') + std::string(kBarCharacters - filled, ' ') + "]";
+  }
+  line.append(" ").append(shortCount(static_cast<double>(progress.cells_read)));
+  if (progress.cells_total >= 0)
+    line.append(" of ").append(shortCount(static_cast<double>(progress.cells_total)));
+  line += " cells";
+  const double seconds = secondsBetween(phase_start_, now);
+  const int64_t cells = progress.cells_read - phase_first_cell_;
+  if (seconds > 0 && cells > 0)
+    line.append(", ").append(shortCount(static_cast<double>(cells) / seconds)).append("/s");
+  if (fraction > 0)
+    line.append(", ETA ").append(
+        clockText(secondsBetween(start_, now) * (1 - fraction) / fraction));
+  return line;
+}
+
+static size_t terminalWidth() {
+  struct winsize size = {};
+  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
+  return size.ws_col;
+}
+
+void ProgressBar::draw(std::string line) {
+  if (!terminal_) {
+    printError("tetstream: " + line + "\n");
+    return;
+  }
+  // A line of the full width would wrap.
+  line.resize(std::min(line.size(), terminalWidth() - 1));
+  const size_t length = line.size();
+  if (length < length_) line.append(length_ - length, ' ');
+  length_ = length;
+  printError('\r' + line);
+}
+
+void ProgressBar::clear() {
+  if (length_ == 0) return;
+  printError('\r' + std::string(length_, ' ') + '\r');
+  length_ = 0;
+}
+
+}  // namespace tetstream::cli

@@ -1,0 +1,88 @@
+#include "report.h"
+
+#include "json.h"
+#include "text.h"
+
+namespace tetstream::cli {
+
+static std::string reductionText(int64_t in, int64_t out) {
+  return countText(in) + " -> " + countText(out);
+}
+
+static std::string rateText(int64_t cells, double seconds) {
+  std::string text = textOf("%.2f s", seconds);
+  if (seconds > 0) text += ", " + shortCount(static_cast<double>(cells) / seconds) + " cells/s";
+  return text;
+}
+
+static std::string frontText(const tetstream_report& r) {
+  return "width " + countText(r.front_width) + ", span " + countText(r.front_span) + ", " +
+         countText(r.front_cells) + " cells";
+}
+
+static std::string memoryText(const tetstream_report& r) {
+  const std::string window = megabytes(r.peak_window_bytes) + " of it window and order";
+  if (r.peak_resident_bytes == 0) return window;
+  return megabytes(r.peak_resident_bytes) + " at most, " + window;
+}
+
+static std::string rejectionText(const tetstream_report& r) {
+  return countText(r.rejected_orientation) + " orientation, " + countText(r.rejected_link) +
+         " topology, " + countText(r.rejected_locked) + " locked, " + countText(r.rejected_other) +
+         " other";
+}
+
+std::string reportText(const tetstream_report& r) {
+  std::string ratio;
+  if (r.cells_in > 0)
+    ratio =
+        textOf(", ratio %.4g", static_cast<double>(r.cells_out) / static_cast<double>(r.cells_in));
+  std::string text = row("cells", reductionText(r.cells_in, r.cells_out) + ratio + ", target " +
+                                      countText(r.target_cells)) +
+                     row("vertices", reductionText(r.vertices_in, r.vertices_out)) +
+                     row("time", rateText(r.cells_in, r.seconds)) + row("memory", memoryText(r)) +
+                     row("window", countText(r.window_cells) + " cells at most") +
+                     row("front", frontText(r)) + row("collapses", countText(r.collapses)) +
+                     row("rejected", rejectionText(r)) +
+                     row("largest error", textOf("%.6g", r.largest_error)) +
+                     row("regions", oneLine(r.regions ? r.regions : ""));
+  if (r.locked_cells > 0)
+    text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
+  if (r.unused_vertices > 0)
+    text += row("left out", countText(r.unused_vertices) + " vertices that are in no cell");
+  if (r.limited_by && *r.limited_by) text += row("limited by", oneLine(r.limited_by));
+  return text;
+}
+
+std::string reportJson(const tetstream_report& r, tetstream_status status) {
+  JsonText json;
+  const auto add = [&](const char* name, auto value) { json.key(name).value(value); };
+  const auto words = [](const char* text) { return std::string_view(text ? text : ""); };
+  json.open('{');
+  add("status", words(tetstream_status_name(status)));
+  add("cells_in", r.cells_in);
+  add("vertices_in", r.vertices_in);
+  add("cells_out", r.cells_out);
+  add("vertices_out", r.vertices_out);
+  add("target_cells", r.target_cells);
+  add("window_cells", r.window_cells);
+  add("front_width", r.front_width);
+  add("front_span", r.front_span);
+  add("front_cells", r.front_cells);
+  add("collapses", r.collapses);
+  add("rejected_orientation", r.rejected_orientation);
+  add("rejected_link", r.rejected_link);
+  add("rejected_locked", r.rejected_locked);
+  add("rejected_other", r.rejected_other);
+  add("locked_cells", r.locked_cells);
+  add("unused_vertices", r.unused_vertices);
+  add("largest_error", r.largest_error);
+  add("seconds", r.seconds);
+  add("peak_window_bytes", r.peak_window_bytes);
+  add("peak_resident_bytes", r.peak_resident_bytes);
+  add("regions", words(r.regions));
+  add("limited_by", words(r.limited_by));
+  return json.close('}').take();
+}
+
+}  // namespace tetstream::cli

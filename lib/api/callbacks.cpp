@@ -1,0 +1,71 @@
+#include "callbacks.h"
+
+namespace tetstream {
+
+// An exception out of `close` has nowhere to go: what was to be said about the stream was said.
+template <class Close>
+static void closeQuietly(Close close, void* user) noexcept {
+  try {
+    if (close) close(user);
+  } catch (...) {
+  }
+}
+
+// -------------------------------------------------------------------------------------- reader
+
+CallbackSource::CallbackSource(const tetstream_reader_callbacks& callbacks)
+    : callbacks_(callbacks) {
+  needPlace(reinterpret_cast<const void*>(callbacks_.open), "the callback open");
+  needPlace(reinterpret_cast<const void*>(callbacks_.next), "the callback next");
+}
+
+CallbackSource::~CallbackSource() {
+  if (opened_) closeQuietly(callbacks_.close, callbacks_.user);
+}
+
+void CallbackSource::open() {
+  opened_ = true;
+  tetstream_stream_info info = {};
+  info.struct_size = sizeof info;
+  info.vertex_count = info.cell_count = -1;
+  info.front_width = info.front_span = info.front_cells = -1;
+  callBack("reader's open", [&] { return callbacks_.open(callbacks_.user, &info); });
+  schema_ = schemaOf(info);
+  indexed_ = (info.flags & TETSTREAM_STREAM_INDEXED) != 0;
+  checker_.emplace(schema_);
+}
+
+bool CallbackSource::next(BatchView& batch) {
+  if (ended_) return false;
+  tetstream_batch filled = {};
+  filled.struct_size = sizeof filled;
+  callBack("reader's next", [&] { return callbacks_.next(callbacks_.user, &filled); });
+  batch = checker_->view(filled);
+  ended_ = batch.vertex_count == 0 && batch.cell_count == 0 && batch.finalized_count == 0;
+  return !ended_;
+}
+
+// -------------------------------------------------------------------------------------- writer
+
+CallbackSink::~CallbackSink() {
+  if (begun_) closeQuietly(callbacks_.close, callbacks_.user);
+}
+
+void CallbackSink::begin(const Schema& schema) {
+  begun_ = true;
+  if (!callbacks_.open) return;
+  const PublicSchema shown(schema, false);
+  callBack("writer's open", [&] { return callbacks_.open(callbacks_.user, &shown.info()); });
+}
+
+void CallbackSink::put(const BatchView& batch) {
+  const tetstream_batch shown = publicBatch(batch);
+  callBack("writer's put", [&] { return callbacks_.put(callbacks_.user, &shown); });
+}
+
+void CallbackSink::finish() {
+  if (!callbacks_.finish) return;
+  callBack("writer's finish", [&] { return callbacks_.finish(callbacks_.user); });
+}
+
+}  // namespace tetstream

@@ -1,0 +1,71 @@
+// api: what the public header offers without simplifying.
+#include "handles.h"
+#include "registry.h"
+
+using namespace tetstream;
+
+// From the reader to the output, which is started and stays incomplete after a failure.
+static void convertInto(Output& output, tetstream_reader& reader, const RunOptions& options,
+                        const ProgressFunction& progress) {
+  ReaderUse use(reader);
+  output.start(options.temp_dir);
+  Input rounded;
+  Input* input = &use.input();
+  if (output.mustRound(input->schema())) {
+    rounded = roundedInput(*input);
+    input = &rounded;
+  }
+  convert(*input, output, options, progress);
+  use.done();
+}
+
+tetstream_status tetstream_convert(tetstream_reader* reader, tetstream_writer* writer,
+                                   const tetstream_options* options,
+                                   tetstream_progress_callback progress, void* user) {
+  return guard(__func__, writer, [&](tetstream_writer& w) {
+    needPlace(reader, "reader");
+    needState(*reader, State::kReady);
+    Output& output = outputOf(w);
+    output.needReady();
+    const RunOptions run = runOptionsOf(options);
+    const Busy busy(w);
+    try {
+      convertInto(output, *reader, run, progressOf(progress, user));
+    } catch (...) {
+      output.stop(State::kBroken);
+      throw;
+    }
+    output.complete();
+  });
+}
+
+tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_options* options,
+                                   tetstream_progress_callback progress, void* user,
+                                   tetstream_stream_info* info) {
+  return guard(__func__, reader, [&](tetstream_reader& r) {
+    checkStruct(info, "info");
+    const RunOptions run = runOptionsOf(options);
+    ReaderUse use(r);
+    const bool indexed = (r.known->info().flags & TETSTREAM_STREAM_INDEXED) != 0;
+    const Schema schema = inspect(use.input(), run, progressOf(progress, user));
+    r.inspected = std::make_unique<const PublicSchema>(schema, indexed);
+    writeStruct(info, r.inspected->info());
+    use.done();
+  });
+}
+
+tetstream_status tetstream_format_at(int32_t index, const char** name, const char** extensions,
+                                     const char** text, int32_t* can_read, int32_t* can_write) {
+  return guard([&] {
+    size_t count = 0;
+    const Format* rows = formats(&count);
+    if (index < 0 || static_cast<size_t>(index) >= count)
+      fail(Status::kBadArgument, "there is no format %d", index);
+    const Format& row = rows[index];
+    if (name) *name = row.name;
+    if (extensions) *extensions = row.extensions;
+    if (text) *text = row.text;
+    if (can_read) *can_read = row.open != nullptr;
+    if (can_write) *can_write = row.create != nullptr;
+  });
+}

@@ -1,0 +1,83 @@
+#include "handles.h"
+
+#include <iterator>
+
+namespace tetstream {
+
+Output& outputOf(const tetstream_writer& writer) {
+  if (!writer.output) failState(writer.kNoun, writer.state);
+  return *writer.output;
+}
+
+const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept {
+  if (index < 0 || static_cast<size_t>(index) >= notes.size()) return nullptr;
+  return std::next(notes.begin(), index)->c_str();
+}
+
+static void closeInput(tetstream_reader& reader) noexcept {
+  reader.callbacks = nullptr;
+  reader.input.stream.reset();
+  reader.input.indexed.reset();
+}
+
+void openReader(tetstream_reader& reader) {
+  if (reader.known) return;
+  try {
+    const Busy busy(reader);
+    if (reader.callbacks) reader.callbacks->open();
+    const bool indexed = reader.input.indexed || (reader.callbacks && reader.callbacks->indexed());
+    reader.known = std::make_unique<const PublicSchema>(reader.input.schema(), indexed);
+  } catch (...) {
+    closeInput(reader);
+    reader.state = State::kBroken;
+    throw;
+  }
+}
+
+ReaderUse::ReaderUse(tetstream_reader& reader) : reader_(reader) {
+  needState(reader, State::kReady);
+  openReader(reader);
+  reader.state = State::kRunning;
+  reader.busy = true;
+}
+
+ReaderUse::~ReaderUse() {
+  closeInput(reader_);
+  reader_.busy = false;
+  reader_.state = done_ ? State::kFinished : State::kBroken;
+}
+
+ProgressFunction progressOf(tetstream_progress_callback callback, void* user) {
+  if (!callback) return {};
+  return [callback, user](const Progress& progress) {
+    tetstream_progress shown = {};
+    shown.struct_size = sizeof shown;
+    shown.cells_read = progress.cells_read;
+    shown.cells_total = progress.cells_total;
+    shown.cells_written = progress.cells_written;
+    shown.fraction = progress.fraction;
+    shown.phase = progress.phase;
+    int32_t value = 0;
+    try {
+      value = callback(user, &shown);
+    } catch (...) {
+      fail(Status::kCallback, "an exception left the progress callback");
+    }
+    if (value != 0) fail(Status::kCancelled, "the progress callback returned %d", value);
+  };
+}
+
+RunOptions runOptionsOf(const tetstream_options* options) {
+  if (!options) return OptionValues().runOptions();
+  needState(*options, State::kReady);
+  return options->values->runOptions();
+}
+
+Input roundedInput(const Input& input) {
+  Input rounded;
+  if (input.stream) rounded.stream = std::make_unique<RoundingSource>(*input.stream);
+  if (input.indexed) rounded.indexed = std::make_unique<RoundingIndexedSource>(*input.indexed);
+  return rounded;
+}
+
+}  // namespace tetstream

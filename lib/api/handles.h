@@ -1,0 +1,101 @@
+// api: what the opaque handles hold. Depends on run.h, registry.h, option_values.h, callbacks.h.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "callbacks.h"
+#include "guard.h"
+#include "option_values.h"
+#include "output.h"
+#include "rounding_source.h"
+#include "structs.h"
+
+struct tetstream_options : tetstream::Handle {
+  static constexpr const char* kNoun = "handle of options";
+  std::optional<tetstream::OptionValues> values;
+};
+
+struct tetstream_reader : tetstream::Handle {
+  static constexpr const char* kNoun = "reader";
+  tetstream::Input input;
+  tetstream::CallbackSource* callbacks = nullptr;  // input.stream, where that is the caller's
+  std::unique_ptr<const tetstream::PublicSchema> known;
+  std::unique_ptr<const tetstream::PublicSchema> inspected;
+  std::list<std::string> notes;
+};
+
+struct tetstream_writer : tetstream::Handle {
+  static constexpr const char* kNoun = "writer";
+  std::shared_ptr<tetstream::Output> output;
+};
+
+struct tetstream_simplifier : tetstream::Handle {
+  static constexpr const char* kNoun = "simplifier";
+  tetstream::RunOptions options;
+  // Shared with the writer, so that the handles can be destroyed in any order.
+  std::shared_ptr<tetstream::Output> output;
+  tetstream_progress_callback progress = nullptr;
+  void* progress_user = nullptr;
+  std::unique_ptr<tetstream::SimplifyRun> run;
+  std::optional<tetstream::BatchChecker> batches;  // of a push stream
+  std::optional<tetstream::Rounding> rounding;     // of a push stream
+  mutable tetstream::Report report;
+};
+
+namespace tetstream {
+
+// Throws kBadState if the writer could not be created.
+Output& outputOf(const tetstream_writer& writer);
+
+// Note `index`, or null.
+const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept;
+
+// The caller's reader is opened and what is known of its stream stored. Then and at once for all
+// others, `known` is set.
+void openReader(tetstream_reader& reader);
+
+// One reading of a reader: throws kBadState unless it is the first. When it ends, the reader's
+// input is closed; it has finished if done() was called, and failed otherwise.
+class ReaderUse {
+ public:
+  explicit ReaderUse(tetstream_reader& reader);
+  ~ReaderUse();
+  ReaderUse(const ReaderUse&) = delete;
+  ReaderUse& operator=(const ReaderUse&) = delete;
+
+  Input& input() { return reader_.input; }
+  // An indexed mesh that comes as a stream of the caller's, and must be collected.
+  bool toBeCollected() const { return reader_.callbacks && reader_.callbacks->indexed(); }
+  void done() { done_ = true; }
+
+ private:
+  tetstream_reader& reader_;
+  bool done_ = false;
+};
+
+// True while a handle is inside a call that runs callbacks.
+class Busy {
+ public:
+  explicit Busy(Handle& handle) : handle_(handle) { handle_.busy = true; }
+  ~Busy() { handle_.busy = false; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  Handle& handle_;
+};
+
+// The same mesh with its floats rounded; borrows `input`.
+Input roundedInput(const Input& input);
+
+// Empty if there is no callback.
+ProgressFunction progressOf(tetstream_progress_callback callback, void* user);
+
+// The options of a handle; the defaults for NULL. Throws kBadState.
+RunOptions runOptionsOf(const tetstream_options* options);
+
+}  // namespace tetstream

@@ -1,0 +1,122 @@
+#include "output.h"
+
+#include "rounding_source.h"
+
+namespace tetstream {
+
+const Format& writtenFormat(const std::string& name, const std::string& path) {
+  const Format& format = needFormat(name, path);
+  if (!format.create)
+    fail(Status::kUnsupported, "the format \"%s\" is read, but not written", format.name);
+  return format;
+}
+
+Output::Output(const tetstream_writer_callbacks& callbacks) : callbacks_(callbacks) {
+  needPlace(reinterpret_cast<const void*>(callbacks_.put), "the callback put");
+}
+
+Output::Output(const Format& format, std::unique_ptr<ByteSink> bytes)
+    : format_(&format), bytes_(std::move(bytes)) {}
+
+Output::Output(const Format& format) : format_(&format), in_memory_(true) {
+  bytes_ = createMemory(memory_);
+}
+
+void Output::needReady() const {
+  if (state_ != State::kReady) failState("writer", state_);
+}
+
+void Output::needRunning() const {
+  if (state_ != State::kRunning) failState("writer", state_);
+}
+
+// ---------------------------------------------------------------------------------- properties
+
+namespace {
+
+// A property of some formats, with its two values; the first one sets the member to true.
+struct Property {
+  const char *name, *yes, *no;
+  const char* formats[3];
+  bool WriteOptions::*member;
+};
+
+constexpr Property kProperties[] = {
+    {"compress", "yes", "no", {"tets", "vtu", nullptr}, &WriteOptions::compress},
+    {"order", "post", "pre", {"sva", "svb", nullptr}, &WriteOptions::post_order},
+};
+
+}  // namespace
+
+static bool has(const Property& property, const Format& format) {
+  for (const char* const* name = property.formats; *name; ++name)
+    if (format.name == std::string(*name)) return true;
+  return false;
+}
+
+void Output::set(const std::string& property, const std::string& value) {
+  needReady();
+  for (const Property& p : kProperties) {
+    if (!format_ || property != p.name || !has(p, *format_)) continue;
+    if (value != p.yes && value != p.no)
+      fail(Status::kBadArgument, "property \"%s\": \"%s\" is neither \"%s\" nor \"%s\"", p.name,
+           value.c_str(), p.yes, p.no);
+    options_.*p.member = value == p.yes;
+    return;
+  }
+  fail(Status::kBadArgument, "%s%s has no property \"%s\"", format_ ? "the format " : "a writer",
+       format_ ? format_->name : " of callbacks", property.c_str());
+}
+
+// ------------------------------------------------------------------------------------ the stream
+
+static std::string roundedNames(const Schema& schema) {
+  std::string names = schema.position_type == ScalarType::kFloat64 ? "the positions" : "";
+  for (const Column& c : schema.fields)
+    if (c.type == ScalarType::kFloat64) names += (names.empty() ? "\"" : ", \"") + c.name + "\"";
+  return names;
+}
+
+bool Output::mustRound(const Schema& schema) {
+  if (!format_ || format_->holds.float64 || !Rounding::needed(schema)) return false;
+  notes_.push_back("rounded to float32, which is all that ." + std::string(format_->name) +
+                   " holds: " + roundedNames(schema));
+  return true;
+}
+
+void Output::start(const std::string& temp_dir) {
+  needReady();
+  if (format_) {
+    options_.temp_dir = temp_dir;
+    options_.note = [this](const std::string& note) { notes_.push_back(note); };
+    sink_ = format_->create(std::move(bytes_), options_);
+  } else {
+    sink_ = std::make_unique<CallbackSink>(callbacks_);
+  }
+  state_ = State::kRunning;
+}
+
+Sink& Output::sink() {
+  if (!sink_) failState("writer", state_);
+  return *sink_;
+}
+
+void Output::complete() {
+  state_ = State::kFinished;
+  sink_.reset();
+}
+
+void Output::stop(State state) noexcept {
+  if (state_ == State::kBroken || state_ == State::kDestroyed) return;
+  state_ = state;
+  sink_.reset();
+  bytes_.reset();
+}
+
+const std::vector<unsigned char>& Output::memory() const {
+  if (!in_memory_) fail(Status::kBadState, "the writer does not write to memory");
+  if (state_ != State::kFinished) failState("writer", state_);
+  return memory_;
+}
+
+}  // namespace tetstream

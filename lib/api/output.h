@@ -1,0 +1,62 @@
+// api: where one stream goes: the part of a writer that outlives its handle while a simplifier
+// still uses it. Depends on registry.h, callbacks.h.
+#pragma once
+
+#include <list>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "callbacks.h"
+#include "guard.h"
+#include "registry.h"
+
+namespace tetstream {
+
+// The row of a format, by its name or the path's extension; throws kUnsupported if it is not
+// written.
+const Format& writtenFormat(const std::string& name, const std::string& path);
+
+// The states: kReady, kRunning from start to complete, then kFinished; kBroken and kDestroyed
+// close everything that was open, and leave nothing under a final name.
+class Output final : public Sink {
+ public:
+  explicit Output(const tetstream_writer_callbacks& callbacks);
+  Output(const Format& format, std::unique_ptr<ByteSink> bytes);
+  explicit Output(const Format& format);  // into memory
+  // `options_` and the sink point into the object.
+  Output(const Output&) = delete;
+  Output& operator=(const Output&) = delete;
+
+  State state() const { return state_; }
+  void needReady() const;  // throw kBadState
+  void needRunning() const;
+  void set(const std::string& property, const std::string& value);
+  const std::vector<unsigned char>& memory() const;  // throws kBadState
+  const std::list<std::string>& notes() const { return notes_; }
+  // The schema cannot be held as it is: its floats must be rounded before anything is decided on
+  // them. If so, that is noted.
+  bool mustRound(const Schema& schema);
+
+  void start(const std::string& temp_dir);
+  void begin(const Schema& schema) override { sink().begin(schema); }
+  void put(const BatchView& batch) override { sink().put(batch); }
+  void finish() override { sink().finish(); }
+  void complete();
+  void stop(State state) noexcept;  // kBroken or kDestroyed, unless it is one of them already
+
+ private:
+  Sink& sink();
+
+  State state_ = State::kReady;
+  const Format* format_ = nullptr;  // null: callbacks
+  tetstream_writer_callbacks callbacks_ = {};
+  bool in_memory_ = false;
+  std::vector<unsigned char> memory_;
+  std::unique_ptr<ByteSink> bytes_;
+  WriteOptions options_;
+  std::list<std::string> notes_;
+  std::unique_ptr<Sink> sink_;
+};
+
+}  // namespace tetstream

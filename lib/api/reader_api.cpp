@@ -1,0 +1,104 @@
+// api: readers of the public header.
+#include "generate.h"
+#include "handles.h"
+#include "memory_source.h"
+#include "registry.h"
+
+using namespace tetstream;
+
+static std::string textOrEmpty(const char* text) {
+  return text ? text : "";
+}
+
+// Opens the bytes as `format` and reads the header.
+static void openBytes(tetstream_reader& reader, const Format& format,
+                      std::unique_ptr<ByteSource> bytes) {
+  if (!format.open)
+    fail(Status::kUnsupported, "the format \"%s\" is written, but not read", format.name);
+  if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), "");
+  ReadOptions options;
+  options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
+  reader.input = format.open(std::move(bytes), options);
+  openReader(reader);
+}
+
+tetstream_status tetstream_reader_create(const tetstream_reader_callbacks* callbacks,
+                                         tetstream_reader** reader) {
+  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+    auto source = std::make_unique<CallbackSource>(readStruct(callbacks, "callbacks"));
+    r.callbacks = source.get();
+    r.input.stream = std::move(source);
+  });
+}
+
+tetstream_status tetstream_reader_open_file(const char* path, const char* format,
+                                            tetstream_reader** reader) {
+  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+    needPlace(path, "path");
+    const Format& found = needFormat(textOrEmpty(format), path);
+    openBytes(r, found, openFile(path));
+  });
+}
+
+tetstream_status tetstream_reader_open_fd(int32_t fd, const char* format,
+                                          tetstream_reader** reader) {
+  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+    needPlace(format, "format");
+    const Format& found = needFormat(format, "");
+    openBytes(r, found, openDescriptor(fd, textOf("descriptor %d", fd)));
+  });
+}
+
+tetstream_status tetstream_reader_open_memory(const void* data, size_t size, const char* format,
+                                              tetstream_reader** reader) {
+  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+    needPlace(format, "format");
+    if (size > 0) needPlace(data, "data");
+    const Format& found = needFormat(format, "");
+    openBytes(r, found, openMemory(data, size, "memory"));
+  });
+}
+
+tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,
+                                            const tetstream_batch* mesh,
+                                            tetstream_reader** reader) {
+  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+    Schema schema = schemaOf(readStruct(info, "info"));
+    tetstream_batch batch = readStruct(mesh, "mesh");
+    batch.last_uses = nullptr;
+    batch.finalized_count = 0;
+    const BatchView view = BatchChecker(schema).view(batch);
+    r.input.indexed = std::make_unique<MemorySource>(schema, view);
+    openReader(r);
+  });
+}
+
+tetstream_status tetstream_reader_generate(const char* kind, int64_t cells, int64_t seed,
+                                           tetstream_reader** reader) {
+  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+    needPlace(kind, "kind");
+    r.input.stream = generate(kind, cells, seed);
+    openReader(r);
+  });
+}
+
+void tetstream_reader_destroy(tetstream_reader* reader) {
+  delete reader;
+}
+
+tetstream_status tetstream_reader_get_info(tetstream_reader* reader, tetstream_stream_info* info) {
+  return guard(__func__, reader, [&](tetstream_reader& r) {
+    checkStruct(info, "info");
+    if (r.state == State::kReady) openReader(r);
+    if (!r.known) failState(r.kNoun, r.state);
+    writeStruct(info, (r.inspected ? r.inspected : r.known)->info());
+  });
+}
+
+const char* tetstream_reader_note(const tetstream_reader* reader, int32_t index) {
+  return reader ? noteOf(reader->notes, index) : nullptr;
+}
+
+const char* tetstream_reader_message(const tetstream_reader* reader) {
+  return messageOf(reader);
+}

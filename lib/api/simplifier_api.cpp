@@ -1,0 +1,205 @@
+// api: simplifiers of the public header.
+#include "handles.h"
+#include "memory.h"
+
+using namespace tetstream;
+
+// --------------------------------------------------------------------- what the functions share
+
+// The run's end, however it came about: its report stays with the handle, its memory goes.
+static void dropRun(tetstream_simplifier& s) noexcept {
+  if (!s.run) return;
+  try {
+    s.report = s.run->report();
+  } catch (...) {
+    // note: without memory for two sentences, the report of the last call stays.
+  }
+  s.run.reset();
+}
+
+// Runs a body that reads or writes the stream; what leaves it as an exception breaks the handle.
+template <class Body>
+static tetstream_status inStream(tetstream_simplifier& s, Body&& body) {
+  const Busy busy(s);
+  try {
+    return statusOf(body);
+  } catch (...) {
+    dropRun(s);
+    s.output->stop(State::kBroken);
+    s.state = State::kBroken;
+    throw;
+  }
+}
+
+static void startRun(tetstream_simplifier& s) {
+  s.output->start(s.options.temp_dir);
+  s.run =
+      std::make_unique<SimplifyRun>(s.options, *s.output, progressOf(s.progress, s.progress_user));
+}
+
+static Status endRun(tetstream_simplifier& s) {
+  s.report = s.run->report();
+  s.run.reset();
+  s.output->complete();
+  s.state = State::kFinished;
+  return s.report.limited_by.empty() ? Status::kOk : Status::kTargetMissed;
+}
+
+// An indexed mesh that comes in batches goes the way of a pushed one.
+static void pushAll(SimplifyRun& run, Source& source) {
+  run.begin(source.schema(), true);
+  BatchView batch;
+  while (source.next(batch)) run.put(batch);
+  run.finish();
+}
+
+static Status pull(tetstream_simplifier& s, tetstream_reader& reader) {
+  ReaderUse use(reader);
+  startRun(s);
+  // The run goes before what it reads from, also after a failure.
+  struct Scope {
+    tetstream_simplifier& s;
+    ~Scope() { dropRun(s); }
+  };
+  Input rounded;
+  const Scope scope{s};
+  Input* input = &use.input();
+  if (s.output->mustRound(input->schema())) {
+    rounded = roundedInput(*input);
+    input = &rounded;
+  }
+  if (use.toBeCollected())
+    pushAll(*s.run, *input->stream);
+  else
+    s.run->run(*input);
+  use.done();
+  return endRun(s);
+}
+
+static void push(tetstream_simplifier& s, const tetstream_batch& batch) {
+  BatchView view = s.batches->view(batch);
+  if (s.rounding) view = s.rounding->round(view);
+  s.run->put(view);
+}
+
+// ------------------------------------------------------------------------------- the functions
+
+tetstream_status tetstream_simplifier_create(const tetstream_options* options,
+                                             tetstream_writer* writer,
+                                             tetstream_simplifier** simplifier) {
+  return guardCreate(__func__, simplifier, [&](tetstream_simplifier& s) {
+    needPlace(writer, "writer");
+    outputOf(*writer).needReady();
+    s.options = runOptionsOf(options);
+    s.output = writer->output;
+  });
+}
+
+void tetstream_simplifier_destroy(tetstream_simplifier* simplifier) {
+  if (simplifier && simplifier->state == State::kRunning) {
+    simplifier->run.reset();
+    simplifier->output->stop(State::kBroken);
+  }
+  delete simplifier;
+}
+
+tetstream_status tetstream_simplifier_set_progress(tetstream_simplifier* simplifier,
+                                                   tetstream_progress_callback progress,
+                                                   void* user) {
+  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
+    needState(s, State::kReady);
+    s.progress = progress;
+    s.progress_user = user;
+  });
+}
+
+tetstream_status tetstream_simplifier_run(tetstream_simplifier* simplifier,
+                                          tetstream_reader* reader) {
+  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
+    needState(s, State::kReady);
+    needPlace(reader, "reader");
+    needState(*reader, State::kReady);
+    s.output->needReady();
+    return static_cast<Status>(inStream(s, [&] { return pull(s, *reader); }));
+  });
+}
+
+tetstream_status tetstream_simplifier_begin(tetstream_simplifier* simplifier,
+                                            const tetstream_stream_info* info) {
+  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
+    needState(s, State::kReady);
+    const tetstream_stream_info stream = readStruct(info, "info");
+    const Schema schema = schemaOf(stream);
+    s.output->needReady();
+    return static_cast<Status>(inStream(s, [&] {
+      startRun(s);
+      s.batches.emplace(schema);
+      if (s.output->mustRound(schema)) s.rounding.emplace(schema);
+      s.run->begin(s.rounding ? s.rounding->schema() : schema,
+                   (stream.flags & TETSTREAM_STREAM_INDEXED) != 0);
+      s.state = State::kRunning;
+    }));
+  });
+}
+
+tetstream_status tetstream_simplifier_push(tetstream_simplifier* simplifier,
+                                           const tetstream_batch* batch) {
+  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
+    needState(s, State::kRunning);
+    s.output->needRunning();
+    const tetstream_batch events = readStruct(batch, "batch");
+    return static_cast<Status>(inStream(s, [&] { push(s, events); }));
+  });
+}
+
+tetstream_status tetstream_simplifier_finish(tetstream_simplifier* simplifier) {
+  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
+    needState(s, State::kRunning);
+    s.output->needRunning();
+    return static_cast<Status>(inStream(s, [&] {
+      s.run->finish();
+      return endRun(s);
+    }));
+  });
+}
+
+static tetstream_report publicReport(const Report& report) {
+  tetstream_report out = {};
+  out.cells_in = report.cells_in;
+  out.vertices_in = report.vertices_in;
+  out.cells_out = report.cells_out;
+  out.vertices_out = report.vertices_out;
+  out.target_cells = report.target_cells;
+  out.window_cells = report.window_cells;
+  out.front_width = report.front_width;
+  out.front_span = report.front_span;
+  out.front_cells = report.front_cells;
+  out.collapses = report.collapses;
+  out.rejected_orientation = report.rejected_orientation;
+  out.rejected_link = report.rejected_link;
+  out.rejected_locked = report.rejected_locked;
+  out.rejected_other = report.rejected_other;
+  out.locked_cells = report.locked_cells;
+  out.unused_vertices = report.unused_vertices;
+  out.largest_error = report.largest_error;
+  out.seconds = report.seconds;
+  out.peak_window_bytes = report.peak_window_bytes;
+  out.peak_resident_bytes = peakResidentBytes();
+  out.regions = report.regions.c_str();
+  out.limited_by = report.limited_by.c_str();
+  return out;
+}
+
+tetstream_status tetstream_simplifier_get_report(const tetstream_simplifier* simplifier,
+                                                 tetstream_report* report) {
+  return guard(__func__, simplifier, [&](const tetstream_simplifier& s) {
+    checkStruct(report, "report");
+    if (s.state == State::kFailed) failState(s.kNoun, s.state);
+    if (s.run) s.report = s.run->report();
+    writeStruct(report, publicReport(s.report));
+  });
+}
+
+const char* tetstream_simplifier_message(const tetstream_simplifier* simplifier) {
+  return messageOf(simplifier);
+}

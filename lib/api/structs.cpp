@@ -1,0 +1,183 @@
+#include "structs.h"
+
+#include <cmath>
+
+namespace tetstream {
+
+static_assert(static_cast<int32_t>(ScalarType::kFloat32) == TETSTREAM_TYPE_FLOAT32);
+static_assert(static_cast<int32_t>(ScalarType::kFloat64) == TETSTREAM_TYPE_FLOAT64);
+static_assert(static_cast<int32_t>(ScalarType::kInt32) == TETSTREAM_TYPE_INT32);
+static_assert(static_cast<int32_t>(ScalarType::kInt64) == TETSTREAM_TYPE_INT64);
+
+// More columns than this are a struct that was not filled in.
+static constexpr int32_t kMaxColumns = 65535;
+
+void failStruct(const char* argument, size_t size, size_t needed) {
+  fail(Status::kBadArgument, "%s: its struct_size is %zu, at least %zu is needed", argument, size,
+       needed);
+}
+
+// ------------------------------------------------------------------------------------- schemas
+
+static std::vector<Column> columnsOf(const tetstream_column* columns, int32_t count,
+                                     const char* kind) {
+  if (count < 0 || count > kMaxColumns)
+    fail(Status::kBadArgument, "info: %d is no possible number of %ss", count, kind);
+  if (count > 0 && !columns) fail(Status::kBadArgument, "info: the %ss are NULL", kind);
+  std::vector<Column> out;
+  for (int32_t i = 0; i < count; ++i) {
+    if (!columns[i].name) fail(Status::kBadArgument, "info: %s %d: its name is NULL", kind, i);
+    // note: the length is bounded, a name without an end is not followed to one.
+    const size_t length = strnlen(columns[i].name, 256);
+    out.push_back({std::string(columns[i].name, length), columns[i].components,
+                   static_cast<ScalarType>(columns[i].type)});
+  }
+  return out;
+}
+
+static int64_t knownOrMinusOne(int64_t count) {
+  return count > 0 ? count : -1;
+}
+
+static void takeBox(const tetstream_stream_info& info, Schema& schema) {
+  if (!info.box_min && !info.box_max) return;
+  if (!info.box_min || !info.box_max)
+    fail(Status::kBadArgument, "info: of box_min and box_max one is NULL");
+  const size_t size = schema.boxSize();
+  for (size_t i = 0; i < size; ++i)
+    if (!(std::isfinite(info.box_min[i]) && std::isfinite(info.box_max[i]) &&
+          info.box_min[i] <= info.box_max[i]))
+      fail(Status::kBadArgument, "info: entry %zu of the box is not finite or upside down", i);
+  schema.box_min.assign(info.box_min, info.box_min + size);
+  schema.box_max.assign(info.box_max, info.box_max + size);
+}
+
+Schema schemaOf(const tetstream_stream_info& info) {
+  if (info.flags & ~static_cast<uint32_t>(TETSTREAM_STREAM_INDEXED))
+    fail(Status::kBadArgument, "info: the flags 0x%x are not all known", info.flags);
+  Schema schema;
+  schema.position_type = static_cast<ScalarType>(info.position_type);
+  schema.fields = columnsOf(info.fields, info.field_count, "field");
+  schema.cell_data = columnsOf(info.cell_data, info.cell_data_count, "cell array");
+  checkSchema(schema);
+  schema.vertex_count = knownOrMinusOne(info.vertex_count);
+  schema.cell_count = knownOrMinusOne(info.cell_count);
+  schema.front_width = knownOrMinusOne(info.front_width);
+  schema.front_span = knownOrMinusOne(info.front_span);
+  schema.front_cells = knownOrMinusOne(info.front_cells);
+  takeBox(info, schema);
+  return schema;
+}
+
+static std::vector<tetstream_column> publicColumns(const std::vector<Column>& columns) {
+  std::vector<tetstream_column> out;
+  for (const Column& c : columns)
+    out.push_back({c.name.c_str(), c.components, static_cast<int32_t>(c.type)});
+  return out;
+}
+
+PublicSchema::PublicSchema(const Schema& schema, bool indexed)
+    : schema_(schema),
+      fields_(publicColumns(schema_.fields)),
+      cell_data_(publicColumns(schema_.cell_data)) {
+  info_.struct_size = sizeof info_;
+  info_.position_type = static_cast<int32_t>(schema_.position_type);
+  info_.flags = indexed ? TETSTREAM_STREAM_INDEXED : 0;
+  info_.field_count = static_cast<int32_t>(fields_.size());
+  info_.cell_data_count = static_cast<int32_t>(cell_data_.size());
+  info_.fields = fields_.empty() ? nullptr : fields_.data();
+  info_.cell_data = cell_data_.empty() ? nullptr : cell_data_.data();
+  info_.vertex_count = schema_.vertex_count;
+  info_.cell_count = schema_.cell_count;
+  info_.front_width = schema_.front_width;
+  info_.front_span = schema_.front_span;
+  info_.front_cells = schema_.front_cells;
+  info_.box_min = schema_.hasBox() ? schema_.box_min.data() : nullptr;
+  info_.box_max = schema_.hasBox() ? schema_.box_max.data() : nullptr;
+}
+
+// ------------------------------------------------------------------------------------- batches
+
+namespace {
+
+// The parts of a sentence about one batch.
+struct Place {
+  unsigned long long batch;
+  [[noreturn]] void failNull(const char* what, size_t column) const {
+    fail(Status::kBadData, "batch %llu: the pointer to %s %zu is NULL", batch, what, column);
+  }
+  void need(const void* pointer, const char* what, int64_t count) const {
+    if (count > 0 && !pointer)
+      fail(Status::kBadData, "batch %llu: %lld %s are announced, their pointer is NULL", batch,
+           static_cast<long long>(count), what);
+  }
+  size_t count(int64_t count, const char* what) const {
+    if (count < 0)
+      fail(Status::kBadData, "batch %llu: the number of %s is %lld", batch, what,
+           static_cast<long long>(count));
+    return static_cast<size_t>(count);
+  }
+};
+
+}  // namespace
+
+static void checkColumns(const void* const* columns, size_t count, int64_t rows, const char* what,
+                         const Place& place) {
+  if (rows == 0 || count == 0) return;
+  if (!columns) place.failNull(what, 0);
+  for (size_t i = 0; i < count; ++i)
+    if (!columns[i]) place.failNull(what, i);
+}
+
+static void checkLastUses(const uint8_t* last_uses, size_t count, const Place& place) {
+  if (!last_uses) return;
+  for (size_t i = 0; i < count; ++i)
+    if (last_uses[i] > 15)
+      fail(Status::kBadData, "batch %llu: last_uses of its cell %zu is %d, at most 15 is possible",
+           place.batch, i, last_uses[i]);
+}
+
+BatchView BatchChecker::view(const tetstream_batch& batch) {
+  const Place place{batches_};
+  BatchView v;
+  v.first_vertex = vertices_;
+  v.vertex_count = place.count(batch.vertex_count, "vertices");
+  v.cell_count = place.count(batch.cell_count, "cells");
+  v.finalized_count = place.count(batch.finalized_count, "finalized vertices");
+  place.need(batch.positions, "positions", batch.vertex_count);
+  place.need(batch.cells, "cells", batch.cell_count);
+  place.need(batch.finalized, "finalized vertices", batch.finalized_count);
+  checkColumns(batch.fields, fields_, batch.vertex_count, "field", place);
+  checkColumns(batch.cell_data, cell_data_, batch.cell_count, "cell array", place);
+  checkLastUses(batch.last_uses, v.cell_count, place);
+  if (batch.vertex_count > INT64_MAX - static_cast<int64_t>(vertices_))
+    fail(Status::kBadData, "batch %llu: more vertices than 64 bits can number", place.batch);
+  v.positions = batch.positions;
+  v.fields = batch.fields;
+  v.locked = batch.locked;
+  v.cells = batch.cells;
+  v.last_uses = batch.last_uses;
+  v.cell_data = batch.cell_data;
+  v.finalized = batch.finalized;
+  vertices_ += v.vertex_count;
+  ++batches_;
+  return v;
+}
+
+tetstream_batch publicBatch(const BatchView& view) {
+  tetstream_batch b = {};
+  b.struct_size = sizeof b;
+  b.vertex_count = static_cast<int64_t>(view.vertex_count);
+  b.positions = view.positions;
+  b.fields = view.fields;
+  b.locked = view.locked;
+  b.cell_count = static_cast<int64_t>(view.cell_count);
+  b.cells = view.cells;
+  b.last_uses = view.last_uses;
+  b.cell_data = view.cell_data;
+  b.finalized_count = static_cast<int64_t>(view.finalized_count);
+  b.finalized = view.finalized;
+  return b;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,68 @@
+#include "sv_bytes.h"
+
+#include <cstring>
+
+namespace tetstream {
+
+// One read; large enough that the calls do not count, small against the 2 MB of an L2 cache.
+static constexpr size_t kReadBytes = 1 << 16;
+
+namespace {
+
+// A source whose first bytes have been read already.
+class PrefixedSource final : public ByteSource {
+ public:
+  PrefixedSource(std::vector<unsigned char> prefix, std::unique_ptr<ByteSource> rest)
+      : ByteSource(rest->name()), prefix_(std::move(prefix)), rest_(std::move(rest)) {}
+  size_t read(void* out, size_t size) override {
+    if (place_ == prefix_.size()) return rest_->read(out, size);
+    const size_t got = size < prefix_.size() - place_ ? size : prefix_.size() - place_;
+    if (got) std::memcpy(out, prefix_.data() + place_, got);
+    place_ += got;
+    return got;
+  }
+  size_t readAt(uint64_t, void*, size_t) override { return 0; }
+  bool seekable() const override { return false; }
+  uint64_t size() const override { return 0; }
+
+ private:
+  std::vector<unsigned char> prefix_;
+  size_t place_ = 0;
+  std::unique_ptr<ByteSource> rest_;
+};
+
+}  // namespace
+
+SvBytes::SvBytes(std::unique_ptr<ByteSource> source) : source_(std::move(source)) {
+  buffer_.reserve(2 * kReadBytes);  // so that data() is never null
+}
+
+bool SvBytes::more() {
+  if (begin_ > 0) {
+    buffer_.erase(buffer_.begin(), buffer_.begin() + static_cast<std::ptrdiff_t>(begin_));
+    begin_ = 0;
+  }
+  const size_t before = buffer_.size();
+  buffer_.resize(before + kReadBytes);
+  const size_t got = source_->read(buffer_.data() + before, kReadBytes);
+  buffer_.resize(before + got);
+  return got > 0;
+}
+
+bool SvBytes::want(size_t count) {
+  while (size() < count)
+    if (!more()) return false;
+  return true;
+}
+
+void SvBytes::makeSeekable(const std::string& temp_dir) {
+  if (seekable()) return;
+  std::vector<unsigned char> rest(data(), data() + size());
+  buffer_.clear();
+  begin_ = 0;
+  origin_ = offset_;
+  source_ = tetstream::makeSeekable(
+      std::make_unique<PrefixedSource>(std::move(rest), std::move(source_)), temp_dir);
+}
+
+}  // namespace tetstream

@@ -1,0 +1,173 @@
+#include "tets_codec.h"
+
+#include "status.h"
+
+#ifdef TETSTREAM_WITH_ZSTD
+#include <zstd.h>
+#endif
+
+namespace tetstream::tets {
+
+#ifdef TETSTREAM_WITH_ZSTD
+
+// Level 1: higher ones are several times slower and store as much, since the transposed bytes have
+// no long matches.
+static constexpr int kLevel = 1;
+
+struct Codec::State {
+  ZSTD_CCtx* to = nullptr;
+  ZSTD_DCtx* from = nullptr;
+  std::vector<unsigned char> filtered, ids;
+  ~State() {
+    ZSTD_freeCCtx(to);
+    ZSTD_freeDCtx(from);
+  }
+};
+
+// out[b * count + i] = byte b of number i.
+template <size_t kWidth>
+static void transpose(const unsigned char* in, unsigned char* out, size_t count) {
+  for (size_t i = 0; i < count; ++i)
+    for (size_t b = 0; b < kWidth; ++b) out[b * count + i] = in[i * kWidth + b];
+}
+
+template <size_t kWidth>
+static void transposeBack(const unsigned char* in, unsigned char* out, size_t count) {
+  for (size_t i = 0; i < count; ++i)
+    for (size_t b = 0; b < kWidth; ++b) out[i * kWidth + b] = in[b * count + i];
+}
+
+// Unsigned arithmetic wraps, so every value comes back, whatever it is.
+template <class U>
+static void toDifferences(const unsigned char* in, unsigned char* out, size_t count, size_t step) {
+  const auto at = [in](size_t i) {
+    U u;
+    std::memcpy(&u, in + i * sizeof(U), sizeof u);
+    return u;
+  };
+  for (size_t i = 0; i < count; ++i) {
+    const U d = at(i) - (i < step ? U{0} : at(i - step));
+    const U sign = static_cast<U>(U{0} - (d >> (8 * sizeof(U) - 1)));
+    const U u = static_cast<U>(d << 1) ^ sign;
+    std::memcpy(out + i * sizeof(U), &u, sizeof u);
+  }
+}
+
+template <class U>
+static void fromDifferences(unsigned char* data, size_t count, size_t step) {
+  for (size_t i = 0; i < count; ++i) {
+    U u, above = 0;
+    std::memcpy(&u, data + i * sizeof(U), sizeof u);
+    if (i >= step) std::memcpy(&above, data + (i - step) * sizeof(U), sizeof above);
+    const U value = ((u >> 1) ^ static_cast<U>(U{0} - (u & 1))) + above;
+    std::memcpy(data + i * sizeof(U), &value, sizeof value);
+  }
+}
+
+static void filter(const ColumnPlace& c, const unsigned char* in, unsigned char* out,
+                   std::vector<unsigned char>& ids) {
+  const size_t count = c.rows * c.components;
+  if (c.ids) {
+    ids.resize(c.bytes);
+    if (c.width == 4)
+      toDifferences<uint32_t>(in, ids.data(), count, c.components);
+    else
+      toDifferences<uint64_t>(in, ids.data(), count, c.components);
+    in = ids.data();
+  }
+  if (c.width == 1)
+    std::memcpy(out, in, c.bytes);
+  else if (c.width == 4)
+    transpose<4>(in, out, count);
+  else
+    transpose<8>(in, out, count);
+}
+
+static void filterBack(const ColumnPlace& c, const unsigned char* in, unsigned char* out) {
+  const size_t count = c.rows * c.components;
+  if (c.width == 1)
+    std::memcpy(out, in, c.bytes);
+  else if (c.width == 4)
+    transposeBack<4>(in, out, count);
+  else
+    transposeBack<8>(in, out, count);
+  if (!c.ids) return;
+  if (c.width == 4)
+    fromDifferences<uint32_t>(out, count, c.components);
+  else
+    fromDifferences<uint64_t>(out, count, c.components);
+}
+
+static size_t filteredBytes(const ChunkShape& shape) {
+  size_t sum = 0;
+  for (const ColumnPlace& c : shape.columns()) sum += c.bytes;
+  return sum;
+}
+
+Codec::Codec() : state_(std::make_unique<State>()) {}
+Codec::~Codec() = default;
+bool Codec::builtIn() {
+  return true;
+}
+
+size_t Codec::compress(const ChunkShape& shape, const unsigned char* payload,
+                       std::vector<unsigned char>& out) {
+  State& s = *state_;
+  if (!s.to && !(s.to = ZSTD_createCCtx()))
+    fail(Status::kNoMemory, "no memory for zstd's compression");
+  s.filtered.resize(filteredBytes(shape));
+  size_t at = 0;
+  for (const ColumnPlace& c : shape.columns())
+    if (c.bytes) {
+      filter(c, payload + c.offset, s.filtered.data() + at, s.ids);
+      at += c.bytes;
+    }
+  const size_t begin = out.size();
+  const size_t room = ZSTD_compressBound(at);
+  out.resize(begin + room);
+  const size_t got =
+      ZSTD_compressCCtx(s.to, out.data() + begin, room, s.filtered.data(), at, kLevel);
+  // Where less than an eighth is saved, columns that can be used in place are worth more.
+  const bool pays =
+      !ZSTD_isError(got) && alignUp(got) <= shape.payloadBytes() - shape.payloadBytes() / 8;
+  out.resize(begin + (pays ? got : 0));
+  return pays ? got : 0;
+}
+
+bool Codec::decompress(const ChunkShape& shape, const unsigned char* stored, size_t stored_bytes,
+                       unsigned char* payload) {
+  State& s = *state_;
+  if (!s.from && !(s.from = ZSTD_createDCtx()))
+    fail(Status::kNoMemory, "no memory for zstd's decompression");
+  const size_t bytes = filteredBytes(shape);
+  if (ZSTD_getFrameContentSize(stored, stored_bytes) != bytes) return false;
+  s.filtered.resize(bytes);
+  const size_t got = ZSTD_decompressDCtx(s.from, s.filtered.data(), bytes, stored, stored_bytes);
+  if (ZSTD_isError(got) || got != bytes) return false;
+  size_t at = 0;
+  for (const ColumnPlace& c : shape.columns())
+    if (c.bytes) {
+      filterBack(c, s.filtered.data() + at, payload + c.offset);
+      at += c.bytes;
+    }
+  return true;
+}
+
+#else
+
+struct Codec::State {};
+Codec::Codec() = default;
+Codec::~Codec() = default;
+bool Codec::builtIn() {
+  return false;
+}
+size_t Codec::compress(const ChunkShape&, const unsigned char*, std::vector<unsigned char>&) {
+  return 0;
+}
+bool Codec::decompress(const ChunkShape&, const unsigned char*, size_t, unsigned char*) {
+  return false;
+}
+
+#endif
+
+}  // namespace tetstream::tets

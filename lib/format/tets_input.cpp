@@ -1,0 +1,200 @@
+#include "tets_input.h"
+
+#include <algorithm>
+
+#include "status.h"
+
+namespace tetstream::tets {
+
+using ull = unsigned long long;
+
+// How much is asked for at once where the length of the input is not known.
+static constexpr size_t kStep = size_t{1} << 20;
+
+// "section 2" or, for a chunk, "chunk 1"; `id` null: the head was not read.
+static std::string sectionName(const char* id, uint64_t rank, uint64_t chunks) {
+  if (id && std::memcmp(id, kChunk, 4) == 0) return textOf("chunk %llu", ull{chunks});
+  if (id && std::memcmp(id, kHeader, 4) == 0) return "the header";
+  return textOf("section %llu (%llu chunks stand before)", ull{rank}, ull{chunks});
+}
+
+SectionReader::SectionReader(std::unique_ptr<ByteSource> bytes)
+    : bytes_(std::move(bytes)), body_(account_) {}
+
+std::string SectionReader::place() const {
+  return textOf("%s: %s at byte %llu", name().c_str(),
+                sectionName(in_head_ ? nullptr : head_.id, sections_, chunks_).c_str(),
+                ull{section_at_});
+}
+
+void SectionReader::failTruncated() const {
+  if (offset_ == 0) fail(Status::kBadData, "%s: is empty, not a .tets stream", name().c_str());
+  if (offset_ == section_at_)
+    fail(Status::kBadData, "%s: ends at byte %llu, after %llu chunks, without an end marker",
+         name().c_str(), ull{offset_}, ull{chunks_});
+  fail(Status::kBadData, "%s: ends at byte %llu inside %s, which begins at byte %llu",
+       name().c_str(), ull{offset_},
+       sectionName(in_head_ ? nullptr : head_.id, sections_, chunks_).c_str(), ull{section_at_});
+}
+
+void SectionReader::readFully(void* out, size_t size) {
+  unsigned char* to = static_cast<unsigned char*>(out);
+  while (size > 0) {
+    const size_t got = bytes_->read(to, size);
+    if (got == 0) failTruncated();
+    to += got;
+    size -= got;
+    offset_ += got;
+  }
+}
+
+const SectionHead& SectionReader::next() {
+  if (offset_ > 0) ++sections_;
+  section_at_ = offset_;
+  in_head_ = true;
+  readFully(&head_, sizeof head_);
+  if (const char* fault = faultOf(head_)) {
+    if (section_at_ == 0 && std::memcmp(head_.id, kHeader, 4) != 0)
+      fail(Status::kBadData, "%s: is not a .tets stream: its first bytes are not the header's",
+           name().c_str());
+    fail(Status::kBadData, "%s: its head %s; the file is damaged", place().c_str(), fault);
+  }
+  in_head_ = false;
+  if (head_.rank != sections_)
+    fail(Status::kBadData, "%s: it was written as section %llu; sections are missing or swapped",
+         place().c_str(), ull{head_.rank});
+  return head_;
+}
+
+void SectionReader::checkBody(uint32_t sum) const {
+  if (sum != head_.body_checksum)
+    fail(Status::kBadData, "%s: its %zu bytes do not fit their checksum; the file is damaged",
+         place().c_str(), bodyBytes());
+}
+
+// The caller has checked the length against what its head says and the limits of the format; on a
+// pipe memory still grows only as bytes come.
+const unsigned char* SectionReader::body() {
+  const size_t size = bodyBytes();
+  if (bytes_->seekable() && size > bytes_->size() - std::min(offset_, bytes_->size())) {
+    offset_ = bytes_->size();
+    failTruncated();
+  }
+  const size_t step = bytes_->seekable() ? size : kStep;
+  for (size_t done = 0; done < size;) {
+    const size_t count = std::min(size - done, std::max(step, done));
+    if (body_.size() < done + count) body_.resize(done + count);
+    readFully(body_.data() + done, count);
+    done += count;
+  }
+  checkBody(checksum(body_.data(), size));
+  return body_.data();
+}
+
+void SectionReader::skipBody() {
+  uint64_t left = head_.length - sizeof head_;
+  uint32_t sum = 0;
+  constexpr size_t kSkip = 1 << 16;
+  if (body_.size() < kSkip) body_.resize(kSkip);
+  while (left > 0) {
+    const size_t count = static_cast<size_t>(std::min<uint64_t>(left, kSkip));
+    readFully(body_.data(), count);
+    sum = checksum(sum, body_.data(), count);
+    left -= count;
+  }
+  checkBody(sum);
+}
+
+// ------------------------------------------------------------------------------ from the end
+
+// Goes from head to head to say where a file without a proper end breaks off. The sequential reader
+// would find the same, but only after all the work.
+[[noreturn]] static void failWithoutEnd(ByteSource& bytes) {
+  const std::string& name = bytes.name();
+  const uint64_t size = bytes.size();
+  uint64_t at = 0, chunks = 0;
+  for (uint64_t rank = 0; at < size; ++rank) {
+    SectionHead head;
+    const size_t got = bytes.readAt(at, &head, sizeof head);
+    if (got < sizeof head)
+      fail(Status::kBadData, "%s: ends at byte %llu inside %s, which begins at byte %llu",
+           name.c_str(), ull{size}, sectionName(nullptr, rank, chunks).c_str(), ull{at});
+    if (const char* fault = faultOf(head))
+      fail(Status::kBadData, "%s: %s at byte %llu: its head %s; the file is damaged", name.c_str(),
+           sectionName(nullptr, rank, chunks).c_str(), ull{at}, fault);
+    if (head.length > size - at)
+      fail(Status::kBadData, "%s: ends at byte %llu inside %s, which begins at byte %llu",
+           name.c_str(), ull{size}, sectionName(head.id, rank, chunks).c_str(), ull{at});
+    at += head.length;
+    if (head.is(kEnd) && at < size)
+      fail(Status::kBadData, "%s: bytes follow the end marker, from byte %llu on", name.c_str(),
+           ull{at});
+    if (head.is(kChunk)) ++chunks;
+  }
+  fail(Status::kBadData, "%s: ends at byte %llu, after %llu chunks, without an end marker",
+       name.c_str(), ull{size}, ull{chunks});
+}
+
+Totals decodeTotals(const Schema& schema, const unsigned char* body, Box* box) {
+  Totals totals;
+  const size_t box_bytes = schema.boxSize() * sizeof(double);
+  std::memcpy(&totals, body, sizeof totals);
+  std::memcpy(box->min.data(), body + sizeof totals, box_bytes);
+  std::memcpy(box->max.data(), body + sizeof totals + box_bytes, box_bytes);
+  return totals;
+}
+
+// Gives the totals that the end marker points to; false if something is not as it should be.
+static bool readTotals(ByteSource& bytes, const Schema& schema, Totals* totals, Box* box) {
+  SectionHead end, head;
+  const uint64_t size = bytes.size();
+  if (size < 2 * sizeof end || bytes.readAt(size - sizeof end, &end, sizeof end) != sizeof end ||
+      faultOf(end) || !end.is(kEnd))
+    return false;
+  const EndOwn own = end.get<EndOwn>();
+  if (own.file_bytes != size || own.totals > size - sizeof head ||
+      bytes.readAt(own.totals, &head, sizeof head) != sizeof head || faultOf(head) ||
+      !head.is(kTotals) || !bodyHolds(head, totalsBytes(schema)))
+    return false;
+  std::vector<unsigned char> body(static_cast<size_t>(head.length - sizeof head));
+  if (bytes.readAt(own.totals + sizeof head, body.data(), body.size()) != body.size() ||
+      checksum(body.data(), body.size()) != head.body_checksum)
+    return false;
+  *totals = decodeTotals(schema, body.data(), box);
+  return true;
+}
+
+void completeFromEnd(ByteSource& bytes, Schema& schema) {
+  Totals totals;
+  Box box(schema.boxSize());
+  // Totals that are damaged in a file that is whole otherwise are left to the sequential reader.
+  if (!readTotals(bytes, schema, &totals, &box)) {
+    SectionHead end;
+    const uint64_t at = bytes.size() - std::min<uint64_t>(bytes.size(), sizeof end);
+    const bool whole = bytes.readAt(at, &end, sizeof end) == sizeof end && !faultOf(end) &&
+                       end.is(kEnd) && end.get<EndOwn>().file_bytes == bytes.size();
+    if (!whole) failWithoutEnd(bytes);
+    return;
+  }
+  const auto complete = [](int64_t& value, int64_t known) {
+    if (value < 0 && known >= 0) value = known;
+  };
+  if ((schema.vertex_count >= 0 && schema.vertex_count != totals.vertices) ||
+      (schema.cell_count >= 0 && schema.cell_count != totals.cells))
+    fail(Status::kBadData,
+         "%s: the header has %lld vertices and %lld cells, the totals at its end %lld and %lld",
+         bytes.name().c_str(), static_cast<long long>(schema.vertex_count),
+         static_cast<long long>(schema.cell_count), static_cast<long long>(totals.vertices),
+         static_cast<long long>(totals.cells));
+  complete(schema.vertex_count, totals.vertices);
+  complete(schema.cell_count, totals.cells);
+  complete(schema.front_width, totals.front_width);
+  complete(schema.front_span, totals.front_span);
+  complete(schema.front_cells, totals.front_cells);
+  if (!schema.hasBox() && totals.vertices > 0) {
+    schema.box_min = box.min;
+    schema.box_max = box.max;
+  }
+}
+
+}  // namespace tetstream::tets

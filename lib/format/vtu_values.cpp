@@ -1,0 +1,139 @@
+#include "vtu_values.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "status.h"
+#include "vtu_run.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kConvertBytes = 1 << 14;
+
+template <class T>
+void reverseEach(unsigned char* bytes, size_t count) {
+  for (size_t i = 0; i < count; ++i, bytes += sizeof(T)) std::reverse(bytes, bytes + sizeof(T));
+}
+
+void swapBytes(unsigned char* bytes, size_t size, size_t count) {
+  if (size == 2) reverseEach<uint16_t>(bytes, count);
+  if (size == 4) reverseEach<uint32_t>(bytes, count);
+  if (size == 8) reverseEach<uint64_t>(bytes, count);
+}
+
+// Returns the index of the first value that does not fit, or count. Only wide integers to narrower
+// or signed ones can fail: the reader never asks for floats as integers.
+template <class In, class Out>
+size_t convertEach(const unsigned char* in, unsigned char* out, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    In value;
+    std::memcpy(&value, in + i * sizeof(In), sizeof value);
+    if constexpr (std::is_integral_v<In> && std::is_integral_v<Out>) {
+      if (!std::in_range<Out>(value)) return i;
+    }
+    const Out converted = static_cast<Out>(value);
+    std::memcpy(out + i * sizeof(Out), &converted, sizeof converted);
+  }
+  return count;
+}
+
+template <class In>
+size_t convertFrom(const unsigned char* in, unsigned char* out, ScalarType type, size_t count) {
+  switch (type) {
+    case ScalarType::kFloat32:
+      return convertEach<In, float>(in, out, count);
+    case ScalarType::kFloat64:
+      return convertEach<In, double>(in, out, count);
+    case ScalarType::kInt32:
+      return convertEach<In, int32_t>(in, out, count);
+    case ScalarType::kInt64:
+      return convertEach<In, int64_t>(in, out, count);
+  }
+  return 0;
+}
+
+size_t convertValues(const unsigned char* in, VtuType from, unsigned char* out, ScalarType to,
+                     size_t count) {
+  switch (from) {
+    case VtuType::kInt8:
+      return convertFrom<int8_t>(in, out, to, count);
+    case VtuType::kUInt8:
+      return convertFrom<uint8_t>(in, out, to, count);
+    case VtuType::kInt16:
+      return convertFrom<int16_t>(in, out, to, count);
+    case VtuType::kUInt16:
+      return convertFrom<uint16_t>(in, out, to, count);
+    case VtuType::kInt32:
+      return convertFrom<int32_t>(in, out, to, count);
+    case VtuType::kUInt32:
+      return convertFrom<uint32_t>(in, out, to, count);
+    case VtuType::kInt64:
+      return convertFrom<int64_t>(in, out, to, count);
+    case VtuType::kUInt64:
+      return convertFrom<uint64_t>(in, out, to, count);
+    case VtuType::kFloat32:
+      return convertFrom<float>(in, out, to, count);
+    case VtuType::kFloat64:
+      return convertFrom<double>(in, out, to, count);
+  }
+  return 0;
+}
+
+bool isSame(VtuType a, ScalarType b) {
+  return (a == VtuType::kFloat32 && b == ScalarType::kFloat32) ||
+         (a == VtuType::kFloat64 && b == ScalarType::kFloat64) ||
+         (a == VtuType::kInt32 && b == ScalarType::kInt32) ||
+         (a == VtuType::kInt64 && b == ScalarType::kInt64);
+}
+
+class BinaryValues final : public VtuValues {
+ public:
+  BinaryValues(ByteSource& bytes, const VtuFile& file, const VtuArray& array, uint64_t count)
+      : bytes_(openVtuBytes(bytes, file, array, count * sizeOf(array.type))),
+        what_(placeOf(bytes, array)),
+        type_(array.type),
+        swap_(file.big_endian != (std::endian::native == std::endian::big)) {}
+
+  void read(uint64_t first, size_t count, void* out, ScalarType type) override {
+    unsigned char* to = static_cast<unsigned char*>(out);
+    const size_t size = sizeOf(type_);
+    if (isSame(type_, type)) {
+      bytes_->readAt(first * size, to, count * size);
+      if (swap_) swapBytes(to, size, count);
+      return;
+    }
+    unsigned char stored[kConvertBytes];
+    while (count > 0) {
+      const size_t n = std::min(count, kConvertBytes / size);
+      bytes_->readAt(first * size, stored, n * size);
+      if (swap_) swapBytes(stored, size, n);
+      const size_t good = convertValues(stored, type_, to, type, n);
+      if (good < n)
+        fail(Status::kUnsupported, "%s: value %llu does not fit into a signed 64-bit integer",
+             what_.c_str(), static_cast<unsigned long long>(first + good));
+      to += n * sizeOf(type);
+      first += n;
+      count -= n;
+    }
+  }
+
+ private:
+  std::unique_ptr<VtuBytes> bytes_;
+  std::string what_;
+  VtuType type_;
+  bool swap_;
+};
+
+}  // namespace
+
+std::unique_ptr<VtuValues> openVtuValues(ByteSource& bytes, const VtuFile& file,
+                                         const VtuArray& array, uint64_t count) {
+  if (array.format == VtuFormat::kAscii) return openVtuAscii(bytes, array, count);
+  return std::make_unique<BinaryValues>(bytes, file, array, count);
+}
+
+}  // namespace tetstream

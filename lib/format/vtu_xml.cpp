@@ -1,0 +1,427 @@
+// The XML part of .vtu files. Expat gets the file in pieces, up to the start tag of AppendedData,
+// after which the file need not be XML any more. Elements that are not known are passed over with
+// everything in them.
+#include <expat.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <exception>
+#include <memory>
+
+#include "status.h"
+#include "vtu_file.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kFeedBytes = 1 << 16;
+constexpr uint64_t kMaxTagBytes = 1 << 20;  // of a tag or comment, which expat holds in memory
+// These bound what a hostile header costs in memory and, as arrays are compared by name, in time.
+constexpr size_t kMaxPieces = 1 << 16;
+constexpr size_t kMaxArrays = 1 << 18;  // of all pieces
+constexpr size_t kMaxPieceArrays = 1 << 12;
+constexpr size_t kMaxNotes = 64;
+constexpr uint64_t kMaxCount = uint64_t{1} << 56;  // times 9 components of 8 bytes is below 2^63
+constexpr size_t kMaxNameBytes = 255;              // as in checkSchema
+
+enum class Section { kOther, kPointData, kCellData, kPoints, kCells };
+
+const char* find(const XML_Char** attributes, const char* name) {
+  for (; *attributes; attributes += 2)
+    if (std::strcmp(attributes[0], name) == 0) return attributes[1];
+  return nullptr;
+}
+
+bool parseType(const char* text, VtuType* type) {
+  static const char* const names[] = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
+                                      "UInt32", "Int64", "UInt64", "Float32", "Float64"};
+  for (int i = 0; i < 10; ++i)
+    if (std::strcmp(text, names[i]) == 0) {
+      *type = static_cast<VtuType>(i);
+      return true;
+    }
+  return false;
+}
+
+bool parseUnsigned(const char* text, uint64_t* value) {
+  const char* blanks = " \t\r\n";
+  text += std::strspn(text, blanks);
+  const char* end = text + std::strlen(text);
+  const std::from_chars_result r = std::from_chars(text, end, *value);
+  return r.ec == std::errc() && r.ptr + std::strspn(r.ptr, blanks) == end;
+}
+
+// Not in the middle of a UTF-8 character.
+std::string cutName(const char* text) {
+  std::string name = text;
+  if (name.size() <= kMaxNameBytes) return name;
+  size_t size = kMaxNameBytes;
+  while (size > 0 && (static_cast<unsigned char>(name[size]) & 0xC0) == 0x80) --size;
+  name.resize(size);
+  return name;
+}
+
+class HeaderParser {
+ public:
+  explicit HeaderParser(ByteSource& bytes)
+      : bytes_(bytes), expat_(XML_ParserCreate(nullptr), XML_ParserFree) {
+    if (!expat_) fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes.name().c_str());
+    XML_SetUserData(expat_.get(), this);
+    XML_SetElementHandler(expat_.get(), onStart, onEnd);
+    XML_SetStartDoctypeDeclHandler(expat_.get(), onDoctype);
+    XML_SetDefaultHandler(expat_.get(), onOther);
+  }
+
+  VtuFile run() {
+    feed();
+    if (file_.pieces.empty()) failAt(last_event_, "there is no <Piece>");
+    if (appended_) placeAppended();
+    for (VtuPiece& piece : file_.pieces) finishPiece(piece);
+    return std::move(file_);
+  }
+
+ private:
+  void feed() {
+    std::vector<char> buffer(kFeedBytes);
+    uint64_t fed = 0;
+    for (;;) {
+      const size_t got = bytes_.readAt(fed, buffer.data(), buffer.size());
+      const bool end = got < buffer.size();
+      const XML_Status status = XML_Parse(expat_.get(), buffer.data(), static_cast<int>(got), end);
+      if (error_) std::rethrow_exception(error_);
+      if (appended_) return;
+      if (status != XML_STATUS_OK) failXml();
+      if (end) return;
+      fed += got;
+      if (fed - last_event_ > kMaxTagBytes)
+        failAt(last_event_, "a tag or comment is longer than 1 MiB");
+    }
+  }
+
+  [[noreturn]] void failXml() {
+    const XML_Error code = XML_GetErrorCode(expat_.get());
+    if (code == XML_ERROR_NO_MEMORY)
+      fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes_.name().c_str());
+    const XML_Index byte = XML_GetCurrentByteIndex(expat_.get());  // -1: there is not one byte
+    fail(Status::kBadData, "%s: line %llu, byte %lld: not XML: %s", bytes_.name().c_str(),
+         static_cast<unsigned long long>(XML_GetCurrentLineNumber(expat_.get())),
+         static_cast<long long>(std::max<XML_Index>(byte, 0)), XML_ErrorString(code));
+  }
+
+  [[noreturn]] void failAt(uint64_t byte, const std::string& text,
+                           Status status = Status::kBadData) const {
+    fail(status, "%s: byte %llu: %s", bytes_.name().c_str(), static_cast<unsigned long long>(byte),
+         text.c_str());
+  }
+  [[noreturn]] void failHere(const std::string& text, Status status = Status::kBadData) const {
+    failAt(tagBegin(), text, status);
+  }
+
+  uint64_t tagBegin() const { return static_cast<uint64_t>(XML_GetCurrentByteIndex(expat_.get())); }
+  uint64_t tagEnd() const {
+    return tagBegin() + static_cast<uint64_t>(XML_GetCurrentByteCount(expat_.get()));
+  }
+
+  // Expat is C: no exception may pass through it.
+  template <class Function>
+  void guard(Function function) noexcept {
+    if (error_) return;
+    try {
+      last_event_ = tagEnd();
+      function();
+    } catch (...) {
+      error_ = std::current_exception();
+      XML_StopParser(expat_.get(), XML_FALSE);
+    }
+  }
+  static HeaderParser& self(void* user) { return *static_cast<HeaderParser*>(user); }
+  static void XMLCALL onStart(void* user, const XML_Char* name, const XML_Char** attributes) {
+    self(user).guard([&] { self(user).start(name, attributes); });
+  }
+  static void XMLCALL onEnd(void* user, const XML_Char*) {
+    self(user).guard([&] { self(user).end(); });
+  }
+  static void XMLCALL onOther(void* user, const XML_Char*, int) {
+    self(user).guard([] {});
+  }
+  static void XMLCALL onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*,
+                                int) {
+    self(user).guard([&] {
+      self(user).failHere("document type declarations are not read", Status::kUnsupported);
+    });
+  }
+
+  void start(const char* name, const XML_Char** attributes) {
+    if (!skipping_ && !enter(name, attributes)) {
+      skipping_ = true;
+      skip_from_ = depth_;
+    }
+    ++depth_;
+  }
+
+  void end() {
+    --depth_;
+    if (skipping_ && depth_ == skip_from_) skipping_ = false;
+    if (depth_ <= 4) closeText();
+  }
+
+  // False if the element and what is in it do not matter.
+  bool enter(const char* name, const XML_Char** attributes) {
+    switch (depth_) {
+      case 0:
+        return enterRoot(name, attributes);
+      case 1:
+        return enterPart(name, attributes);
+      case 2:
+        return enterPiece(name, attributes);
+      case 3:
+        return enterSection(name);
+      case 4:
+        return enterArray(name, attributes);
+      default:
+        closeText();
+        return false;  // VTK puts facts about an array after its values
+    }
+  }
+
+  bool enterRoot(const char* name, const XML_Char** attributes) {
+    if (std::strcmp(name, "VTKFile") != 0)
+      failHere("this is not a VTK XML file: it begins with <" + cutName(name) + ">");
+    const char* type = find(attributes, "type");
+    if (!type || std::strcmp(type, "UnstructuredGrid") != 0)
+      failHere("the file holds \"" + cutName(type ? type : "") + "\", no UnstructuredGrid",
+               Status::kUnsupported);
+    if (const char* order = find(attributes, "byte_order")) {
+      file_.big_endian = std::strcmp(order, "BigEndian") == 0;
+      if (!file_.big_endian && std::strcmp(order, "LittleEndian") != 0)
+        failHere("byte_order is neither LittleEndian nor BigEndian");
+    }
+    if (const char* header = find(attributes, "header_type")) {
+      file_.word_bytes = std::strcmp(header, "UInt64") == 0 ? 8 : 4;
+      if (file_.word_bytes == 4 && std::strcmp(header, "UInt32") != 0)
+        failHere("header_type is neither UInt32 nor UInt64");
+    }
+    if (const char* compressor = find(attributes, "compressor")) compressor_ = cutName(compressor);
+    file_.zlib = !compressor_.empty();
+    return true;
+  }
+
+  bool enterPart(const char* name, const XML_Char** attributes) {
+    if (std::strcmp(name, "UnstructuredGrid") == 0) return true;
+    if (std::strcmp(name, "AppendedData") != 0) return false;
+    const char* encoding = find(attributes, "encoding");
+    raw_ = encoding && std::strcmp(encoding, "raw") == 0;
+    if (encoding && !raw_ && std::strcmp(encoding, "base64") != 0)
+      failHere("the encoding of the appended data is neither raw nor base64");
+    appended_ = true;
+    appended_begin_ = tagEnd();
+    XML_StopParser(expat_.get(), XML_FALSE);
+    return true;
+  }
+
+  uint64_t count(const XML_Char** attributes, const char* name) const {
+    const char* text = find(attributes, name);
+    uint64_t value = 0;
+    if (!text || !parseUnsigned(text, &value))
+      failHere(std::string(name) + " is missing or no number");
+    if (value > kMaxCount) failHere(std::string(name) + " is more than any file can hold");
+    return value;
+  }
+
+  bool enterPiece(const char* name, const XML_Char** attributes) {
+    if (std::strcmp(name, "FieldData") == 0)
+      file_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
+    if (std::strcmp(name, "Piece") != 0) return false;
+    if (file_.pieces.size() == kMaxPieces) failHere("too many pieces", Status::kUnsupported);
+    VtuPiece piece;
+    piece.point_count = count(attributes, "NumberOfPoints");
+    piece.cell_count = count(attributes, "NumberOfCells");
+    piece.first_point = file_.point_count;
+    piece.first_cell = file_.cell_count;
+    file_.point_count += piece.point_count;
+    file_.cell_count += piece.cell_count;
+    if (file_.point_count > kMaxCount || file_.cell_count > kMaxCount)
+      failHere("the pieces have more points or cells than any file can hold");
+    file_.pieces.push_back(std::move(piece));
+    return true;
+  }
+
+  bool enterSection(const char* name) {
+    static const char* const names[] = {"PointData", "CellData", "Points", "Cells"};
+    section_ = Section::kOther;
+    for (int i = 0; i < 4; ++i)
+      if (std::strcmp(name, names[i]) == 0) section_ = static_cast<Section>(i + 1);
+    return section_ != Section::kOther;
+  }
+
+  bool enterArray(const char* element, const XML_Char** attributes) {
+    const char* name = find(attributes, "Name");
+    const char* type = find(attributes, "type");
+    const bool data = section_ == Section::kPointData || section_ == Section::kCellData;
+    const VtuPiece& piece = file_.pieces.back();
+    if (++array_count_ > kMaxArrays ||
+        piece.point_data.size() + piece.cell_data.size() >= kMaxPieceArrays)
+      failHere("too many arrays", Status::kUnsupported);
+    VtuArray array;
+    array.name = nameOf(name);
+    if (std::strcmp(element, "DataArray") != 0 || !type || !parseType(type, &array.type)) {
+      if (data || std::strcmp(element, "DataArray") != 0)
+        file_.addNote("array \"" + array.name + "\" is left out: its values are no numbers");
+      else
+        failHere("an array of points or cells has the type \"" + cutName(type ? type : "") + "\"");
+      return std::strcmp(element, "DataArray") == 0;
+    }
+    if (!setComponents(array, attributes, data)) return true;
+    setFormat(array, attributes);
+    open_ = keep(std::move(array));
+    return true;
+  }
+
+  // Arrays without a name are numbered over the data of their piece.
+  std::string nameOf(const char* name) {
+    const bool field = section_ == Section::kPointData;
+    if (!field && section_ != Section::kCellData) return name ? cutName(name) : "";
+    if (name && *name) {
+      if (std::strlen(name) > kMaxNameBytes)
+        file_.addNote("array \"" + cutName(name) + "\" has a longer name, cut to 255 bytes");
+      return cutName(name);
+    }
+    const VtuPiece& piece = file_.pieces.back();
+    const size_t number = (field ? piece.point_data : piece.cell_data).size() + 1;
+    const std::string made = (field ? "field_" : "cell_data_") + std::to_string(number);
+    file_.addNote("an array without a name is called \"" + made + "\"");
+    return made;
+  }
+
+  bool setComponents(VtuArray& array, const XML_Char** attributes, bool data) {
+    const char* text = find(attributes, "NumberOfComponents");
+    uint64_t value = section_ == Section::kPoints ? 3 : 1;
+    if (text && !parseUnsigned(text, &value)) failHere("NumberOfComponents is no number");
+    if (value == 0) value = 1;  // VTK takes it so
+    if (section_ == Section::kPoints && value != 3)
+      failHere("points have " + std::to_string(value) + " coordinates, not 3");
+    if (value > 9) {
+      if (!data) failHere("an array of cells has " + std::to_string(value) + " components");
+      file_.addNote("array \"" + array.name + "\" is left out: it has " + std::to_string(value) +
+                    " components, 9 at most are possible");
+      return false;
+    }
+    array.components = static_cast<int>(value);
+    return true;
+  }
+
+  void setFormat(VtuArray& array, const XML_Char** attributes) const {
+    const char* offset = find(attributes, "offset");
+    const char* format = find(attributes, "format");
+    if (!format) format = offset ? "appended" : "ascii";
+    array.begin = tagEnd();
+    if (std::strcmp(format, "ascii") == 0) {
+      array.format = VtuFormat::kAscii;
+    } else if (std::strcmp(format, "binary") == 0) {
+      array.format = VtuFormat::kInlineBase64;
+    } else if (std::strcmp(format, "appended") == 0) {
+      array.format = VtuFormat::kAppendedRaw;
+      if (!offset || !parseUnsigned(offset, &array.begin))
+        failHere("the offset of an appended array is missing or no number");
+    } else {
+      failHere("the format of an array is none of ascii, binary, appended");
+    }
+  }
+
+  // Where the array went; null if it is not wanted.
+  VtuArray* keep(VtuArray array) {
+    VtuPiece& piece = file_.pieces.back();
+    if (section_ == Section::kPointData || section_ == Section::kCellData) {
+      std::vector<VtuArray>& list =
+          section_ == Section::kPointData ? piece.point_data : piece.cell_data;
+      for (const VtuArray& other : list)
+        if (other.name == array.name) {
+          file_.addNote("array \"" + array.name + "\" is there twice: the second one is left out");
+          return nullptr;
+        }
+      list.push_back(std::move(array));
+      return &list.back();
+    }
+    std::optional<VtuArray>* place = &piece.points;
+    if (section_ == Section::kCells) {
+      place = array.name == "connectivity" ? &piece.connectivity
+              : array.name == "offsets"    ? &piece.offsets
+              : array.name == "types"      ? &piece.types
+                                           : nullptr;
+    }
+    if (!place || *place) return nullptr;
+    *place = std::move(array);
+    return &**place;
+  }
+
+  // Inline values end at the first tag after them.
+  void closeText() {
+    if (open_) open_->end = tagBegin();
+    open_ = nullptr;
+  }
+
+  // The appended data begin after a '_' that follows blanks.
+  void placeAppended() {
+    char text[4096];
+    const size_t got = bytes_.readAt(appended_begin_, text, sizeof text);
+    size_t at = 0;
+    while (at < got && std::strchr(" \t\r\n", text[at]) && text[at] != '\0') ++at;
+    if (at == got || text[at] != '_')
+      failAt(appended_begin_ + at, "the appended data do not begin with '_'");
+    appended_begin_ += at + 1;
+  }
+
+  void finishPiece(VtuPiece& piece) const {
+    for (VtuArray& array : piece.point_data) finishArray(array);
+    for (VtuArray& array : piece.cell_data) finishArray(array);
+    for (std::optional<VtuArray>* array :
+         {&piece.points, &piece.connectivity, &piece.offsets, &piece.types})
+      if (*array) finishArray(**array);
+  }
+
+  void finishArray(VtuArray& array) const {
+    if (array.format == VtuFormat::kAscii) return;
+    if (file_.zlib && compressor_ != "vtkZLibDataCompressor")
+      fail(Status::kUnsupported,
+           "%s: the values are compressed with %s; only vtkZLibDataCompressor is read",
+           bytes_.name().c_str(), compressor_.c_str());
+    if (array.format == VtuFormat::kInlineBase64) return;
+    const char* name = array.name.c_str();
+    if (!appended_)
+      fail(Status::kBadData, "%s: array \"%s\" is appended, but there is no AppendedData",
+           bytes_.name().c_str(), name);
+    array.format = raw_ ? VtuFormat::kAppendedRaw : VtuFormat::kAppendedBase64;
+    array.end = bytes_.size();
+    if (array.begin > array.end - appended_begin_)
+      fail(Status::kBadData, "%s: array \"%s\" begins past the end of the file",
+           bytes_.name().c_str(), name);
+    array.begin += appended_begin_;
+  }
+
+  ByteSource& bytes_;
+  std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> expat_;
+  std::exception_ptr error_;
+  VtuFile file_;
+  std::string compressor_;
+  int depth_ = 0, skip_from_ = 0;
+  bool skipping_ = false, appended_ = false, raw_ = false;
+  Section section_ = Section::kOther;
+  VtuArray* open_ = nullptr;  // whose inline values are being passed
+  uint64_t last_event_ = 0, appended_begin_ = 0;
+  size_t array_count_ = 0;
+};
+
+}  // namespace
+
+void VtuFile::addNote(const std::string& text) {
+  if (notes.size() < kMaxNotes && std::find(notes.begin(), notes.end(), text) == notes.end())
+    notes.push_back(text);
+}
+
+VtuFile parseVtuHeader(ByteSource& bytes) {
+  return HeaderParser(bytes).run();
+}
+
+}  // namespace tetstream

@@ -1,0 +1,17 @@
+# The same seed gives the same bytes; another seed another mesh of the same size.
+source "${BASH_SOURCE%/*}/common.bash"
+
+tetstream generate ball --cells 5000 a.tets --seed 3
+tetstream generate ball --cells 5000 b.tets --seed 3
+tetstream generate ball --cells 5000 c.tets --seed 4
+[[ $(bytes_of a.tets) == "$(bytes_of b.tets)" ]] || fail "generate: same seed, other bytes"
+[[ $(bytes_of a.tets) != "$(bytes_of c.tets)" ]] || fail "generate: other seed, same bytes"
+
+simplified() {
+  tetstream simplify a.tets out.tets --ratio 0.3 --quiet "$@"
+  bytes_of out.tets
+}
+first=$(simplified)
+[[ $first == "$(simplified)" ]] || fail "simplify: two runs, different bytes"
+[[ $first == "$(simplified --seed 1)" ]] || fail "simplify: the default seed is not 1"
+[[ $first != "$(simplified --seed -77)" ]] || fail "simplify: other seed, same bytes"

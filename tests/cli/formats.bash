@@ -1,0 +1,45 @@
+# Every format into every format, by name and through standard input and output.
+source "${BASH_SOURCE%/*}/common.bash"
+set -o pipefail
+
+formats=(tets vtu sva svb)
+tetstream generate ball --cells 1000 mesh.tets
+cells=$(cells_in mesh.tets)
+for format in vtu sva svb; do
+  tetstream convert mesh.tets "mesh.$format" 2>"$logs/err"
+  [[ $(cells_in "mesh.$format") == "$cells" ]] || fail "$format has other cells"
+done
+
+for in in "${formats[@]}"; do
+  for out_format in "${formats[@]}"; do
+    expect 0 convert "mesh.$in" "$in-named.$out_format"
+    [[ $(cells_in "$in-named.$out_format") == "$cells" ]] || fail "$in to $out_format loses cells"
+    tetstream convert - - --format-in "$in" --format "$out_format" --quiet <"mesh.$in" |
+      tetstream convert - "$in-piped.$out_format" --format "$out_format" --quiet
+    [[ $(cells_in "$in-piped.$out_format") == "$cells" ]] ||
+      fail "$in to $out_format loses cells in pipes"
+  done
+done
+
+# What a format cannot hold is said, and not said with --quiet.
+expect 0 convert mesh.tets lossy.svb
+contains "$err" "tetstream: note: "
+contains "$err" "velocity"
+expect 0 convert mesh.tets lossy.svb --quiet
+[[ -z $err ]] || fail "--quiet is not quiet: $err"
+
+# --format is for "-"; with two names for OUT, against its extension.
+expect 0 convert mesh.vtu odd.name --format tets
+[[ $(cells_in odd.name --format tets) == "$cells" ]] || fail "--format does not set OUT's format"
+tetstream convert - named.vtu --format sva <mesh.sva
+[[ $(cells_in named.vtu) == "$cells" ]] || fail "--format changed OUT's format though IN is -"
+
+# Properties of the writer.
+expect 0 convert mesh.tets post.sva --order post
+[[ $(cells_in post.sva) == "$cells" ]] || fail "post-order loses cells"
+[[ $(bytes_of post.sva) != "$(bytes_of mesh.sva)" ]] || fail "--order post changes nothing"
+expect 0 convert mesh.tets plain.vtu --compress no
+(($(stat -c %s plain.vtu) > $(stat -c %s mesh.vtu))) || fail "--compress no changes nothing"
+expect_error 1 "order" convert mesh.tets none.vtu --order post
+expect_error 1 "compress" convert mesh.tets none.vtu --compress perhaps
+[[ ! -e none.vtu ]] || fail "a refused property left a file"

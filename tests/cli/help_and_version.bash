@@ -1,0 +1,35 @@
+# Help and version are on standard output, complete, and agree with each other.
+source "${BASH_SOURCE%/*}/common.bash"
+
+expect 0 --version
+contains "$out" "tetstream "
+for format in tets vtu sva svb; do contains "$out" "  $format "; done
+[[ -z $err ]] || fail "--version writes to standard error"
+
+expect 0 --help
+for command in simplify info convert generate help; do contains "$out" "  $command "; done
+overview=$out
+expect 0 help
+[[ $out == "$overview" ]] || fail "help and --help differ"
+
+for command in simplify info convert generate; do
+  expect 0 "$command" --help
+  contains "$out" "usage: tetstream $command"
+  text=$out
+  expect 0 help "$command"
+  [[ $out == "$text" ]] || fail "help $command and $command --help differ"
+  [[ -z $err ]] || fail "help writes to standard error"
+done
+
+# The flags come from the library's table.
+expect 0 simplify --help
+for flag in ratio cells boundary-weight regions mode seed quadric candidates window memory tmpdir \
+  axis field format-in format report quiet progress; do
+  contains "$out" "  --$flag"
+done
+contains "$out" "determinant, garland-zhou; default determinant"
+
+expect_error 1 "no command" help nonsense
+expect_error 1 "which command" 
+expect_error 1 "nonsense" nonsense
+expect_error 1 "tetstream simplify --help" simplify --nonsense 1 a.tets b.tets --ratio 0.1

@@ -1,0 +1,34 @@
+# Commands chained by pipes give what they give by files.
+source "${BASH_SOURCE%/*}/common.bash"
+set -o pipefail
+
+tetstream generate fluid --cells 3000 - >piped.tets
+tetstream generate fluid --cells 3k named.tets
+[[ $(cells_in piped.tets) == 3000 ]] || fail "wrong number of cells"
+[[ $(cells_in named.tets) == 3000 ]] || fail "wrong number of cells"
+[[ $(tetstream generate fluid --cells 3e3 - | cells_in -) == 3000 ]] || fail "wrong number of cells"
+
+tetstream generate fluid --cells 3000 - |
+  tetstream simplify - - --ratio 0.5 --report json 2>"$logs/report" |
+  tetstream convert - small.vtu
+written=$(member "$(<"$logs/report")" cells_out)
+[[ $(cells_in small.vtu) == "$written" ]] || fail "the report and the output differ"
+((written <= 1500 && written > 0)) || fail "the target was 1500, $written came out"
+
+# From a pipe and from a file: the same mesh.
+cat named.tets | tetstream simplify - a.tets --ratio 0.5 --quiet
+tetstream simplify named.tets b.tets --ratio 0.5 --quiet
+[[ $(bytes_of a.tets) == "$(bytes_of b.tets)" ]] || fail "pipe and file give different output"
+
+# An empty standard input is bad data, not an empty mesh.
+code=0
+tetstream simplify - none.tets --ratio 0.5 </dev/null 2>"$logs/err" || code=$?
+[[ $code == 2 ]] || fail "empty input: exit code $code"
+# A closed one is an error of reading, a closed output one of writing.
+code=0
+tetstream info - <&- >"$logs/out" 2>"$logs/err" || code=$?
+[[ $code == 3 ]] || fail "closed input: exit code $code"
+code=0
+tetstream convert named.tets - >&- 2>"$logs/err" || code=$?
+[[ $code == 3 ]] || fail "closed output: exit code $code"
+only_files a.tets b.tets named.tets piped.tets small.vtu

@@ -1,0 +1,58 @@
+# The closing report: where it goes, what it says, that its JSON is JSON.
+source "${BASH_SOURCE%/*}/common.bash"
+
+tetstream generate fluid --cells 6000 in.tets
+
+expect 0 simplify in.tets out.tets --ratio 0.5
+for row in cells vertices time memory window front collapses rejected "largest error" regions; do
+  contains $'\n'"$out" $'\n'"$row"
+done
+contains "$out" " -> $(cells_in out.tets), ratio 0."
+[[ -z $err ]] || fail "a report on standard output is enough: $err"
+
+# To standard error if the mesh goes to standard output, by whatever name.
+code=0
+tetstream simplify in.tets - --ratio 0.5 >piped.tets 2>"$logs/err" || code=$?
+[[ $code == 0 ]] || fail "exit code $code"
+contains "$(<"$logs/err")" "collapses"
+[[ $(bytes_of piped.tets) == "$(bytes_of out.tets)" ]] || fail "the report went into the mesh"
+tetstream simplify in.tets /dev/stdout --format tets --ratio 0.5 2>"$logs/err" |
+  cat >by-device.tets
+contains "$(<"$logs/err")" "collapses"
+[[ $(cells_in by-device.tets) == "$(cells_in out.tets)" ]] || fail "/dev/stdout is not the same"
+
+expect 0 simplify in.tets out.tets --ratio 0.5 --quiet
+[[ -z $out$err ]] || fail "--quiet is not quiet: $out$err"
+expect 0 simplify in.tets out.tets --ratio 0.5 --quiet --report json
+json=$out
+[[ $(member "$json" status) == '"TETSTREAM_OK"' ]] || fail "wrong status"
+[[ $(member "$json" cells_in) == "$(cells_in in.tets)" ]] || fail "wrong cells_in"
+[[ $(member "$json" cells_out) == "$(cells_in out.tets)" ]] || fail "wrong cells_out"
+(($(member "$json" collapses) > 0)) || fail "no collapses"
+(($(member "$json" peak_resident_bytes) > 0)) || fail "no peak memory"
+
+# Every member of the public struct is in it.
+header=$(<"$TETSTREAM_SOURCE/include/tetstream/tetstream.h")
+struct=${header#*typedef struct tetstream_report \{}
+struct=${struct%%\} tetstream_report;*}
+count=0
+while [[ $struct =~ (int64_t|uint64_t|double|char)\ \*?([a-z_0-9,\ ]+)\; ]]; do
+  struct=${struct#*"${BASH_REMATCH[0]}"}
+  for name in ${BASH_REMATCH[2]//,/ }; do
+    member "$json" "$name" >/dev/null
+    count=$((count + 1))
+  done
+done
+((count >= 22)) || fail "found only $count members in the header"
+
+# A name that needs escapes, in both kinds of JSON: quote, backslash, tabulator, a byte that is no
+# UTF-8.
+odd=$'a"b\\c\td\xff.tets'
+cp in.tets "$odd"
+expect 0 info --json "$odd"
+contains "$out" '"file": "a\"b\\c\u0009d\ufffd.tets"'
+if [[ -n ${TETSTREAM_PYTHON:-} ]]; then
+  "$TETSTREAM_PYTHON" -m json.tool >/dev/null <"$logs/out" || fail "info --json is no JSON"
+  printf '%s' "$json" | "$TETSTREAM_PYTHON" -m json.tool >/dev/null || fail "no JSON: $json"
+fi
+expect_error 1 "--report" simplify in.tets out.tets --ratio 0.5 --report xml

@@ -1,0 +1,70 @@
+#include "vtu_read.h"
+
+#include <algorithm>
+
+#include "status.h"
+
+namespace tetstream::test {
+
+static bool same(const std::vector<Column>& a, const std::vector<Column>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Column& x, const Column& y) {
+    return x.name == y.name && x.components == y.components && x.type == y.type;
+  });
+}
+
+bool VtuMesh::operator==(const VtuMesh& other) const {
+  return schema.position_type == other.schema.position_type &&
+         same(schema.fields, other.schema.fields) &&
+         same(schema.cell_data, other.schema.cell_data) && positions == other.positions &&
+         cells == other.cells && fields == other.fields && cell_data == other.cell_data;
+}
+
+template <class Read>
+static std::string readRows(int64_t count, size_t row_bytes, size_t step, Read read) {
+  std::string bytes;
+  const uint64_t total = static_cast<uint64_t>(count);
+  for (uint64_t at = 0; at < total; at += step) {
+    const size_t n = static_cast<size_t>(std::min<uint64_t>(step, total - at));
+    bytes.resize(bytes.size() + n * row_bytes);
+    read(at, n, bytes.data() + bytes.size() - n * row_bytes);
+  }
+  return bytes;
+}
+
+VtuMesh readVtu(const std::string& file, size_t step) {
+  VtuMesh mesh;
+  ReadOptions options;
+  options.note = [&](const std::string& text) { mesh.notes.push_back(text); };
+  const Input input = openVtu(openMemory(file.data(), file.size(), "test.vtu"), options);
+  IndexedSource& source = *input.indexed;
+  const Schema& s = mesh.schema = source.schema();
+  mesh.positions =
+      readRows(s.vertex_count, 3 * sizeOf(s.position_type), step,
+               [&](uint64_t i, size_t n, void* to) { source.readPositions(i, n, to); });
+  for (size_t c = 0; c < s.fields.size(); ++c)
+    mesh.fields.push_back(
+        readRows(s.vertex_count, s.fields[c].bytesPerRow(), step,
+                 [&](uint64_t i, size_t n, void* to) { source.readField(c, i, n, to); }));
+  mesh.cells =
+      valuesAs<int64_t>(readRows(s.cell_count, 32, step, [&](uint64_t i, size_t n, char* to) {
+        std::vector<int64_t> ids(4 * n);
+        source.readCells(i, n, ids.data());
+        std::copy_n(reinterpret_cast<const char*>(ids.data()), 32 * n, to);
+      }));
+  for (size_t c = 0; c < s.cell_data.size(); ++c)
+    mesh.cell_data.push_back(
+        readRows(s.cell_count, s.cell_data[c].bytesPerRow(), step,
+                 [&](uint64_t i, size_t n, void* to) { source.readCellData(c, i, n, to); }));
+  return mesh;
+}
+
+std::string vtuFailure(const std::string& file) {
+  try {
+    readVtu(file);
+  } catch (const Error& error) {
+    return statusName(error.status()) + (": " + error.text());
+  }
+  return "";
+}
+
+}  // namespace tetstream::test
