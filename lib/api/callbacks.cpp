@@ -52,9 +52,9 @@ CallbackSink::~CallbackSink() {
 }
 
 void CallbackSink::begin(const Schema& schema) {
+  const PublicSchema shown(schema, false);
   begun_ = true;
   if (!callbacks_.open) return;
-  const PublicSchema shown(schema, false);
   callBack("writer's open", [&] { return callbacks_.open(callbacks_.user, &shown.info()); });
 }
 

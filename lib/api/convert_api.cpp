@@ -9,13 +9,7 @@ static void convertInto(Output& output, tetstream_reader& reader, const RunOptio
                         const ProgressFunction& progress) {
   ReaderUse use(reader);
   output.start(options.temp_dir);
-  Input rounded;
-  Input* input = &use.input();
-  if (output.mustRound(input->schema())) {
-    rounded = roundedInput(*input);
-    input = &rounded;
-  }
-  convert(*input, output, options, progress);
+  convert(use.input(output.mustRound(use.schema())), output, options, progress);
   use.done();
 }
 
@@ -47,7 +41,7 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     const RunOptions run = runOptionsOf(options);
     ReaderUse use(r);
     const bool indexed = (r.known->info().flags & TETSTREAM_STREAM_INDEXED) != 0;
-    const Schema schema = inspect(use.input(), run, progressOf(progress, user));
+    const Schema schema = inspect(use.input(false), run, progressOf(progress, user));
     r.inspected = std::make_unique<const PublicSchema>(schema, indexed);
     writeStruct(info, r.inspected->info());
     use.done();

@@ -41,6 +41,25 @@ ReaderUse::ReaderUse(tetstream_reader& reader) : reader_(reader) {
   reader.busy = true;
 }
 
+void ReaderUse::collect() {
+  collector_.emplace(reader_.input.schema());
+  BatchView batch;
+  while (reader_.input.stream->next(batch)) collector_->put(batch);
+  collected_.indexed = collector_->source();
+}
+
+Input& ReaderUse::input(bool rounded) {
+  Input* input = &reader_.input;
+  if (reader_.callbacks && reader_.callbacks->indexed()) {
+    collect();
+    input = &collected_;
+  }
+  if (!rounded) return *input;
+  if (input->stream) rounded_.stream = std::make_unique<RoundingSource>(*input->stream);
+  if (input->indexed) rounded_.indexed = std::make_unique<RoundingIndexedSource>(*input->indexed);
+  return rounded_;
+}
+
 ReaderUse::~ReaderUse() {
   closeInput(reader_);
   reader_.busy = false;
@@ -71,13 +90,6 @@ RunOptions runOptionsOf(const tetstream_options* options) {
   if (!options) return OptionValues().runOptions();
   needState(*options, State::kReady);
   return options->values->runOptions();
-}
-
-Input roundedInput(const Input& input) {
-  Input rounded;
-  if (input.stream) rounded.stream = std::make_unique<RoundingSource>(*input.stream);
-  if (input.indexed) rounded.indexed = std::make_unique<RoundingIndexedSource>(*input.indexed);
-  return rounded;
 }
 
 }  // namespace tetstream

@@ -9,6 +9,7 @@
 
 #include "callbacks.h"
 #include "guard.h"
+#include "mesh_collector.h"
 #include "option_values.h"
 #include "output.h"
 #include "rounding_source.h"
@@ -67,13 +68,18 @@ class ReaderUse {
   ReaderUse(const ReaderUse&) = delete;
   ReaderUse& operator=(const ReaderUse&) = delete;
 
-  Input& input() { return reader_.input; }
-  // An indexed mesh that comes as a stream of the caller's, and must be collected.
-  bool toBeCollected() const { return reader_.callbacks && reader_.callbacks->indexed(); }
+  // What to read; an indexed mesh that comes in the caller's batches is collected first. With
+  // `rounded`, its floats are float32.
+  Input& input(bool rounded);
+  const Schema& schema() const { return reader_.input.schema(); }
   void done() { done_ = true; }
 
  private:
+  void collect();
+
   tetstream_reader& reader_;
+  std::optional<MeshCollector> collector_;
+  Input collected_, rounded_;
   bool done_ = false;
 };
 
@@ -88,9 +94,6 @@ class Busy {
  private:
   Handle& handle_;
 };
-
-// The same mesh with its floats rounded; borrows `input`.
-Input roundedInput(const Input& input);
 
 // Empty if there is no callback.
 ProgressFunction progressOf(tetstream_progress_callback callback, void* user);

@@ -45,14 +45,6 @@ static Status endRun(tetstream_simplifier& s) {
   return s.report.limited_by.empty() ? Status::kOk : Status::kTargetMissed;
 }
 
-// An indexed mesh that comes in batches goes the way of a pushed one.
-static void pushAll(SimplifyRun& run, Source& source) {
-  run.begin(source.schema(), true);
-  BatchView batch;
-  while (source.next(batch)) run.put(batch);
-  run.finish();
-}
-
 static Status pull(tetstream_simplifier& s, tetstream_reader& reader) {
   ReaderUse use(reader);
   startRun(s);
@@ -61,17 +53,8 @@ static Status pull(tetstream_simplifier& s, tetstream_reader& reader) {
     tetstream_simplifier& s;
     ~Scope() { dropRun(s); }
   };
-  Input rounded;
   const Scope scope{s};
-  Input* input = &use.input();
-  if (s.output->mustRound(input->schema())) {
-    rounded = roundedInput(*input);
-    input = &rounded;
-  }
-  if (use.toBeCollected())
-    pushAll(*s.run, *input->stream);
-  else
-    s.run->run(*input);
+  s.run->run(use.input(s.output->mustRound(use.schema())));
   use.done();
   return endRun(s);
 }

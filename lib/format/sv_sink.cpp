@@ -102,6 +102,7 @@ class SvSink final : public Sink {
   void finish() override {
     introduce(pending_->end() - 1);
     flush();
+    checkCounts();
     if (!begun_) {
       schema_.vertex_count = schema_.cell_count = 0;
       encoder_->begin(schema_);
@@ -197,6 +198,17 @@ class SvSink final : public Sink {
     begun_ = true;
     encoder_->write(*block_);
     block_->clear(static_cast<uint64_t>(pending_->first()));
+  }
+
+  void checkCounts() const {
+    const int64_t vertices = pending_->end();
+    if ((schema_.vertex_count >= 0 && schema_.vertex_count != vertices) ||
+        (schema_.cell_count >= 0 && schema_.cell_count != cells_))
+      fail(Status::kBadData,
+           "the stream has %lld vertices and %lld cells, but announced %lld and %lld",
+           static_cast<long long>(vertices), static_cast<long long>(cells_),
+           static_cast<long long>(schema_.vertex_count),
+           static_cast<long long>(schema_.cell_count));
   }
 
   void checkPositions() {

@@ -73,12 +73,6 @@ class SvaEncoder final : public SvEncoder {
   }
 
   void finish(int64_t vertex_count, int64_t cell_count) override {
-    if ((schema_.vertex_count >= 0 && schema_.vertex_count != vertex_count) ||
-        (schema_.cell_count >= 0 && schema_.cell_count != cell_count))
-      fail(Status::kBadData,
-           "%s: the stream has %lld vertices and %lld cells, but announced other numbers",
-           sink_->name().c_str(), static_cast<long long>(vertex_count),
-           static_cast<long long>(cell_count));
     if (counts_at_ >= 0) {
       const std::string counts = printSvaCounts(vertex_count, cell_count);
       sink_->writeAt(static_cast<uint64_t>(counts_at_), counts.data(), counts.size());

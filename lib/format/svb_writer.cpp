@@ -45,12 +45,6 @@ class SvbEncoder final : public SvEncoder {
   }
 
   void finish(int64_t vertex_count, int64_t cell_count) override {
-    if ((schema_.vertex_count >= 0 && schema_.vertex_count != vertex_count) ||
-        (schema_.cell_count >= 0 && schema_.cell_count != cell_count))
-      fail(Status::kBadData,
-           "%s: the stream has %lld vertices and %lld cells, but announced other numbers",
-           sink_->name().c_str(), static_cast<long long>(vertex_count),
-           static_cast<long long>(cell_count));
     out_.clear();
     closeBlock();  // also an empty one, as the format's first writer does
     sink_->write(out_.data(), out_.size());

@@ -85,6 +85,11 @@ void Writer::begin(const Schema& schema) {
     if (columns > kMaxColumns)
       fail(Status::kUnsupported, "%s: .tets holds up to %u fields and cell arrays, not %zu",
            sink_->name().c_str(), kMaxColumns, columns);
+  for (const std::vector<Column>* columns : {&schema.fields, &schema.cell_data})
+    for (const Column& c : *columns)
+      if (c.name.find('\0') != std::string::npos)
+        fail(Status::kUnsupported, "%s: the name \"%s\" goes on after a zero byte",
+             sink_->name().c_str(), c.name.c_str());
   schema_ = schema;
   vertex_bytes_ = 3 * sizeOf(schema.position_type) + 1;
   for (const Column& c : schema.fields) vertex_bytes_ += c.bytesPerRow();

@@ -1,5 +1,6 @@
 // simplify: the best of a few random edges, tile by tile. See select.h.
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "random.h"
@@ -14,6 +15,9 @@ constexpr int kDrawsAboveBound = 12, kDrawsIllegal = 60;
 // The bound starts this far below the last window's and rises by this factor from pass to pass:
 // finer steps come closer to a global order and load each tile more often.
 constexpr double kFirstBound = 1.0 / 16, kBoundStep = 1.6;
+// A draw's next best edges are tried when the best is not legal: illegal edges of low error would
+// otherwise win again and again and hide the legal ones.
+constexpr size_t kTries = 3;
 constexpr int kSamples = 256;  // draws from which the first window's bound is taken
 
 template <class S>
@@ -25,8 +29,9 @@ class RandomSelector final : public Selector<S> {
         tiles_(core, account),
         random_(static_cast<uint64_t>(core.options.seed)),
         exhaustive_(makeExhaustiveSelector(core, collapser)),
-        z_(static_cast<size_t>(core.plan.dimension)),
-        best_z_(z_) {}
+        z_(static_cast<size_t>(core.plan.dimension)) {
+    for (Draw& draw : best_) draw.z.resize(z_.size());
+  }
 
   void decimate(const Goal& goal) override {
     goal_ = goal;
@@ -40,13 +45,16 @@ class RandomSelector final : public Selector<S> {
   struct Draw {
     uint32_t u = kNone, v = kNone;
     S error = std::numeric_limits<S>::infinity();
+    std::vector<S> z;
   };
 
   bool reached() const { return core_.window.mesh.liveCells() <= goal_.cells; }
   void sweep();
   void sweepTile(Tile& tile, S bound, bool* moved, bool* bounded);
   bool drawEdge(Tile& tile, uint32_t* u, uint32_t* v);
-  Draw drawBest(Tile& tile);
+  void drawBest(Tile& tile);
+  void rank(uint32_t u, uint32_t v, S error);
+  bool collapseBest(S bound);
   S sampledBound();
 
   Core<S>& core_;
@@ -54,7 +62,8 @@ class RandomSelector final : public Selector<S> {
   Tiles<S> tiles_;
   Random random_;
   std::unique_ptr<Selector<S>> exhaustive_;
-  std::vector<S> z_, best_z_;
+  std::array<Draw, kTries> best_;  // of the last draw, in order of error
+  std::vector<S> z_;
   Goal goal_{};
   S bound_ = 0;  // that the last window ended with
 };
@@ -77,11 +86,28 @@ bool RandomSelector<S>::drawEdge(Tile& tile, uint32_t* u, uint32_t* v) {
   return mesh.isFree(*u) && mesh.isFree(*v);
 }
 
+// Puts an edge, with z_, in its place among the best; an edge drawn twice counts once.
 template <class S>
-typename RandomSelector<S>::Draw RandomSelector<S>::drawBest(Tile& tile) {
-  Draw best;
+void RandomSelector<S>::rank(uint32_t u, uint32_t v, S error) {
+  for (const Draw& draw : best_)
+    if ((draw.u == u && draw.v == v) || (draw.u == v && draw.v == u)) return;
+  size_t place = kTries - 1;
+  std::swap(best_[place].z, z_);
+  best_[place].u = u;
+  best_[place].v = v;
+  best_[place].error = error;
+  for (; place > 0 && best_[place].error < best_[place - 1].error; --place)
+    std::swap(best_[place], best_[place - 1]);
+}
+
+template <class S>
+void RandomSelector<S>::drawBest(Tile& tile) {
   const Window<S>& window = core_.window;
   const int last = window.shape().quadric - 1;
+  for (Draw& draw : best_) {
+    draw.u = draw.v = kNone;
+    draw.error = std::numeric_limits<S>::infinity();
+  }
   int64_t found = 0;
   for (int64_t tries = 0; found < core_.options.candidates && tile.size() > 0; ++tries) {
     if (tries >= 8 * core_.options.candidates) break;
@@ -89,29 +115,35 @@ typename RandomSelector<S>::Draw RandomSelector<S>::drawBest(Tile& tile) {
     if (!drawEdge(tile, &u, &v)) continue;
     ++found;
     S *a = core_.window.quadric(u), *b = core_.window.quadric(v);
-    if (a[last] + b[last] >= best.error) continue;  // the merge cannot be better
+    const S worst = best_[kTries - 1].error;
+    if (a[last] + b[last] >= worst) continue;  // the merge cannot be better
     const S error = core_.kernels.minimizeEdge(a, window.values(u), b, window.values(v),
                                                core_.scale.data(), core_.plan.dimension, z_.data());
-    if (!(error < best.error)) continue;
-    best = {u, v, error};
-    std::swap(z_, best_z_);
+    if (error < worst) rank(u, v, error);
   }
-  return best;
+}
+
+// Tries the last draw's edges in order of their error.
+template <class S>
+bool RandomSelector<S>::collapseBest(S bound) {
+  for (const Draw& draw : best_) {
+    if (!(draw.error <= bound)) return false;
+    if (collapser_.collapse(draw.u, draw.v, draw.z.data(), draw.error, goal_.least_cells) ==
+        Outcome::kDone)
+      return true;
+  }
+  return false;
 }
 
 template <class S>
 void RandomSelector<S>::sweepTile(Tile& tile, S bound, bool* moved, bool* bounded) {
   int above = 0, illegal = 0;
   while (!reached() && tile.size() > 0 && above < kDrawsAboveBound && illegal < kDrawsIllegal) {
-    const Draw best = drawBest(tile);
-    if (!(best.error <= bound)) {
+    drawBest(tile);
+    if (!(best_[0].error <= bound)) {
       ++above;
-      *bounded = *bounded || best.u != kNone;
-      continue;
-    }
-    const Outcome outcome =
-        collapser_.collapse(best.u, best.v, best_z_.data(), best.error, goal_.least_cells);
-    if (outcome == Outcome::kDone) {
+      *bounded = *bounded || best_[0].u != kNone;
+    } else if (collapseBest(bound)) {
       above = illegal = 0;
       *moved = true;
     } else {
@@ -125,10 +157,9 @@ template <class S>
 S RandomSelector<S>::sampledBound() {
   std::vector<S> errors;
   for (int i = 0; i < kSamples; ++i) {
-    Tile& tile = tiles_.tiles()[random_.below(static_cast<uint32_t>(tiles_.tiles().size()))];
-    const Draw draw = drawBest(tile);
-    if (draw.u != kNone && draw.error > 0 && std::isfinite(draw.error))
-      errors.push_back(draw.error);
+    drawBest(tiles_.tiles()[random_.below(static_cast<uint32_t>(tiles_.tiles().size()))]);
+    const S error = best_[0].error;
+    if (best_[0].u != kNone && error > 0 && std::isfinite(error)) errors.push_back(error);
   }
   if (errors.empty()) return std::numeric_limits<S>::min();
   std::sort(errors.begin(), errors.end());

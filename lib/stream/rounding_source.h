@@ -46,6 +46,8 @@ class RoundingIndexedSource final : public IndexedSource {
  public:
   explicit RoundingIndexedSource(IndexedSource& in) : in_(in), rounding_(in.schema()) {}
   const Schema& schema() const override { return rounding_.schema(); }
+  bool randomAccess() const override { return in_.randomAccess(); }
+  const uint8_t* locked() const override { return in_.locked(); }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
   void readCells(uint64_t first, size_t count, int64_t* out) override {

@@ -229,6 +229,18 @@ TEST(Tets, RefusesToFinishWithOtherCountsThanAnnounced) {
   EXPECT_THROW(writePiped(s), Error);
 }
 
+TEST(Tets, RefusesSchemasThatItCannotHold) {
+  Stream s;
+  s.schema.fields = {{std::string("a\0b", 3), 1, ScalarType::kFloat32}};
+  EXPECT_THROW(write(s), Error);
+  s.schema.fields.clear();
+  for (int i = 0; i < 1025; ++i)
+    s.schema.fields.push_back({textOf("f%d", i), 1, ScalarType::kFloat32});
+  EXPECT_THROW(write(s), Error);
+  s.schema.fields.pop_back();
+  EXPECT_TRUE(read(write(s)) == s.events());
+}
+
 TEST(Tets, RefusesStreamsThatNameUnknownVertices) {
   Stream s = oneCell();
   s.batches[0].cell(0)[1] = 4;

@@ -1,0 +1,286 @@
+/* Memory may run out anywhere: the n-th allocation of a run fails, for all n, and each time there
+ * is a status, no crash, and nothing is lost. This program defines the allocator itself, on top of
+ * glibc's, and so counts what the library and its C++ run time take and give back. */
+#include <stdlib.h>
+
+#include "check.h"
+#include "hostile.h"
+
+#define NOT_RUN 77
+
+#if defined(TETSTREAM_SANITIZED) || !defined(__GLIBC__)
+
+int main(void) {
+  puts("not run: the allocator is not ours to replace here");
+  return NOT_RUN;
+}
+
+#else
+
+#include <errno.h>
+
+void* __libc_malloc(size_t size);
+void* __libc_calloc(size_t count, size_t size);
+void* __libc_realloc(void* old, size_t size);
+void* __libc_memalign(size_t alignment, size_t size);
+void __libc_free(void* old);
+
+static int watching; /* counts and fails only then */
+static long allocations, frees, fail_at;
+static int failed;
+
+/* Whether this allocation is to fail. */
+static int is_refused(void) {
+  if (!watching) return 0;
+  if (++allocations != fail_at) return 0;
+  failed = 1;
+  errno = ENOMEM;
+  return 1;
+}
+
+void* malloc(size_t size) {
+  return is_refused() ? NULL : __libc_malloc(size);
+}
+
+void* calloc(size_t count, size_t size) {
+  return is_refused() ? NULL : __libc_calloc(count, size);
+}
+
+void* aligned_alloc(size_t alignment, size_t size) {
+  return is_refused() ? NULL : __libc_memalign(alignment, size);
+}
+
+int posix_memalign(void** out, size_t alignment, size_t size) {
+  if (is_refused()) return ENOMEM;
+  *out = __libc_memalign(alignment, size);
+  return *out ? 0 : ENOMEM;
+}
+
+/* One that grows a block is an allocation and a free. */
+void* realloc(void* old, size_t size) {
+  if (is_refused()) return NULL;
+  if (watching && old) ++frees;
+  return __libc_realloc(old, size);
+}
+
+void free(void* old) {
+  if (watching && old) ++frees;
+  __libc_free(old);
+}
+
+/* The caller's own memory is not what is tested: his callbacks are left alone. */
+static tetstream_reader_callbacks theirs;
+
+static int32_t open_unwatched(void* user, tetstream_stream_info* info) {
+  watching = 0;
+  const int32_t value = theirs.open(user, info);
+  watching = 1;
+  return value;
+}
+
+static int32_t next_unwatched(void* user, tetstream_batch* batch) {
+  watching = 0;
+  const int32_t value = theirs.next(user, batch);
+  watching = 1;
+  return value;
+}
+
+static void close_unwatched(void* user) {
+  watching = 0;
+  theirs.close(user);
+  watching = 1;
+}
+
+/* ------------------------------------------------------------------------------- the small runs */
+
+static hostile_mesh* mesh;
+
+/* Each gives the first failure, or OK, and has destroyed what it made. */
+typedef tetstream_status (*small_run)(void);
+
+static tetstream_status first(tetstream_status a, tetstream_status b) {
+  return a < 0 ? a : b;
+}
+
+static tetstream_status configure(void) {
+  tetstream_options* options = NULL;
+  tetstream_status status = tetstream_options_create(&options);
+  status = first(status, tetstream_options_set_text(options, TETSTREAM_OPTION_TMPDIR,
+                                                    "/a/folder/with/a/rather/long/name"));
+  status = first(status, tetstream_options_parse(options, "memory", "64M"));
+  status = first(status, tetstream_options_add_field(options, "a field with a long name", 1));
+  if (status < 0 && !tetstream_options_message(options)) status = TETSTREAM_INTERNAL;
+  tetstream_options_destroy(options);
+  return status;
+}
+
+static tetstream_status simplify(tetstream_reader* reader, const char* format) {
+  tetstream_options* options = NULL;
+  tetstream_writer* writer = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  tetstream_report report = {0};
+  report.struct_size = sizeof report;
+  tetstream_status status = tetstream_options_create(&options);
+  if (status >= 0) status = tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, 0.5);
+  if (status >= 0) status = tetstream_writer_create_memory(format, &writer);
+  if (status >= 0) status = tetstream_simplifier_create(options, writer, &simplifier);
+  if (status >= 0) status = tetstream_simplifier_run(simplifier, reader);
+  if (status >= 0) status = tetstream_simplifier_get_report(simplifier, &report);
+  if (status < 0 && !tetstream_simplifier_message(simplifier)) status = TETSTREAM_INTERNAL;
+  tetstream_simplifier_destroy(simplifier);
+  tetstream_writer_destroy(writer);
+  tetstream_options_destroy(options);
+  return status;
+}
+
+static tetstream_status simplify_stream_into(const char* format) {
+  hostile_reader hostile = {0};
+  tetstream_reader* reader = NULL;
+  hostile.mesh = mesh;
+  hostile.cut = HOSTILE_ODD;
+  theirs = hostile_reader_callbacks(&hostile);
+  const tetstream_reader_callbacks reads = {sizeof reads, &hostile, open_unwatched, next_unwatched,
+                                            close_unwatched};
+  tetstream_status status = tetstream_reader_create(&reads, &reader);
+  if (status >= 0) status = simplify(reader, format);
+  tetstream_reader_destroy(reader);
+  if (hostile.closes != hostile.opens) status = TETSTREAM_INTERNAL;
+  return status;
+}
+
+static tetstream_status simplify_stream_to_tets(void) {
+  return simplify_stream_into("tets");
+}
+static tetstream_status simplify_stream_to_vtu(void) {
+  return simplify_stream_into("vtu");
+}
+static tetstream_status simplify_stream_to_sva(void) {
+  return simplify_stream_into("sva");
+}
+static tetstream_status simplify_stream_to_svb(void) {
+  return simplify_stream_into("svb");
+}
+
+static tetstream_status simplify_arrays(void) {
+  tetstream_stream_info info;
+  tetstream_batch batch;
+  const void* pointers[3];
+  tetstream_reader* reader = NULL;
+  hostile_mesh_info(mesh, &info);
+  hostile_mesh_batch(mesh, &batch, pointers);
+  tetstream_status status = tetstream_reader_open_mesh(&info, &batch, &reader);
+  if (status >= 0) status = simplify(reader, "tets");
+  tetstream_reader_destroy(reader);
+  return status;
+}
+
+static tetstream_status push_into_callbacks(void) {
+  hostile_writer hostile = {0};
+  tetstream_writer* writer = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  tetstream_stream_info info;
+  tetstream_batch batch;
+  const void* pointers[3];
+  static unsigned char state[4096];
+  hostile.state = state; /* so that the writer itself needs no memory */
+  hostile.state_size = sizeof state;
+  const tetstream_writer_callbacks writes = hostile_writer_callbacks(&hostile);
+  hostile_mesh_info(mesh, &info);
+  hostile_mesh_batch(mesh, &batch, pointers);
+  tetstream_status status = tetstream_writer_create(&writes, &writer);
+  if (status >= 0) status = tetstream_simplifier_create(NULL, writer, &simplifier);
+  if (status >= 0) status = tetstream_simplifier_begin(simplifier, &info);
+  if (status >= 0) status = tetstream_simplifier_push(simplifier, &batch);
+  if (status >= 0) status = tetstream_simplifier_finish(simplifier);
+  tetstream_writer_destroy(writer);
+  tetstream_simplifier_destroy(simplifier);
+  if (hostile.closes != hostile.opens || hostile.stream_errors) status = TETSTREAM_INTERNAL;
+  return status;
+}
+
+/* From bytes in memory, which are made beforehand, to an inspection. */
+static const void* bytes[4];
+static size_t sizes[4];
+static const char* const names[4] = {"tets", "vtu", "sva", "svb"};
+static int kind;
+
+static tetstream_status inspect_file(void) {
+  tetstream_reader* reader = NULL;
+  tetstream_stream_info info = {0};
+  info.struct_size = sizeof info;
+  tetstream_status status =
+      tetstream_reader_open_memory(bytes[kind], sizes[kind], names[kind], &reader);
+  if (status >= 0) status = tetstream_inspect(reader, NULL, NULL, NULL, &info);
+  if (status >= 0 && info.cell_count != mesh->cell_count) status = TETSTREAM_INTERNAL;
+  if (status < 0 && !tetstream_reader_message(reader)) status = TETSTREAM_INTERNAL;
+  tetstream_reader_destroy(reader);
+  return status;
+}
+
+/* ---------------------------------------------------------------------------- one after another */
+
+static void fails_cleanly_wherever_memory_ends(const char* name, small_run run) {
+  const int failures_before = check_failures;
+  long n = 1;
+  run(); /* what the C library allocates once and keeps */
+  for (;; ++n) {
+    allocations = frees = 0;
+    failed = 0;
+    fail_at = n;
+    watching = 1;
+    const tetstream_status status = run();
+    watching = 0;
+    if (!failed) {
+      if (!CHECK(status >= 0)) printf("    %s: status %d\n", name, (int)status);
+      break;
+    }
+    /* note: a refusal may be survived, as when a stream is written unbuffered; never crashed. */
+    if (!CHECK(status == TETSTREAM_NO_MEMORY || status >= 0))
+      printf("    %s, allocation %ld: %s\n", name, n, tetstream_status_name(status));
+    if (!CHECK_EQUAL(allocations - 1, frees)) printf("    %s, allocation %ld\n", name, n);
+    if (check_failures > failures_before + 5) return;
+  }
+  CHECK_EQUAL(allocations, frees);
+  printf("%s: %ld allocations, each of them refused once\n", name, n - 1);
+}
+
+static void make_bytes(int i, tetstream_writer** writer) {
+  tetstream_stream_info info;
+  tetstream_batch batch;
+  const void* pointers[3];
+  tetstream_reader* reader = NULL;
+  hostile_mesh_info(mesh, &info);
+  hostile_mesh_batch(mesh, &batch, pointers);
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory(names[i], writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, *writer, NULL, NULL, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_get_memory(*writer, &bytes[i], &sizes[i]), TETSTREAM_OK);
+  tetstream_reader_destroy(reader);
+}
+
+int main(void) {
+  tetstream_writer* writers[4];
+  if (getenv("TETSTREAM_MEMCHECK")) {
+    puts("not run: memcheck has its own allocator");
+    return NOT_RUN;
+  }
+  setvbuf(stdout, NULL, _IONBF, 0);
+  mesh = hostile_mesh_create(2, 2, 3);
+  CHECK(mesh != NULL);
+  fails_cleanly_wherever_memory_ends("options", configure);
+  fails_cleanly_wherever_memory_ends("stream to .tets", simplify_stream_to_tets);
+  fails_cleanly_wherever_memory_ends("stream to .vtu", simplify_stream_to_vtu);
+  fails_cleanly_wherever_memory_ends("stream to .sva", simplify_stream_to_sva);
+  fails_cleanly_wherever_memory_ends("stream to .svb", simplify_stream_to_svb);
+  fails_cleanly_wherever_memory_ends("arrays to .tets", simplify_arrays);
+  fails_cleanly_wherever_memory_ends("push", push_into_callbacks);
+  for (kind = 0; kind < 4; ++kind) {
+    make_bytes(kind, &writers[kind]);
+    fails_cleanly_wherever_memory_ends(names[kind], inspect_file);
+    tetstream_writer_destroy(writers[kind]);
+  }
+  hostile_mesh_destroy(mesh);
+  return check_end();
+}
+
+#endif

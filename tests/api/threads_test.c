@@ -1,0 +1,81 @@
+/* Different handles may be used at once: many runs on many threads give the bytes of one. */
+#include <pthread.h>
+#include <stdlib.h>
+
+#include "check.h"
+#include "tetstream/tetstream.h"
+
+typedef struct job {
+  int32_t seed;
+  tetstream_status status;
+  char message[256];
+  unsigned char* bytes;
+  size_t size;
+} job;
+
+static tetstream_status simplify(job* j) {
+  tetstream_options* options = NULL;
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  const void* data = NULL;
+  tetstream_status status = tetstream_options_create(&options);
+  if (status >= 0) status = tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, 0.3);
+  if (status >= 0) status = tetstream_reader_generate("fluid", 6000, j->seed, &reader);
+  if (status >= 0) status = tetstream_writer_create_memory("tets", &writer);
+  if (status >= 0) status = tetstream_simplifier_create(options, writer, &simplifier);
+  if (status >= 0) status = tetstream_simplifier_run(simplifier, reader);
+  snprintf(j->message, sizeof j->message, "%s", tetstream_simplifier_message(simplifier));
+  if (status >= 0) status = tetstream_writer_get_memory(writer, &data, &j->size);
+  if (status >= 0) {
+    j->bytes = malloc(j->size);
+    if (j->bytes) memcpy(j->bytes, data, j->size);
+  }
+  tetstream_simplifier_destroy(simplifier);
+  tetstream_reader_destroy(reader);
+  tetstream_writer_destroy(writer);
+  tetstream_options_destroy(options);
+  return status;
+}
+
+static void* work(void* argument) {
+  job* j = argument;
+  j->status = simplify(j);
+  return NULL;
+}
+
+#define THREADS 6
+
+static void runs_at_once_give_the_bytes_of_runs_alone(void) {
+  job alone[2] = {{0}}, at_once[THREADS] = {{0}};
+  pthread_t threads[THREADS];
+  for (int i = 0; i < 2; ++i) {
+    alone[i].seed = i + 1;
+    work(&alone[i]);
+    CHECK(alone[i].status >= 0);
+    CHECK(alone[i].bytes && alone[i].size > 0);
+  }
+  CHECK(alone[0].size != alone[1].size ||
+        memcmp(alone[0].bytes, alone[1].bytes, alone[0].size) != 0);
+  for (int i = 0; i < THREADS; ++i) {
+    at_once[i].seed = i % 2 + 1;
+    CHECK_EQUAL(pthread_create(&threads[i], NULL, work, &at_once[i]), 0);
+  }
+  for (int i = 0; i < THREADS; ++i) {
+    const job* same = &alone[i % 2];
+    CHECK_EQUAL(pthread_join(threads[i], NULL), 0);
+    CHECK_EQUAL(at_once[i].status, same->status);
+    CHECK_SAYS(at_once[i].message, "");
+    CHECK_EQUAL(at_once[i].size, same->size);
+    CHECK(at_once[i].bytes && at_once[i].size == same->size &&
+          memcmp(at_once[i].bytes, same->bytes, same->size) == 0);
+    free(at_once[i].bytes);
+  }
+  free(alone[0].bytes);
+  free(alone[1].bytes);
+}
+
+int main(void) {
+  RUN_CASE(runs_at_once_give_the_bytes_of_runs_alone);
+  return check_end();
+}
