@@ -33,7 +33,9 @@
  *
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
- * and report, and destroyed. A failure of any other function had no effect.
+ * and report, and destroyed; the same holds for the reader and the writer of a failed `run`,
+ * `convert` or `inspect`. A failure of any other function had no effect, nor has a call that is
+ * refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too small.
  */
 #ifndef TETSTREAM_H
 #define TETSTREAM_H
@@ -178,8 +180,8 @@ typedef struct tetstream_column {
 #define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
                                       and ordered by the library before it is streamed */
 
-/* What a stream carries. Unknown counts are -1. The arrays are read during the call only, or, in a
- * reader's `open`, until `close`. */
+/* What a stream carries. Counts that are not known are -1 where the library gives them, and -1 or 0
+ * where it takes them. The arrays are read during the call only. */
 typedef struct tetstream_stream_info {
   size_t struct_size;    /* sizeof(tetstream_stream_info) */
   int32_t position_type; /* TETSTREAM_TYPE_FLOAT32 or _FLOAT64 */
@@ -188,11 +190,11 @@ typedef struct tetstream_stream_info {
   int32_t cell_data_count;
   const tetstream_column *fields;    /* may be NULL if there are none */
   const tetstream_column *cell_data; /* may be NULL if there are none */
-  int64_t vertex_count, cell_count;  /* -1: not known */
-  int64_t front_width;               /* active vertices at once, at most; -1: not known */
-  int64_t front_span;                /* -1: not known */
-  int64_t front_cells;               /* cells that touch a vertex not yet finalized, at most; -1: not
-                                        known. It sets the window. */
+  int64_t vertex_count, cell_count;
+  int64_t front_width;               /* vertices between first use and finalization, at most */
+  int64_t front_span;                /* highest minus lowest of their ids, plus 1, at most */
+  int64_t front_cells;               /* cells that touch a vertex not yet finalized, at most. It
+                                        sets the window. */
   const double *box_min; /* x y z and each component of each field, in order; NULL: not known */
   const double *box_max;
 } tetstream_stream_info;
@@ -231,7 +233,8 @@ typedef struct tetstream_batch {
 typedef struct tetstream_reader_callbacks {
   size_t struct_size;
   void *user;
-  /* Required. Called once, first. Fills *info (struct_size is set); its arrays live until close. */
+  /* Required. Called once, first. Fills *info, which comes with struct_size set, the counts -1 and
+   * the rest zero. What it points to is copied. */
   int32_t (*open)(void *user, tetstream_stream_info *info);
   /* Required. Called until it gives a batch with no vertex, cell or finalization. *batch comes
    * with struct_size set and the rest zero. Its arrays are read before the next call. */
@@ -242,6 +245,8 @@ typedef struct tetstream_reader_callbacks {
 
 typedef struct tetstream_reader tetstream_reader;
 
+/* A reader serves one `run`, `convert` or `inspect`. */
+
 /* A reader of the caller's. The table is copied. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_create(const tetstream_reader_callbacks *callbacks,
                                                        tetstream_reader **reader);
@@ -250,11 +255,11 @@ TETSTREAM_API tetstream_status tetstream_reader_create(const tetstream_reader_ca
 TETSTREAM_API tetstream_status tetstream_reader_open_file(const char *path, const char *format,
                                                           tetstream_reader **reader);
 /* A file descriptor, which stays the caller's to close; for formats that must seek, a pipe is
- * spooled to a temporary file. Since 0.1. */
+ * spooled to a temporary file in $TMPDIR or /tmp. `format` must be given. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *format,
                                                         tetstream_reader **reader);
-/* The bytes of a file in memory, which must stay as they are until the reader is destroyed. Since
- * 0.1. */
+/* The bytes of a file in memory, which must stay as they are until the reader is destroyed.
+ * `format` must be given. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, size_t size,
                                                             const char *format,
                                                             tetstream_reader **reader);
@@ -273,7 +278,8 @@ TETSTREAM_API tetstream_status tetstream_reader_generate(const char *kind, int64
 /* Since 0.1. */
 TETSTREAM_API void tetstream_reader_destroy(tetstream_reader *reader);
 /* What the stream carries, as far as it is known without reading it. For callback readers: opens
- * them. The pointers in *info live as long as the reader. Since 0.1. */
+ * them; if that fails, the reader can only be destroyed. The pointers in *info live as long as the
+ * reader. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reader,
                                                          tetstream_stream_info *info);
 /* What the reader left out or assumed, as sentences: note `index`, or NULL if there are fewer.
@@ -309,7 +315,8 @@ TETSTREAM_API tetstream_status tetstream_writer_create(const tetstream_writer_ca
  * readers. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_writer_create_file(const char *path, const char *format,
                                                             tetstream_writer **writer);
-/* A file descriptor, which stays the caller's to close. Since 0.1. */
+/* A file descriptor, which stays the caller's to close. `format` must be given, here and for
+ * memory. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_writer_create_fd(int32_t fd, const char *format,
                                                           tetstream_writer **writer);
 /* Memory: the bytes of a file of that format. Since 0.1. */
@@ -344,7 +351,8 @@ typedef struct tetstream_progress {
  * fails with TETSTREAM_CANCELLED. */
 typedef int32_t (*tetstream_progress_callback)(void *user, const tetstream_progress *progress);
 
-/* What came out. Members may be added at the end. */
+/* What came out. Members may be added at the end. The texts live until the stream goes on or the
+ * handle is destroyed. */
 typedef struct tetstream_report {
   size_t struct_size;
   int64_t cells_in, vertices_in, cells_out, vertices_out;
@@ -363,14 +371,15 @@ typedef struct tetstream_report {
   double seconds;               /* from begin to finish */
   uint64_t peak_window_bytes;   /* of the arrays that the memory option bounds */
   uint64_t peak_resident_bytes; /* of the process, 0 where the system does not tell */
-  const char *regions;          /* what was taken as region labels, in words; lives as the handle */
+  const char *regions;          /* what was taken as region labels, in words */
   const char *limited_by;       /* what stopped the run short of its target, or "" */
 } tetstream_report;
 
 typedef struct tetstream_simplifier tetstream_simplifier;
 
-/* A simplifier that writes to `writer`. The options are copied; the writer is borrowed until the
- * simplifier is destroyed and serves one stream. Since 0.1. */
+/* A simplifier that writes to `writer`, which serves one stream. The options are copied; NULL: the
+ * defaults. Destroying the writer before the stream ends leaves the simplifier to be destroyed.
+ * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_create(const tetstream_options *options,
                                                            tetstream_writer *writer,
                                                            tetstream_simplifier **simplifier);
@@ -401,15 +410,16 @@ TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifie
 
 /* ---------------------------------------------------------------------- without simplifying */
 
-/* Reads everything from `reader`, ordering it if it is indexed and the writer's format is a stream,
- * and writes it. `options` may be NULL: defaults; the memory, tmpdir and axis options count. On
- * failure the message is the writer's. Since 0.1. */
+/* Reads everything from `reader`, ordering it if it is indexed, and writes it. `options` may be
+ * NULL: defaults; the memory, tmpdir and axis options count. On failure the message is the
+ * writer's. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_convert(tetstream_reader *reader, tetstream_writer *writer,
                                                  const tetstream_options *options,
                                                  tetstream_progress_callback progress, void *user);
 /* Reads everything and fills *info completely: counts, box, front width, span and cells, as it
- * stands or, for an indexed mesh, as `run` would stream it. The pointers in *info live as long as
- * the reader. On failure the message is the reader's. Since 0.1. */
+ * stands or, for an indexed mesh, as `run` would stream it. `options` as for `convert`. The
+ * pointers in *info live as long as the reader. On failure the message is the reader's. Since 0.1.
+ */
 TETSTREAM_API tetstream_status tetstream_inspect(tetstream_reader *reader,
                                                  const tetstream_options *options,
                                                  tetstream_progress_callback progress, void *user,

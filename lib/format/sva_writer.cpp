@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "registry.h"
-#include "status.h"
 #include "sv_sink.h"
 #include "sva_header.h"
 #include "sva_number.h"

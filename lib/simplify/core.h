@@ -17,6 +17,11 @@ constexpr uint8_t kResolved = 32;
 // Locked by the stream itself, which the output says again.
 constexpr uint8_t kCallerLocked = 64;
 
+// Vertices that never move, by reason: what a missed target is explained with.
+struct LockedVertices {
+  int64_t interfaces = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
+};
+
 template <class S>
 struct Core {
   Core(const Plan& the_plan, const SimplifyOptions& the_options, Account& account, size_t cells,
@@ -41,6 +46,7 @@ struct Core {
   std::vector<S> scale, inverse_scale;  // per dimension: normalised = scale * user's units
   double error_unit = 1;                // times a quadric error: the report's unit
   Report report;
+  LockedVertices locked;
 };
 
 template <class S>

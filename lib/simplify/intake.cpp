@@ -69,6 +69,7 @@ void Intake<S>::takeVertex(size_t row) {
     window.growVertices(window.mesh.vertexCapacity() + window.mesh.vertexCapacity() / 4 + 64);
   const bool locked = batch_.locked && batch_.locked[row];
   const uint32_t slot = window.mesh.addVertex(locked ? kLocked | kCallerLocked : 0);
+  core_.locked.by_caller += locked;
   readFloats(batch_.positions, core_.plan.schema.position_type, row, 3, window.values(slot));
   if (!allFinite(window.values(slot), 3))
     fail(Status::kBadData, "vertex %llu: its position is not finite",

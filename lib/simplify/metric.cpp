@@ -150,6 +150,7 @@ void Metric<S>::addCell(uint32_t cell) {
     window.mesh.flagCell(cell, kFlat);
     for (int j = 0; j < 4; ++j) window.mesh.flagVertex(v[j], kLocked);
     ++core_.report.locked_cells;
+    ++core_.locked.bad_cells;
     return;
   }
   const S* x[4];

@@ -33,7 +33,10 @@ void Resolver<S>::resolve(uint32_t v) {
   Topology& mesh = core_.window.mesh;
   mesh.gather(v, star_);
   if (!isClosed(star_)) resolveBoundary(v);
-  if (regions_.differ(star_)) mesh.flagVertex(v, kLocked);
+  if (regions_.differ(star_)) {
+    mesh.flagVertex(v, kLocked);
+    ++core_.locked.interfaces;
+  }
   mesh.flagVertex(v, kResolved);
 }
 
@@ -49,8 +52,8 @@ void Resolver<S>::lockFold(uint32_t v, uint32_t a, uint32_t b) {
     if (!(mesh.cellFlags(s.cell) & kFolded)) ++core_.report.locked_cells;
     mesh.flagCell(s.cell, kFolded);
     for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell)[j], kLocked);
+    ++core_.locked.bad_cells;
   }
-  mesh.flagVertex(v, kLocked);
 }
 
 template <class S>
@@ -78,12 +81,18 @@ void Resolver<S>::resolveBoundary(uint32_t v) {
     } else if (j - i == 2) {
       if ((edges_[i] & 1) == (edges_[i + 1] & 1)) lockFold(v, a, b);
     } else {
-      mesh.flagVertex(v, kLocked);  // a face of three cells or more
+      lockNonManifold(v);  // a face of three cells or more
     }
   }
   if (boundary_.empty()) return;
   mesh.flagVertex(v, kBoundary);
-  if (!isDisk(boundary_)) mesh.flagVertex(v, kLocked);
+  if (!isDisk(boundary_)) lockNonManifold(v);
+}
+
+template <class S>
+void Resolver<S>::lockNonManifold(uint32_t v) {
+  core_.window.mesh.flagVertex(v, kLocked);
+  ++core_.locked.non_manifold;
 }
 
 // Whether the boundary faces round a vertex form one fan: the edges of the link's boundary make a

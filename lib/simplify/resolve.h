@@ -24,6 +24,7 @@ class Resolver {
   void resolveBoundary(uint32_t v);
   bool isDisk(const std::vector<uint64_t>& boundary);
   void lockFold(uint32_t v, uint32_t a, uint32_t b);
+  void lockNonManifold(uint32_t v);
 
   Core<S>& core_;
   Metric<S>& metric_;

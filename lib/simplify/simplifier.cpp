@@ -69,6 +69,9 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   void put(const BatchView& batch) override {
+    if (batch.face_count > 0)
+      fail(Status::kUnsupported,
+           "the stream has labelled boundary faces, which a simplification cannot keep yet");
     intake_.startBatch(batch);
     for (size_t row = 0; row < batch.cell_count; ++row) {
       if (mesh().cellEnd() == capacity_) turn();
@@ -176,15 +179,22 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   void explainMiss() {
-    Report& r = core_.report;
-    const int64_t tests = r.rejected_orientation + r.rejected_link;
-    if (r.collapses == 0 && tests == 0)
-      r.limited_by = "no edge has two vertices that may move (interfaces, locks)";
-    else
-      r.limited_by = textOf(
-          "no legal collapse is left: of the last tries, cells would have turned over (%lld in all)"
-          " or the topology would have changed (%lld in all)",
-          static_cast<long long>(r.rejected_orientation), static_cast<long long>(r.rejected_link));
+    std::string kept;
+    const auto name = [&kept](int64_t count, const char* what) {
+      if (count > 0)
+        kept += textOf("%s%lld %s", kept.empty() ? "" : ", ", static_cast<long long>(count), what);
+    };
+    name(core_.locked.interfaces, "vertices on interfaces of regions");
+    name(core_.locked.non_manifold, "vertices at non-manifold places of the boundary");
+    name(core_.locked.bad_cells, "flat or folded cells of the input");
+    name(core_.locked.by_caller, "vertices locked by the stream");
+    core_.report.limited_by = "no legal collapse is left";
+    if (!kept.empty()) core_.report.limited_by += "; kept as they are: " + kept;
+    core_.report.limited_by += textOf(
+        "; refused: %lld collapses that would turn a cell over or flatten it, %lld that would "
+        "change the topology",
+        static_cast<long long>(core_.report.rejected_orientation),
+        static_cast<long long>(core_.report.rejected_link));
   }
 
   const Plan plan_;

@@ -29,7 +29,8 @@ struct BatchView {
   size_t finalized_count = 0;
   const int64_t* finalized = nullptr;  // ranks, final after the batch's last cell
   size_t face_count = 0;
-  const int64_t* faces = nullptr;        // [face_count][3] labelled boundary faces
+  const int64_t* faces = nullptr;        // [face_count][3] labelled boundary faces of cells
+                                         // so far; their vertices may be final already
   const int64_t* face_labels = nullptr;  // [face_count]
 };
 

@@ -19,14 +19,14 @@ until_true() {
   fail "in vain: $*"
 }
 
-# ended CODE: the process ends within a minute, with that code.
+# ended CODE: the process ends within five minutes (memcheck is slow), with that code.
 ended() {
   local code=0 i
-  for ((i = 0; i < 600; ++i)); do
+  for ((i = 0; i < 3000; ++i)); do
     if ! kill -0 "$pid" 2>"$logs/kill"; then break; fi
     sleep 0.1
   done
-  if ((i == 600)); then kill -KILL "$pid"; fi
+  if ((i == 3000)); then kill -KILL "$pid"; fi
   wait "$pid" || code=$?
   [[ $code == "$1" ]] || fail "exit code $code, not $1"
 }

@@ -1,0 +1,145 @@
+/* Where the members of the public structs lie on x86-64. Later versions may add members at the
+ * end; what stands here stays. */
+#include "check.h"
+#include "tetstream/tetstream.h"
+
+#define MEMBER(type, member, offset) CHECK_EQUAL(offsetof(type, member), offset)
+
+static void structs_keep_their_layout(void) {
+  CHECK_EQUAL(sizeof(tetstream_option_info), 64);
+  MEMBER(tetstream_option_info, struct_size, 0);
+  MEMBER(tetstream_option_info, id, 8);
+  MEMBER(tetstream_option_info, type, 12);
+  MEMBER(tetstream_option_info, name, 16);
+  MEMBER(tetstream_option_info, text, 24);
+  MEMBER(tetstream_option_info, minimum, 32);
+  MEMBER(tetstream_option_info, maximum, 40);
+  MEMBER(tetstream_option_info, default_text, 48);
+  MEMBER(tetstream_option_info, choices, 56);
+  CHECK_EQUAL(sizeof(tetstream_column), 16);
+  MEMBER(tetstream_column, name, 0);
+  MEMBER(tetstream_column, components, 8);
+  MEMBER(tetstream_column, type, 12);
+  CHECK_EQUAL(sizeof(tetstream_stream_info), 96);
+  MEMBER(tetstream_stream_info, struct_size, 0);
+  MEMBER(tetstream_stream_info, position_type, 8);
+  MEMBER(tetstream_stream_info, flags, 12);
+  MEMBER(tetstream_stream_info, field_count, 16);
+  MEMBER(tetstream_stream_info, cell_data_count, 20);
+  MEMBER(tetstream_stream_info, fields, 24);
+  MEMBER(tetstream_stream_info, cell_data, 32);
+  MEMBER(tetstream_stream_info, vertex_count, 40);
+  MEMBER(tetstream_stream_info, cell_count, 48);
+  MEMBER(tetstream_stream_info, front_width, 56);
+  MEMBER(tetstream_stream_info, front_span, 64);
+  MEMBER(tetstream_stream_info, front_cells, 72);
+  MEMBER(tetstream_stream_info, box_min, 80);
+  MEMBER(tetstream_stream_info, box_max, 88);
+  CHECK_EQUAL(sizeof(tetstream_batch), 88);
+  MEMBER(tetstream_batch, struct_size, 0);
+  MEMBER(tetstream_batch, vertex_count, 8);
+  MEMBER(tetstream_batch, positions, 16);
+  MEMBER(tetstream_batch, fields, 24);
+  MEMBER(tetstream_batch, locked, 32);
+  MEMBER(tetstream_batch, cell_count, 40);
+  MEMBER(tetstream_batch, cells, 48);
+  MEMBER(tetstream_batch, last_uses, 56);
+  MEMBER(tetstream_batch, cell_data, 64);
+  MEMBER(tetstream_batch, finalized_count, 72);
+  MEMBER(tetstream_batch, finalized, 80);
+  CHECK_EQUAL(sizeof(tetstream_reader_callbacks), 40);
+  MEMBER(tetstream_reader_callbacks, struct_size, 0);
+  MEMBER(tetstream_reader_callbacks, user, 8);
+  MEMBER(tetstream_reader_callbacks, open, 16);
+  MEMBER(tetstream_reader_callbacks, next, 24);
+  MEMBER(tetstream_reader_callbacks, close, 32);
+  CHECK_EQUAL(sizeof(tetstream_writer_callbacks), 48);
+  MEMBER(tetstream_writer_callbacks, struct_size, 0);
+  MEMBER(tetstream_writer_callbacks, user, 8);
+  MEMBER(tetstream_writer_callbacks, open, 16);
+  MEMBER(tetstream_writer_callbacks, put, 24);
+  MEMBER(tetstream_writer_callbacks, finish, 32);
+  MEMBER(tetstream_writer_callbacks, close, 40);
+  CHECK_EQUAL(sizeof(tetstream_progress), 48);
+  MEMBER(tetstream_progress, struct_size, 0);
+  MEMBER(tetstream_progress, cells_read, 8);
+  MEMBER(tetstream_progress, cells_total, 16);
+  MEMBER(tetstream_progress, cells_written, 24);
+  MEMBER(tetstream_progress, fraction, 32);
+  MEMBER(tetstream_progress, phase, 40);
+  CHECK_EQUAL(sizeof(tetstream_report), 184);
+  MEMBER(tetstream_report, struct_size, 0);
+  MEMBER(tetstream_report, cells_in, 8);
+  MEMBER(tetstream_report, vertices_in, 16);
+  MEMBER(tetstream_report, cells_out, 24);
+  MEMBER(tetstream_report, vertices_out, 32);
+  MEMBER(tetstream_report, target_cells, 40);
+  MEMBER(tetstream_report, window_cells, 48);
+  MEMBER(tetstream_report, front_width, 56);
+  MEMBER(tetstream_report, front_span, 64);
+  MEMBER(tetstream_report, front_cells, 72);
+  MEMBER(tetstream_report, collapses, 80);
+  MEMBER(tetstream_report, rejected_orientation, 88);
+  MEMBER(tetstream_report, rejected_link, 96);
+  MEMBER(tetstream_report, rejected_locked, 104);
+  MEMBER(tetstream_report, rejected_other, 112);
+  MEMBER(tetstream_report, locked_cells, 120);
+  MEMBER(tetstream_report, unused_vertices, 128);
+  MEMBER(tetstream_report, largest_error, 136);
+  MEMBER(tetstream_report, seconds, 144);
+  MEMBER(tetstream_report, peak_window_bytes, 152);
+  MEMBER(tetstream_report, peak_resident_bytes, 160);
+  MEMBER(tetstream_report, regions, 168);
+  MEMBER(tetstream_report, limited_by, 176);
+}
+
+static void numbers_keep_their_values(void) {
+  CHECK_EQUAL(TETSTREAM_OK, 0);
+  CHECK_EQUAL(TETSTREAM_END, 1);
+  CHECK_EQUAL(TETSTREAM_TARGET_MISSED, 2);
+  CHECK_EQUAL(TETSTREAM_BAD_ARGUMENT, -1);
+  CHECK_EQUAL(TETSTREAM_BAD_STATE, -2);
+  CHECK_EQUAL(TETSTREAM_NO_MEMORY, -3);
+  CHECK_EQUAL(TETSTREAM_BAD_DATA, -4);
+  CHECK_EQUAL(TETSTREAM_IO, -5);
+  CHECK_EQUAL(TETSTREAM_UNSUPPORTED, -6);
+  CHECK_EQUAL(TETSTREAM_CANCELLED, -7);
+  CHECK_EQUAL(TETSTREAM_CALLBACK, -8);
+  CHECK_EQUAL(TETSTREAM_INTERNAL, -9);
+  CHECK_EQUAL(TETSTREAM_TYPE_FLOAT32, 1);
+  CHECK_EQUAL(TETSTREAM_TYPE_FLOAT64, 2);
+  CHECK_EQUAL(TETSTREAM_TYPE_INT32, 3);
+  CHECK_EQUAL(TETSTREAM_TYPE_INT64, 4);
+  CHECK_EQUAL(TETSTREAM_OPTION_IS_INT64, 1);
+  CHECK_EQUAL(TETSTREAM_OPTION_IS_DOUBLE, 2);
+  CHECK_EQUAL(TETSTREAM_OPTION_IS_TEXT, 3);
+  CHECK_EQUAL(TETSTREAM_STREAM_INDEXED, 1);
+  CHECK_EQUAL(TETSTREAM_OPTION_RATIO, 100);
+  CHECK_EQUAL(TETSTREAM_OPTION_CELLS, 101);
+  CHECK_EQUAL(TETSTREAM_OPTION_BOUNDARY_WEIGHT, 110);
+  CHECK_EQUAL(TETSTREAM_OPTION_REGIONS, 120);
+  CHECK_EQUAL(TETSTREAM_OPTION_MODE, 130);
+  CHECK_EQUAL(TETSTREAM_OPTION_SEED, 131);
+  CHECK_EQUAL(TETSTREAM_OPTION_QUADRIC, 132);
+  CHECK_EQUAL(TETSTREAM_OPTION_CANDIDATES, 133);
+  CHECK_EQUAL(TETSTREAM_OPTION_WINDOW, 200);
+  CHECK_EQUAL(TETSTREAM_OPTION_MEMORY, 201);
+  CHECK_EQUAL(TETSTREAM_OPTION_TMPDIR, 202);
+  CHECK_EQUAL(TETSTREAM_OPTION_AXIS, 210);
+}
+
+static void the_library_has_the_version_of_its_header(void) {
+  CHECK_EQUAL(tetstream_version_number(), TETSTREAM_VERSION_NUMBER);
+  CHECK_EQUAL(
+      TETSTREAM_VERSION_NUMBER,
+      TETSTREAM_VERSION_MAJOR * 10000 + TETSTREAM_VERSION_MINOR * 100 + TETSTREAM_VERSION_PATCH);
+}
+
+int main(void) {
+#if defined(__x86_64__) && defined(__LP64__)
+  RUN_CASE(structs_keep_their_layout);
+#endif
+  RUN_CASE(numbers_keep_their_values);
+  RUN_CASE(the_library_has_the_version_of_its_header);
+  return check_end();
+}

@@ -1,0 +1,79 @@
+# Plays a packager and then a user of the package. Stops at the first thing that does not work.
+cmake_minimum_required(VERSION 3.25)
+
+function(must)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(NOT result EQUAL 0)
+    string(JOIN " " line ${ARGN})
+    message(FATAL_ERROR "${line}\nfailed (${result}):\n${out}")
+  endif()
+endfunction()
+
+set(here ${CMAKE_CURRENT_LIST_DIR})
+file(REMOVE_RECURSE ${WORK})
+
+# Installed to one place and moved to another: nothing in it may remember the first.
+must(${CMAKE_COMMAND} --install ${BUILD} --prefix "${WORK}/first place")
+file(RENAME "${WORK}/first place" "${WORK}/pre fix")
+set(prefix "${WORK}/pre fix")
+file(GLOB_RECURSE texts "${prefix}/*.pc" "${prefix}/*.cmake")
+list(LENGTH texts count)
+if(count LESS 5)
+  message(FATAL_ERROR "a .pc and four .cmake files at least should be there: ${texts}")
+endif()
+foreach(text IN LISTS texts)
+  file(READ ${text} content)
+  string(FIND "${content}" "${WORK}" in_work)
+  string(FIND "${content}" "${BUILD}" in_build)
+  if(NOT in_work EQUAL -1 OR NOT in_build EQUAL -1)
+    message(FATAL_ERROR "${text} names a place of the build")
+  endif()
+endforeach()
+
+set(flags "")
+if(SANITIZE)
+  set(flags "-fsanitize=address,undefined")
+endif()
+
+# ------------------------------------------------------------------------------- pkg-config
+# The shell takes the flags, as it does in a makefile.
+if(PKG_CONFIG)
+  set(ENV{PKG_CONFIG_PATH} "${prefix}/${LIBDIR}/pkgconfig")
+  must(${PKG_CONFIG} --validate tetstream)
+  must(${PKG_CONFIG} --exact-version=${VERSION} tetstream)
+  foreach(client c cpp)
+    set(compiler ${CC})
+    if(client STREQUAL "cpp")
+      set(compiler ${CXX})
+    endif()
+    must(sh -c "eval \"${compiler}\" ${flags} '\"${here}/client.${client}\"' \
+$(${PKG_CONFIG} --cflags --libs tetstream) -o '\"${WORK}/shared_${client}\"'")
+    must(${CMAKE_COMMAND} -E env "LD_LIBRARY_PATH=${prefix}/${LIBDIR}" ${WORK}/shared_${client})
+    # Without the shared library in its way the linker takes the static one.
+    must(sh -c "eval \"${compiler}\" ${flags} '\"${here}/client.${client}\"' \
+$(${PKG_CONFIG} --static --cflags --libs tetstream | sed 's/-ltetstream/-l:libtetstream.a/') \
+-o '\"${WORK}/static_${client}\"'")
+    must(${WORK}/static_${client})
+  endforeach()
+else()
+  message(STATUS "pkg-config is not here: its part was not run")
+endif()
+
+# ------------------------------------------------------------------------------------ CMake
+foreach(linkage shared static any)
+  must(${CMAKE_COMMAND} -S ${here}/project -B ${WORK}/${linkage} -G ${GENERATOR}
+    -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_C_FLAGS=${flags}
+    -DCMAKE_CXX_FLAGS=${flags} "-DCMAKE_PREFIX_PATH=${prefix}" -DLINKAGE=${linkage})
+  must(${CMAKE_COMMAND} --build ${WORK}/${linkage})
+  must(${WORK}/${linkage}/client_c)
+  must(${WORK}/${linkage}/client_cpp)
+endforeach()
+
+# A version that is not compatible is not found.
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${here}/project -B ${WORK}/other -G ${GENERATOR}
+  "-DCMAKE_PREFIX_PATH=${prefix}" -DLINKAGE=shared -DWANTED=0.0
+  RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+if(result EQUAL 0)
+  message(FATAL_ERROR "version 0.0 was asked for, and ${VERSION} taken")
+endif()
+file(REMOVE_RECURSE ${WORK})

@@ -1,0 +1,68 @@
+// tests: one simplification of a small mesh, and what came of it.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "mesh_facts.h"
+#include "shapes.h"
+#include "simplifier.h"
+#include "status.h"
+#include "test_mesh.h"
+
+namespace tetstream::test {
+
+struct Result {
+  Recorder out;
+  Report report;
+};
+
+inline Result simplified(const TestMesh& mesh, const SimplifyOptions& options, const Cut& cut = {}) {
+  Result result;
+  Simplifier simplifier(options, result.out, {});
+  MeshStream stream(mesh, cut);
+  copyStream(stream, simplifier);
+  result.report = simplifier.report();
+  return result;
+}
+
+inline SimplifyOptions toRatio(double ratio, int64_t window = 0) {
+  SimplifyOptions options;
+  options.ratio = ratio;
+  options.window_cells = window;
+  return options;
+}
+
+// What holds for every result: it is a stream, and the report says what is in it.
+inline void expectSound(const TestMesh& in, const Result& result) {
+  EXPECT_EQ(result.out.problem, "");
+  EXPECT_TRUE(result.out.finished);
+  EXPECT_TRUE(result.out.exact_finalization);
+  EXPECT_TRUE(result.out.compact);
+  const Report& report = result.report;
+  EXPECT_EQ(report.cells_in, static_cast<int64_t>(in.cellCount()));
+  EXPECT_EQ(report.vertices_in, static_cast<int64_t>(in.vertexCount()));
+  EXPECT_EQ(report.cells_out, static_cast<int64_t>(result.out.mesh.cellCount()));
+  EXPECT_EQ(report.vertices_out, static_cast<int64_t>(result.out.mesh.vertexCount()));
+  EXPECT_EQ(report.limited_by.empty(), report.cells_out <= report.target_cells)
+      << report.limited_by;
+}
+
+// Not above the target, and at most 0.2 % and 10 cells below.
+inline void expectReached(const Result& result) {
+  const Report& report = result.report;
+  EXPECT_LE(report.cells_out, report.target_cells) << report.limited_by;
+  EXPECT_GE(report.cells_out, report.target_cells - std::max<int64_t>(report.target_cells / 500, 10));
+}
+
+// The status and sentence of what an action throws; kOk and "" if it throws nothing.
+template <class Action>
+std::pair<Status, std::string> thrownBy(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return {error.status(), error.text()};
+  }
+  return {Status::kOk, ""};
+}
+
+}  // namespace tetstream::test

@@ -1,0 +1,200 @@
+// The domain that comes out is the domain that went in: checked by brute force over simplices, for
+// domains with everything that a domain can have, at all ratios and windows.
+#include <cmath>
+
+#include "simplify_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+double wave(double x, double y, double z) {
+  return std::sin(0.9 * x) + 0.5 * std::cos(1.3 * y + 0.4 * z);
+}
+
+void expectKept(const TestMesh& mesh, double volume_tolerance, const char* name) {
+  const MeshFacts before = factsOf(mesh);
+  for (double ratio : {1.0, 0.5, 0.1, 0.02})
+    for (int64_t window : {64, 512, 0}) {
+      if (slowRun() && (window != 64 || ratio == 0.5)) continue;
+      SCOPED_TRACE(textOf("%s, ratio %g, window %lld", name, ratio, static_cast<long long>(window)));
+      const Result result = simplified(mesh, toRatio(ratio, window));
+      expectSound(mesh, result);
+      const MeshFacts after = factsOf(result.out.mesh);
+      EXPECT_EQ(topologyChange(before, after), "");
+      EXPECT_EQ(after.negative, before.negative == 0 ? 0 : after.negative);
+      EXPECT_NEAR(after.volume, before.volume, volume_tolerance * before.volume);
+      if (ratio == 1) {
+        EXPECT_EQ(result.report.collapses, 0);
+      }
+    }
+}
+
+TestMesh withWave(TestMesh mesh) {
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, wave);
+  return mesh;
+}
+
+TEST(SimplifierTopology, KeepsABall) {
+  const int n = slowRun() ? 3 : 6;
+  expectKept(withWave(fullGrid(n, n, 2 * n)), 1e-3, "grid");
+}
+TEST(SimplifierTopology, KeepsAnUnevenBall) {
+  const int n = slowRun() ? 3 : 6;
+  expectKept(withWave(fullGrid(n, n, 2 * n, 0.1)), 0.2, "jittered grid");
+  expectKept(withWave(fullGrid(n, n, n, 0.1, ScalarType::kFloat32)), 0.2, "float32 grid");
+}
+TEST(SimplifierTopology, KeepsASlit) {
+  const TestMesh slit = withWave(slitGrid(6));
+  // The crack is a second boundary, a sphere of volume zero.
+  const MeshFacts facts = factsOf(slit);
+  ASSERT_EQ(facts.boundary_components, 2);
+  ASSERT_EQ(facts.boundary_euler, 4);
+  ASSERT_TRUE(facts.manifold());
+  expectKept(slit, 0.05, "slit");
+}
+TEST(SimplifierTopology, KeepsAVoid) {
+  const TestMesh shell = withWave(shellGrid(5));
+  ASSERT_EQ(factsOf(shell).boundary_components, 2);
+  expectKept(shell, 0.15, "shell");
+}
+TEST(SimplifierTopology, KeepsATunnel) {
+  const TestMesh ring = withWave(ringGrid(7));
+  ASSERT_EQ(factsOf(ring).boundary_euler, 0);  // a torus
+  expectKept(ring, 0.15, "ring");
+}
+TEST(SimplifierTopology, KeepsManyTunnels) {
+  const TestMesh sponge = withWave(cubes(7, 7, 3, [](int x, int y, int z) {
+    return (x % 2 == 0) + (y % 2 == 0) + (z % 2 == 0) >= 2;
+  }));
+  ASSERT_TRUE(factsOf(sponge).manifold());
+  ASSERT_LT(factsOf(sponge).boundary_euler, -10);
+  expectKept(sponge, 0.2, "sponge");
+}
+TEST(SimplifierTopology, KeepsPartsApart) {
+  const TestMesh parts = withWave(apart(4));
+  ASSERT_EQ(factsOf(parts).components, 2);
+  expectKept(parts, 1e-3, "parts");
+}
+
+// Where two cubes touch at an edge or a vertex the boundary is no manifold: its vertices stay.
+void expectTouchKept(const TestMesh& mesh, int n, int least) {
+  ASSERT_FALSE(factsOf(mesh).manifold());
+  expectKept(mesh, 1e-3, "touching cubes");
+  const Result result = simplified(mesh, toRatio(0.1, 0));
+  int found = 0;
+  for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
+    found += result.out.mesh.position(v, 0) == n && result.out.mesh.position(v, 1) == n;
+  EXPECT_GE(found, least);
+  EXPECT_EQ(factsOf(result.out.mesh).pinched_vertices, factsOf(mesh).pinched_vertices);
+}
+TEST(SimplifierTopology, KeepsCubesThatTouchAtAnEdge) {
+  expectTouchKept(withWave(cubesAtEdge(3)), 3, 4);  // n + 1 vertices on the edge
+}
+TEST(SimplifierTopology, KeepsCubesThatTouchAtAVertex) {
+  expectTouchKept(withWave(cubesAtVertex(3)), 3, 1);
+}
+
+// Meshes of the wild mix both orders of the corners: it says nothing, and the order is kept.
+TEST(SimplifierTopology, KeepsMixedOrientation) {
+  TestMesh mesh = withWave(fullGrid(4, 4, 6, 0.1));
+  for (size_t c = 0; c < mesh.cellCount(); c += 3) std::swap(mesh.cells[4 * c], mesh.cells[4 * c + 1]);
+  expectKept(mesh, 0.2, "mixed");
+  const Result result = simplified(mesh, toRatio(0.5));
+  const MeshFacts after = factsOf(result.out.mesh);
+  EXPECT_GT(after.negative, after.cells / 6);
+  EXPECT_GT(after.positive, after.cells / 3);
+}
+
+// Cells in order of their places: those of `in` that are found in `out` with the same corners.
+size_t cellsFound(const TestMesh& in, const std::vector<size_t>& cells, const TestMesh& out) {
+  size_t found = 0;
+  for (size_t wanted : cells)
+    for (size_t c = 0; c < out.cellCount(); ++c) {
+      bool same = true;
+      for (size_t j = 0; j < 4; ++j)
+        for (int i = 0; i < 3; ++i)
+          same = same && in.position(static_cast<size_t>(in.cells[4 * wanted + j]), i) ==
+                             out.position(static_cast<size_t>(out.cells[4 * c + j]), i);
+      if (same) {
+        ++found;
+        break;
+      }
+    }
+  return found;
+}
+
+// A flat cell between four corners of an inner square, stuck in beside the cells that are there:
+// its two pairs of faces are faces of cells, too, so that those have three cells.
+TEST(SimplifierTopology, PassesFlatCellsOnUnchanged) {
+  TestMesh mesh = withWave(fullGrid(5, 5, 5));
+  const auto vertexAt = [&](double x, double y, double z) {
+    for (size_t v = 0; v < mesh.vertexCount(); ++v)
+      if (mesh.position(v, 0) == x && mesh.position(v, 1) == y && mesh.position(v, 2) == z)
+        return static_cast<int64_t>(v);
+    return int64_t{-1};
+  };
+  const size_t flat = mesh.cellCount() / 2;
+  const int64_t square[4] = {vertexAt(2, 2, 2), vertexAt(3, 2, 2), vertexAt(3, 3, 2),
+                             vertexAt(2, 3, 2)};
+  mesh.cells.insert(mesh.cells.begin() + static_cast<std::ptrdiff_t>(4 * flat), square, square + 4);
+  mesh = inStreamOrder(mesh);
+  const MeshFacts before = factsOf(mesh);
+  ASSERT_EQ(before.flat, 1);
+  for (int64_t window : {64, 0})
+    for (double ratio : {0.5, 0.1}) {
+      const Result result = simplified(mesh, toRatio(ratio, window));
+      expectSound(mesh, result);
+      EXPECT_EQ(factsOf(result.out.mesh).flat, 1);
+      EXPECT_EQ(cellsFound(mesh, {flat}, result.out.mesh), 1u);
+      EXPECT_EQ(result.report.locked_cells, 1);
+    }
+}
+
+// The vertex at (3, 3, 3) of a lattice goes to (4.6, 3.1, 3.2): past its neighbours, so that some
+// of its cells turn over.
+TestMesh foldedGrid(std::vector<size_t>* folded) {
+  TestMesh mesh = fullGrid(6, 6, 6);
+  for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    if (mesh.position(v, 0) == 3 && mesh.position(v, 1) == 3 && mesh.position(v, 2) == 3) {
+      const double place[3] = {4.6, 3.1, 3.2};
+      std::memcpy(mesh.positions.bytes.data() + v * sizeof place, place, sizeof place);
+    }
+  for (size_t c = 0; c < mesh.cellCount(); ++c)
+    if (cellSign(mesh, c) < 0) folded->push_back(c);
+  return withWave(mesh);
+}
+
+TEST(SimplifierTopology, PassesFoldedCellsOnUnchanged) {
+  std::vector<size_t> folded;
+  const TestMesh mesh = foldedGrid(&folded);
+  const MeshFacts before = factsOf(mesh);
+  ASSERT_GT(folded.size(), 2u);
+  ASSERT_GT(before.folded, 2);
+  for (int64_t window : {64, 200, 0})
+    for (double ratio : {0.5, 0.1}) {
+      SCOPED_TRACE(textOf("ratio %g, window %lld", ratio, static_cast<long long>(window)));
+      const Result result = simplified(mesh, toRatio(ratio, window));
+      expectSound(mesh, result);
+      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+      EXPECT_EQ(factsOf(result.out.mesh).folded, before.folded);
+      EXPECT_EQ(cellsFound(mesh, folded, result.out.mesh), folded.size());
+      EXPECT_GE(result.report.locked_cells, static_cast<int64_t>(folded.size()));
+    }
+}
+
+// Every cell twice: each face has four cells or two, and nothing may be made of it.
+TEST(SimplifierTopology, LeavesAMeshThatIsThereTwiceAsItIs) {
+  TestMesh mesh = fullGrid(3, 3, 3);
+  const std::vector<int64_t> once = mesh.cells;
+  mesh.cells.clear();
+  for (size_t c = 0; c < once.size() / 4; ++c)
+    for (int again = 0; again < 2; ++again)
+      mesh.cells.insert(mesh.cells.end(), &once[4 * c], &once[4 * c] + 4);
+  const Result result = simplified(mesh, toRatio(0.1));
+  expectSound(mesh, result);
+  EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
+  EXPECT_EQ(result.out.mesh.cellCount(), mesh.cellCount());
+}
+
+}  // namespace
+}  // namespace tetstream::test
