@@ -43,7 +43,7 @@ void Resolver<S>::resolve(uint32_t v) {
 // Two cells on the same side of their common face: both are passed on as they are. (A flat cell has
 // no side; it was marked, and its vertices locked, when it was read.)
 template <class S>
-void Resolver<S>::lockFold(uint32_t v, uint32_t a, uint32_t b) {
+void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
   Topology& mesh = core_.window.mesh;
   for (const StarCell& s : star_)
     if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell) & kFlat)) return;
@@ -79,7 +79,7 @@ void Resolver<S>::resolveBoundary(uint32_t v) {
       const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
       if (!counted) metric_.addBoundaryFace(v, a, b);
     } else if (j - i == 2) {
-      if ((edges_[i] & 1) == (edges_[i + 1] & 1)) lockFold(v, a, b);
+      if ((edges_[i] & 1) == (edges_[i + 1] & 1)) lockFold(a, b);
     } else {
       lockNonManifold(v);  // a face of three cells or more
     }

@@ -23,7 +23,7 @@ class Resolver {
   void resolve(uint32_t v);
   void resolveBoundary(uint32_t v);
   bool isDisk(const std::vector<uint64_t>& boundary);
-  void lockFold(uint32_t v, uint32_t a, uint32_t b);
+  void lockFold(uint32_t a, uint32_t b);
   void lockNonManifold(uint32_t v);
 
   Core<S>& core_;
