@@ -11,7 +11,6 @@ namespace tetstream::cli {
 
 struct Arguments {
   enum class Command { kText, kSimplify, kInfo, kConvert, kGenerate };
-  enum class ReportForm { kText, kJson };
 
   Command command = Command::kText;
   std::string text;  // kText: what to print: help, version

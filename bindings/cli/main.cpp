@@ -1,6 +1,5 @@
 // cli: the tetstream command. It reads its words, runs one command and says what went wrong.
 // Everything it does to a mesh is done by the library, through the public header.
-#include <cstring>
 #include <exception>
 #include <new>
 

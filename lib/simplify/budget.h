@@ -21,10 +21,11 @@ class UniformRatio {
  public:
   UniformRatio(double ratio, int64_t cells) : ratio_(ratio), cells_(cells) {}
 
-  // `cells` out when `read` have come in: never more than asked for.
+  // Cells out when `read` have come in: never more than asked for, but one where there are any.
   int64_t target(int64_t read) const {
-    return cells_ > 0 ? std::min(cells_, read)
-                      : static_cast<int64_t>(ratio_ * static_cast<double>(read));
+    if (cells_ > 0) return std::min(cells_, read);
+    return std::max(static_cast<int64_t>(ratio_ * static_cast<double>(read)),
+                    std::min<int64_t>(read, 1));
   }
   Goal goalOf(const Ledger& ledger) const {
     const double done = ratio_ * static_cast<double>(ledger.read - ledger.front);

@@ -22,6 +22,10 @@ struct LockedVertices {
   int64_t interfaces = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
 };
 
+constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
+constexpr size_t kCellBytes = 37;      // four corners, their links, flags, place in a tile
+constexpr size_t kVertexBytes = 21;    // corner, flags, rank, new slot, uses
+
 template <class S>
 struct Core {
   Core(const Plan& the_plan, const SimplifyOptions& the_options, Account& account, size_t cells,
@@ -36,6 +40,16 @@ struct Core {
 
   static WindowShape shapeOf(const Plan& plan) {
     return {plan.values, quadricSize(plan.dimension), plan.picks, plan.cell_means, plan.cell_picks};
+  }
+
+  // What a window of one cell takes, with its share of vertices and the steps' own arrays.
+  static size_t bytesPerCell(const Plan& plan) {
+    const WindowShape shape = shapeOf(plan);
+    const size_t vertex = sizeof(S) * static_cast<size_t>(shape.values + shape.quadric) +
+                          sizeof(int64_t) * static_cast<size_t>(shape.picks) + kVertexBytes;
+    const size_t data = sizeof(double) * static_cast<size_t>(shape.cell_means + 1) +
+                        sizeof(int64_t) * static_cast<size_t>(shape.cell_picks);
+    return kCellBytes + (shape.cell_means + shape.cell_picks ? data : 0) + vertex / kCellsPerVertex;
   }
 
   const Plan& plan;

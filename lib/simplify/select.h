@@ -1,6 +1,7 @@
 // simplify: which edges are collapsed, in which order. Depends on collapse.h.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "collapse.h"
@@ -18,8 +19,9 @@ template <class S>
 class Selector {
  public:
   virtual ~Selector() = default;
-  // Collapses edges of the window until the goal is reached or nothing legal is left.
-  virtual void decimate(const Goal& goal) = 0;
+  // Collapses edges of the window until the goal is reached or nothing legal is left. Calls `tick`
+  // every few thousand edges; it may throw to stop.
+  virtual void decimate(const Goal& goal, const std::function<void()>& tick) = 0;
 };
 
 // The paper's multiple choice: the best of a few random edges (section 4). Drawn tile by tile; a

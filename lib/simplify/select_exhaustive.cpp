@@ -7,6 +7,8 @@
 namespace tetstream {
 namespace {
 
+constexpr size_t kEdgesPerTick = 4096;
+
 template <class S>
 class ExhaustiveSelector final : public Selector<S> {
  public:
@@ -16,13 +18,15 @@ class ExhaustiveSelector final : public Selector<S> {
   }
 
   // Half of the edges at a time, the better half: the errors of the others change with it.
-  void decimate(const Goal& goal) override {
+  void decimate(const Goal& goal, const std::function<void()>& tick) override {
     for (bool all = false; !reached(goal);) {
       listEdges();
       const size_t count = all ? edges_.size() : (edges_.size() + 1) / 2;
       bool moved = false;
-      for (size_t i = 0; i < count && !reached(goal); ++i)
+      for (size_t i = 0; i < count && !reached(goal); ++i) {
+        if (i % kEdgesPerTick == 0) tick();
         moved = tryEdge(edges_[i].u, edges_[i].v, goal) || moved;
+      }
       if (!moved && all) return;
       all = !moved;
     }

@@ -33,12 +33,12 @@ class RandomSelector final : public Selector<S> {
     for (Draw& draw : best_) draw.z.resize(z_.size());
   }
 
-  void decimate(const Goal& goal) override {
+  void decimate(const Goal& goal, const std::function<void()>& tick) override {
     goal_ = goal;
     if (reached()) return;
     tiles_.build();
-    sweep();
-    if (goal.last && !reached()) exhaustive_->decimate(goal);
+    sweep(tick);
+    if (goal.last && !reached()) exhaustive_->decimate(goal, tick);
   }
 
  private:
@@ -49,7 +49,7 @@ class RandomSelector final : public Selector<S> {
   };
 
   bool reached() const { return core_.window.mesh.liveCells() <= goal_.cells; }
-  void sweep();
+  void sweep(const std::function<void()>& tick);
   void sweepTile(Tile& tile, S bound, bool* moved, bool* bounded);
   bool drawEdge(Tile& tile, uint32_t* u, uint32_t* v);
   void drawBest(Tile& tile);
@@ -167,13 +167,14 @@ S RandomSelector<S>::sampledBound() {
 }
 
 template <class S>
-void RandomSelector<S>::sweep() {
+void RandomSelector<S>::sweep(const std::function<void()>& tick) {
   if (tiles_.tiles().empty()) return;
   S bound = bound_ > 0 ? bound_ * S(kFirstBound) : sampledBound();
   for (bool going = true; going;) {
     bool moved = false, bounded = false;
     for (Tile& tile : tiles_.tiles()) {
       sweepTile(tile, bound, &moved, &bounded);
+      tick();
       if (reached()) {
         bound_ = bound;
         return;

@@ -17,14 +17,29 @@ constexpr int64_t kLeastWindow = 16384;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
+// Of a memory budget, not for cells and vertices: the front's map, stars, lists.
+constexpr int64_t kFixedBytes = 256 << 10;
 
-int64_t windowFor(const Schema& schema, const SimplifyOptions& options) {
+int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
   if (options.window_cells > 0) return std::max<int64_t>(options.window_cells, 64);
   int64_t cells = schema.front_cells >= 0
                       ? std::max(kFrontsPerWindow * schema.front_cells, kLeastWindow)
                       : kFirstWindow;
   if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
+  // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
+  const int64_t fitting =
+      (options.memory_bytes - kFixedBytes) / static_cast<int64_t>(bytes_per_cell);
+  if (options.memory_bytes > 0) cells = std::min(cells, std::max<int64_t>(fitting, 64));
   return cells;
+}
+
+// What the map from ranks to slots should expect: the span, unless few of its vertices are active.
+uint64_t expectedSpan(const Schema& schema) {
+  if (schema.front_span < 0) return 0;
+  const int64_t wide = schema.front_width < 0
+                           ? schema.front_span
+                           : std::min(schema.front_span / 8, schema.front_width) * 8;
+  return static_cast<uint64_t>(wide);
 }
 
 double ratioFor(const Schema& schema, const SimplifyOptions& options) {
@@ -53,10 +68,9 @@ class WindowedEngine final : public Simplifier::Engine {
         options_(options),
         progress_(progress),
         account_(static_cast<size_t>(options.memory_bytes)),
-        capacity_(windowFor(plan_.schema, options)),
+        capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_))),
         core_(plan_, options_, account_, static_cast<size_t>(capacity_),
-              static_cast<size_t>(capacity_ / 5 + 1024),
-              static_cast<uint64_t>(std::max<int64_t>(plan_.schema.front_span, 0))),
+              static_cast<size_t>(capacity_) / kCellsPerVertex + 64, expectedSpan(plan_.schema)),
         budget_(ratioFor(plan_.schema, options), options.cells),
         intake_(core_, account_),
         regions_(core_),
@@ -83,7 +97,7 @@ class WindowedEngine final : public Simplifier::Engine {
   void finish() override {
     intake_.finalizeAll();
     resolveNew();
-    selector_->decimate(budget_.lastGoal(ledger()));
+    decimate(budget_.lastGoal(ledger()));
     release_.write(0);
     release_.flush();
     closeReport();
@@ -98,12 +112,16 @@ class WindowedEngine final : public Simplifier::Engine {
   void turn() {
     resolveNew();
     const Ledger now = ledger();
-    selector_->decimate(budget_.goalOf(now));
+    decimate(budget_.goalOf(now));
     release_.write(static_cast<uint32_t>(capacity_ / 2));
     resolved_cells_ = mesh().cellEnd();
     core_.report.front_cells = std::max(core_.report.front_cells, now.front);
     makeRoom(now.front);
-    tell();
+    tell(mesh().liveCells());
+  }
+
+  void decimate(const Goal& goal) {
+    selector_->decimate(goal, [&] { tell(goal.cells); });
   }
 
   // Everything that the cells read since the last turn made known.
@@ -150,16 +168,18 @@ class WindowedEngine final : public Simplifier::Engine {
     core_.report.window_cells = capacity_;
   }
 
-  void tell() {
+  // The window's cells beyond its goal are what is left to do of what was read.
+  void tell(int64_t goal) {
     core_.report.cells_out = static_cast<int64_t>(release_.cellsWritten());
     if (!progress_) return;
     Progress p;
     p.cells_read = static_cast<int64_t>(intake_.cellsRead());
     p.cells_total = plan_.schema.cell_count;
     p.cells_written = core_.report.cells_out;
+    const int64_t done = p.cells_read - std::max<int64_t>(mesh().liveCells() - goal, 0);
     if (p.cells_total > 0)
       p.fraction =
-          std::min(1.0, static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total));
+          std::clamp(static_cast<double>(done) / static_cast<double>(p.cells_total), 0.0, 1.0);
     p.phase = "simplify";
     progress_(p);
   }
@@ -174,7 +194,7 @@ class WindowedEngine final : public Simplifier::Engine {
     r.front_span = core_.front.span();
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
     r.peak_window_bytes = account_.peak();
-    tell();
+    tell(0);
     if (r.cells_out > r.target_cells) explainMiss();
   }
 

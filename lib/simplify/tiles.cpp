@@ -7,16 +7,10 @@ namespace tetstream {
 
 // Three quarters of the 1 MB L2 cache of today's server cores: the rest is for stars and stack.
 constexpr size_t kTileBytes = 768 << 10;
-constexpr size_t kBytesPerCell = 37;    // vertices and links of four corners, flags, list entry
-constexpr size_t kBytesPerVertex = 16;  // corner, flags, rank, beside values and quadric
-constexpr size_t kCellsPerVertex = 5;   // inside a mesh 5.5 to 6, at most boundaries less
 
 template <class S>
 size_t Tiles<S>::cellsPerTile() const {
-  const WindowShape& shape = core_.window.shape();
-  const size_t vertex =
-      kBytesPerVertex + sizeof(S) * static_cast<size_t>(shape.values + shape.quadric);
-  return std::max<size_t>(kTileBytes / (kBytesPerCell + vertex / kCellsPerVertex), 1024);
+  return std::max<size_t>(kTileBytes / Core<S>::bytesPerCell(core_.plan), 1024);
 }
 
 template <class S>

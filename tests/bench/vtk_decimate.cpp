@@ -2,9 +2,9 @@
 // on one mesh and scalar field, for comparison. It keeps about KEEP times the cells.
 //
 // "scaled" does what a user who knows the filter would do: its thresholds are absolute and it does
-// not normalise, so coordinates are moved to the origin and divided by the mean length of the
-// edges, the field is scaled so that its range is the diagonal of the box, and both are undone
-// afterwards. Prints one JSON object; the times are those of Update() alone.
+// not normalise, so coordinates are centred at the origin and divided by the mean length of the
+// edges, the field is centred at zero and scaled so that its range is the diagonal of the box, and
+// both are undone afterwards. Prints one JSON object; the times are those of Update() alone.
 
 #include <vtkCellArray.h>
 #include <vtkDataArray.h>
@@ -100,10 +100,10 @@ Scale scaleOf(vtkUnstructuredGrid* grid) {
   double box[6], range[2];
   grid->GetBounds(box);
   grid->GetPointData()->GetScalars()->GetRange(range);
-  for (int axis = 0; axis < 3; ++axis) scale.from[axis] = box[2 * axis];
+  for (int axis = 0; axis < 3; ++axis) scale.from[axis] = (box[2 * axis] + box[2 * axis + 1]) / 2;
   scale.by = meanEdge(grid);
   const double diagonal = std::hypot(box[1] - box[0], box[3] - box[2], box[5] - box[4]) / scale.by;
-  scale.field_from = range[0];
+  scale.field_from = (range[0] + range[1]) / 2;
   scale.field_by = range[1] > range[0] ? (range[1] - range[0]) / diagonal : 1;
   return scale;
 }

@@ -30,6 +30,7 @@ refuses convert broken.tets out.sva
 
 # The same from a pipe.
 code=0
-head -c $((size / 2)) whole.tets | tetstream simplify - out.tets --ratio 0.1 2>"$logs/err" || code=$?
+head -c $((size / 2)) whole.tets |
+  tetstream simplify - out.tets --ratio 0.1 2>"$logs/err" || code=$?
 [[ $code == 2 ]] || fail "a pipe that was cut off: exit code $code"
 only_files broken.tets whole.tets

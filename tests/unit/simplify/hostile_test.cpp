@@ -1,4 +1,5 @@
 // Streams that break the rules: each is refused with a sentence that names the place.
+#include <cmath>
 #include <limits>
 
 #include "simplify_testing.h"

@@ -1,0 +1,253 @@
+#!/usr/bin/python3
+"""Compares `tetstream simplify` with VTK's vtkUnstructuredGridQuadricDecimation on real meshes.
+
+For each row (a mesh and a scalar field of it) and each ratio: simplify, judge the result, print a
+line of one Markdown table, and the geometric means at its end. Errors are the judge's: RMS and
+maximum of the field in percent of its range, Hausdorff distance of the boundary in percent of the
+diagonal of the bounding box.
+
+VTK's run is, of its two runs (plain: as it is; scaled: helped by scaling, see vtk_decimate.cpp),
+the one with the lower RMS among those that kept at most 1.05 times the target. For Hausdorff it is
+the smaller of those runs. Ratios to it are taken after raising both sides to 0.001 %. Its errors are
+those recorded in vtk_runs.csv, or with --vtk-here those of runs on this machine, which are kept in
+the folder --work.
+
+Speed is the wall time of the whole process, .tets file to .tets file, against that of VTK's filter
+alone, for the same ratio: medians of --rounds rounds in which both run in turn.
+"""
+import argparse
+import csv
+import hashlib
+import json
+import math
+import os
+import statistics
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "support"))
+import harness  # noqa: E402
+
+FLOOR = 0.001  # percent, below which two errors count as the same
+ERRORS = ("rms", "max", "hausdorff")
+HEAD = ("mesh", "field", "ratio", "mode", "asked", "got", "RMS % (VTK)", "max % (VTK)",
+        "Hausdorff % (VTK)", "topology", "new non-manifold", "s", "CPU s", "M cells/s",
+        "peak MB (VTK)", "RMS / VTK", "max / VTK", "Hausdorff / VTK", "speed / VTK")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build/release", help="the folder of the build")
+    parser.add_argument("--rows", nargs="+", metavar="MESH:FIELD", help="default: all; MESH is a "
+                        "name in TETSTREAM_MESHES or a path")
+    parser.add_argument("--ratios", nargs="+", type=float, default=[0.1], metavar="R")
+    parser.add_argument("--modes", nargs="+", default=["paper"], metavar="MODE")
+    parser.add_argument("--fronts", type=float, metavar="N",
+                        help="the window holds N times the front (default: as the command does)")
+    parser.add_argument("--rounds", type=int, default=1, help="runs for the time; 5 is fair")
+    parser.add_argument("--vtk-here", action="store_true", help="run and judge VTK's filter here")
+    parser.add_argument("--no-vtk-time", action="store_true", help="do not run VTK for its time")
+    parser.add_argument("--work", default="build/bench", help="where VTK's verdicts are kept")
+    parser.add_argument("--samples", type=int, default=200000, help="of the judge")
+    parser.add_argument("--json", metavar="FILE", help="also write all verdicts there")
+    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="further words for simplify")
+    return parser.parse_args()
+
+
+# ------------------------------------------------------------------------------------ VTK's run
+def recorded_runs():
+    runs = {}
+    with open(os.path.join(HERE, "vtk_runs.csv"), encoding="ascii") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            key = (row["mesh"], row["field"], float(row["ratio"]))
+            run = {name: float(row[name]) for name in ("kept", *ERRORS)}
+            runs.setdefault(key, []).append({"run": row["run"], **run})
+    return runs
+
+
+def digest(*paths_and_words):
+    total = hashlib.sha256()
+    for item in paths_and_words:
+        if os.path.isfile(item):
+            with open(item, "rb") as file:
+                total.update(hashlib.file_digest(file, "sha256").digest())
+        else:
+            total.update(item.encode() + b"\0")
+    return total.hexdigest()[:24]
+
+
+class Vtk:
+    """VTK's filter: what was recorded of it, and runs here."""
+
+    def __init__(self, args, tetstream, judge):
+        self.program = os.path.join(args.build, "tests", "bench", "vtk_decimate")
+        self.here = os.path.isfile(self.program)
+        if args.vtk_here and not self.here:
+            sys.exit(f"there is no {self.program}: was VTK found at configure time?")
+        self.timed = self.here and not args.no_vtk_time
+        self.judged_here, self.work = args.vtk_here, args.work
+        self.tetstream, self.judge, self.recorded = tetstream, judge, recorded_runs()
+
+    def decimate(self, path, field, ratio, variant):
+        """One run: what the program prints, and what was measured of it."""
+        report = self.tetstream.path("vtk.json")
+        out = self.tetstream.path("vtk.vtu")
+        done = subprocess.run([self.tetstream.measured, report, self.program, path, field,
+                               str(ratio), variant, out], check=True, stdout=subprocess.PIPE)
+        with open(report, encoding="ascii") as file:
+            return {**json.loads(done.stdout), "peak_bytes": json.load(file)["peak_bytes"]}
+
+    def judged_run(self, path, field, ratio, variant):
+        name = digest(path, self.program, field, str(ratio), variant, str(self.judge.samples))
+        kept = os.path.join(self.work, f"vtk-{name}.json")
+        if os.path.isfile(kept):
+            with open(kept, encoding="ascii") as file:
+                return json.load(file)
+        run = self.decimate(path, field, ratio, variant)
+        verdict = self.judge(path, self.tetstream.path("vtk.vtu"), field)
+        result = {"run": variant, "kept": run["cells_out"] / run["cells_in"], **errors(verdict)}
+        os.makedirs(self.work, exist_ok=True)
+        with open(kept, "w", encoding="ascii") as file:
+            json.dump(result, file)
+        return result
+
+    def runs(self, name, path, field, ratio):
+        """Those that count: that reached the target, nearly."""
+        if self.judged_here:
+            found = [self.judged_run(path, field, ratio, run) for run in ("plain", "scaled")]
+        else:
+            found = self.recorded.get((name, field, ratio), [])
+        return [run for run in found if run["kept"] <= 1.05 * ratio]
+
+
+def errors(verdict):
+    return {"rms": verdict["field"]["rms"],
+            "max": verdict["field"]["max_incl_outside_by_nearest"],
+            "hausdorff": verdict["boundary"]["hausdorff"]}
+
+
+def against(ours, runs):
+    """The errors of VTK's run, and ours divided by them."""
+    if not runs:
+        return {}, {}
+    theirs = dict(min(runs, key=lambda run: run["rms"]))
+    theirs["hausdorff"] = min(run["hausdorff"] for run in runs)
+    return theirs, {k: max(ours[k], FLOOR) / max(theirs[k], FLOOR) for k in ERRORS}
+
+
+# ------------------------------------------------------------------------------------- one line
+class Comparison:
+    def __init__(self, args):
+        programs = [os.path.join(args.build, *where) for where in
+                    (("bindings", "cli", "tetstream"), ("tests", "bench", "measured"))]
+        for program in programs:
+            if not os.path.isfile(program):
+                sys.exit(f"there is no {program}: is --build right?")
+        self.args = args
+        self.tetstream = harness.Tetstream(*programs)
+        self.judge = harness.Judge(args.samples)
+        self.vtk = Vtk(args, self.tetstream, self.judge)
+
+    def stream_of(self, path):
+        """The mesh as a .tets file, and the words that set the window."""
+        stream = self.tetstream.convert(path, self.tetstream.path("in.tets"))
+        if not self.args.fronts:
+            return stream, []
+        front = self.tetstream.info(stream)["front_cells"]
+        return stream, ["--window", math.ceil(self.args.fronts * front)]
+
+    def timed_runs(self, words, path, field, ratio, variant):
+        """The report of the last run, the times of all, those of VTK in turn with them."""
+        ours, theirs = [], []
+        for _ in range(self.args.rounds):
+            report = self.tetstream.simplify(*words)
+            ours.append(report["measured"])
+            if self.vtk.timed and variant:
+                theirs.append(self.vtk.decimate(path, field, ratio, variant))
+        return report, ours, theirs
+
+    def line(self, name, path, field, ratio, mode, stream, window):
+        out = self.tetstream.path("out.tets")
+        words = [stream, out, "--ratio", ratio, "--field", field, "--mode", mode, *window,
+                 *self.args.options]
+        runs = self.vtk.runs(name, path, field, ratio)
+        theirs = min(runs, key=lambda run: run["rms"]) if runs else {}
+        report, times, vtk_times = self.timed_runs(words, path, field, ratio, theirs.get("run"))
+        verdict = self.judge(path, self.tetstream.convert(out, self.tetstream.path("out.vtu")),
+                             field)
+        ours = errors(verdict)
+        theirs, ratios = against(ours, runs)
+        wall = statistics.median(t["wall"] for t in times)
+        result = {"mesh": name, "field": field, "ratio": ratio, "mode": mode,
+                  "asked": report["target_cells"], "got": report["cells_out"], **ours,
+                  "vtk": theirs, "to_vtk": ratios, "valid": verdict["valid"],
+                  "topology_kept": verdict["reduction"]["topology_kept"],
+                  "new_non_manifold": harness.new_non_manifold(verdict), "seconds": wall,
+                  "cpu_seconds": statistics.median(t["user"] + t["system"] for t in times),
+                  "cells_per_second": report["cells_in"] / wall, "report": report,
+                  "peak_bytes": max(t["peak_bytes"] for t in times)}
+        if vtk_times:
+            result["vtk_seconds"] = statistics.median(t["seconds"] for t in vtk_times)
+            result["vtk_cpu_seconds"] = statistics.median(t["cpu_seconds"] for t in vtk_times)
+            result["vtk_peak_bytes"] = max(t["peak_bytes"] for t in vtk_times)
+            result["to_vtk"]["speed"] = result["vtk_seconds"] / wall
+        return result
+
+
+# --------------------------------------------------------------------------------------- table
+def with_vtk(ours, theirs):
+    return f"{ours:.3g} ({theirs:.3g})" if theirs is not None else f"{ours:.3g} (-)"
+
+
+def cells_of(r):
+    """The cells of a line of the table."""
+    vtk_peak = r["vtk_peak_bytes"] / 2 ** 20 if "vtk_peak_bytes" in r else None
+    ratios = [f"{r['to_vtk'][k]:.2f}" if k in r["to_vtk"] else "-" for k in (*ERRORS, "speed")]
+    return [r["mesh"], r["field"], f"{r['ratio']:g}", r["mode"], str(r["asked"]), str(r["got"]),
+            *(with_vtk(r[k], r["vtk"].get(k)) for k in ERRORS),
+            ("kept" if r["topology_kept"] else "CHANGED") + ("" if r["valid"] else ", NOT VALID"),
+            str(r["new_non_manifold"]), f"{r['seconds']:.3f}", f"{r['cpu_seconds']:.3f}",
+            f"{r['cells_per_second'] / 1e6:.3f}", with_vtk(r["peak_bytes"] / 2 ** 20, vtk_peak),
+            *ratios]
+
+
+def print_line(cells):
+    print("| " + " | ".join(cells) + " |", flush=True)
+
+
+def print_means(results, ratio, mode):
+    """The geometric means of the ratios to VTK over the rows that have them."""
+    chosen = [r for r in results if (r["ratio"], r["mode"]) == (ratio, mode)]
+    means = []
+    for k in (*ERRORS, "speed"):
+        values = [r["to_vtk"][k] for r in chosen if k in r["to_vtk"]]
+        means.append(f"{statistics.geometric_mean(values):.3f}" if values else "-")
+    print_line(["**geometric mean**", "", f"{ratio:g}", mode] + [""] * 11 + means)
+
+
+def main():
+    args = arguments()
+    rows = [row.rsplit(":", 1) for row in args.rows] if args.rows else harness.ROWS
+    comparison = Comparison(args)
+    print_line(HEAD)
+    print_line(["---"] * len(HEAD))
+    results = []
+    for name, field in rows:
+        path = harness.mesh_path(name)
+        stream, window = comparison.stream_of(path)
+        for ratio in args.ratios:
+            for mode in args.modes:
+                results.append(comparison.line(name, path, field, ratio, mode, stream, window))
+                print_line(cells_of(results[-1]))
+    for ratio in args.ratios:
+        for mode in args.modes:
+            print_means(results, ratio, mode)
+    if args.json:
+        with open(args.json, "w", encoding="utf-8") as file:
+            json.dump(results, file, indent=1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,120 @@
+"""What the tests and measurements in Python share: running the command, asking the judge.
+
+Real meshes come from the folder TETSTREAM_MESHES; the independent judge of results, judge.py, from
+the folder TETSTREAM_JUDGE. Both are environment variables; what needs one that is not set is "not
+run": exit code 77.
+"""
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+NOT_RUN = 77
+TARGET_MISSED = 5  # exit code of a simplification that is complete but has too many cells
+
+# Meshes with a scalar field each, on which results are compared.
+ROWS = (("spx", "scalars"), ("vampy_artery_cfd", "p_t200"), ("fluidity_seamount", "Temperature"),
+        ("fluidity_seamount", "Pressure"), ("bluntfin", "Density"), ("bracket", "xdsp"),
+        ("chaste_twin_flow", "Pressure"), ("chaste_twin_flow", "temperature"),
+        ("isabel", "velocityMag"), ("cylflow", "Temperature"))
+
+NON_MANIFOLD = ("nonmanifold_faces", "boundary_nonmanifold_edges", "boundary_nonmanifold_vertices")
+
+
+def not_run(reason):
+    print("not run:", reason)
+    sys.exit(NOT_RUN)
+
+
+def folder(variable):
+    """The folder named by an environment variable; leaves with "not run" if there is none."""
+    path = os.environ.get(variable, "")
+    if not os.path.isdir(path):
+        not_run(f"the environment variable {variable} names no folder")
+    return path
+
+
+def mesh_path(name):
+    """A mesh by its name in the folder of real meshes, or by its path."""
+    if os.path.isfile(name):
+        return name
+    path = os.path.join(folder("TETSTREAM_MESHES"), name + ".vtu")
+    if not os.path.isfile(path):
+        sys.exit(f"there is no mesh {path}")
+    return path
+
+
+class Judge:
+    """The judge, with the original that was judged last kept in memory."""
+
+    def __init__(self, samples):
+        path = os.path.join(folder("TETSTREAM_JUDGE"), "judge.py")
+        spec = importlib.util.spec_from_file_location("judge", path)
+        self.module = importlib.util.module_from_spec(spec)
+        try:
+            spec.loader.exec_module(self.module)
+        except ImportError as missing:
+            not_run(f"{path}: {missing}")
+        self.samples = samples
+        self.path, self.original = None, None
+
+    def __call__(self, original, simplified, field=None):
+        if self.path != original:
+            self.path, self.original = original, self.module.load(original)
+        return self.module.judge(self.original, self.module.load(simplified), field, self.samples)
+
+
+def new_non_manifold(verdict):
+    """How many non-manifold faces, edges and vertices the simplified mesh has more of."""
+    before, after = verdict["original"], verdict["simplified"]
+    return sum(max(0, after[kind] - before[kind]) for kind in NON_MANIFOLD)
+
+
+def deepest_allowed(target):
+    """The smallest number of cells that counts as having reached the target."""
+    return target - max(0.002 * target, 10)
+
+
+class Tetstream:
+    """The command; runs are measured if `measured`, the program of tests/bench, is given."""
+
+    def __init__(self, program, measured=None):
+        self.program, self.measured = program, measured
+        self.scratch = tempfile.TemporaryDirectory(prefix="tetstream-")
+
+    def path(self, name):
+        """A file that lives as long as this object."""
+        return os.path.join(self.scratch.name, name)
+
+    def run(self, *words, allowed=(0,), stdin=None):
+        """Standard output of a run, and its measurements if they are taken."""
+        command = [self.program, *map(str, words)]
+        report = self.path("measured.json")
+        if self.measured:
+            command = [self.measured, report, *command]
+        done = subprocess.run(command, stdin=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True, check=False)
+        if done.returncode not in allowed:
+            sys.exit(f"{' '.join(command)}\nended with {done.returncode}: {done.stderr}")
+        taken = {}
+        if self.measured:
+            with open(report, encoding="ascii") as file:
+                taken = json.load(file)
+        return done.stdout, taken
+
+    def info(self, path):
+        return json.loads(self.run("info", path, "--json", "--quiet")[0])
+
+    def convert(self, source, target):
+        self.run("convert", source, target, "--quiet")
+        return target
+
+    def simplify(self, source, target, *words, stdin=None):
+        """The report of a run, with the measurements under "measured"."""
+        text, taken = self.run("simplify", source, target, "--quiet", "--report", "json", *words,
+                               allowed=(0, TARGET_MISSED), stdin=stdin)
+        report = json.loads(text)
+        report["measured"] = taken
+        return report

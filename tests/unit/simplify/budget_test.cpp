@@ -1,0 +1,195 @@
+// How many cells come out, what stops a run short, what memory it takes, how it is cancelled.
+#include <cmath>
+
+#include "simplify_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+using Value = std::function<double(double, double, double)>;
+
+TestMesh gridWith(int n, const Value& value, ScalarType type = ScalarType::kFloat64) {
+  TestMesh mesh = fullGrid(n, n, 2 * n, 0.05, type);
+  addPositionField(mesh, {"f", 1, type}, value);
+  return mesh;
+}
+
+void expectAllRatiosReached(const TestMesh& mesh) {
+  for (double ratio : {0.5, 0.1, 0.02})
+    for (int64_t window : {500, 0}) {
+      if (slowRun() && (window == 0 || ratio == 0.5)) continue;
+      SCOPED_TRACE(textOf("ratio %g, window %lld", ratio, static_cast<long long>(window)));
+      const Result result = simplified(mesh, toRatio(ratio, window));
+      expectSound(mesh, result);
+      expectReached(result);
+    }
+}
+
+int side() {
+  return slowRun() ? 4 : 8;
+}
+
+// Fields that make every position equally good must not lock a run.
+TEST(SimplifierTarget, IsReachedForAZeroField) {
+  expectAllRatiosReached(gridWith(side(), [](double, double, double) { return 0.0; }));
+}
+TEST(SimplifierTarget, IsReachedForAConstantField) {
+  expectAllRatiosReached(
+      gridWith(side(), [](double, double, double) { return 1e9; }, ScalarType::kFloat32));
+}
+TEST(SimplifierTarget, IsReachedForALinearField) {
+  expectAllRatiosReached(gridWith(side(), [](double x, double y, double z) { return x - y + 2 * z; }));
+}
+TEST(SimplifierTarget, IsReachedForAHalfFlatField) {
+  expectAllRatiosReached(
+      gridWith(side(), [](double, double, double z) { return z < 4 ? 0 : std::sin(z); }));
+}
+TEST(SimplifierTarget, IsReachedForAStep) {
+  expectAllRatiosReached(
+      gridWith(side(), [](double, double, double z) { return z < 4.2 ? 0 : 1e6; }));
+}
+TEST(SimplifierTarget, IsReachedWithoutAField) {
+  expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0.05));
+  expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0, ScalarType::kFloat32));
+}
+TEST(SimplifierTarget, IsReachedForGarlandZhou) {
+  SimplifyOptions options = toRatio(0.1);
+  options.quadric = QuadricForm::kGarlandZhou;
+  const TestMesh mesh = gridWith(side(), [](double x, double y, double) { return x * y; });
+  expectReached(simplified(mesh, options));
+}
+
+TEST(SimplifierTarget, IsTheNumberOfCellsAskedFor) {
+  const TestMesh mesh = gridWith(side(), [](double x, double y, double z) { return x * y + z; });
+  for (int64_t cells : {int64_t{100}, int64_t{333}, int64_t{2000}, int64_t{1} << 40})
+    for (int64_t window : {600, 0}) {
+      SimplifyOptions options = toRatio(0.5, window);
+      options.cells = cells;
+      const Result result = simplified(mesh, options);
+      expectSound(mesh, result);
+      EXPECT_EQ(result.report.target_cells,
+                std::min(cells, static_cast<int64_t>(mesh.cellCount())));
+      expectReached(result);
+    }
+}
+
+TEST(SimplifierTarget, AsANumberOfCellsNeedsACountedStream) {
+  const TestMesh mesh = oneCell();
+  SimplifyOptions options;
+  options.cells = 10;
+  Cut cut;
+  cut.say_counts = false;
+  const auto [status, text] = thrownBy([&] { simplified(mesh, options, cut); });
+  EXPECT_EQ(status, Status::kUnsupported);
+  EXPECT_NE(text.find("ratio"), std::string::npos);
+}
+
+// All vertices locked: nothing can be done, and the report says so.
+TEST(SimplifierTarget, IsMissedWithAReasonWhenEverythingIsLocked) {
+  TestMesh mesh = gridWith(4, [](double x, double, double) { return x; });
+  mesh.locked.assign(mesh.vertexCount(), 1);
+  const Result result = simplified(mesh, toRatio(0.1));
+  expectSound(mesh, result);
+  EXPECT_EQ(result.report.collapses, 0);
+  EXPECT_NE(result.report.limited_by, "");
+  EXPECT_EQ(result.out.allBytes(), simplified(mesh, toRatio(1)).out.allBytes());
+}
+
+// 500 cubes that do not touch, of 6 cells each: none can lose its last cells.
+TEST(SimplifierTarget, IsMissedWithAReasonForManySmallParts) {
+  const TestMesh mesh =
+      cubes(9, 9, 9, [](int x, int y, int z) { return x % 2 + y % 2 + z % 2 == 0; });
+  const Result result = simplified(mesh, toRatio(0.02));
+  expectSound(mesh, result);
+  EXPECT_GE(result.report.cells_out, 125);
+  EXPECT_NE(result.report.limited_by.find("topology"), std::string::npos)
+      << result.report.limited_by;
+}
+
+TEST(SimplifierTarget, OfOneIsACopy) {
+  const TestMesh mesh = gridWith(3, [](double x, double y, double z) { return x * y * z; });
+  for (int64_t window : {64, 0}) {
+    const Result result = simplified(mesh, toRatio(1, window));
+    EXPECT_EQ(result.out.mesh.positions.bytes, mesh.positions.bytes);
+    EXPECT_EQ(result.out.mesh.cells, mesh.cells);
+    EXPECT_EQ(result.out.mesh.fields[0].bytes, mesh.fields[0].bytes);
+  }
+}
+
+TEST(SimplifierWindow, StaysAsSmallAsAskedForWhereTheFrontAllows) {
+  const TestMesh mesh = fullGrid(4, 4, slowRun() ? 8 : 30);  // a front of about 100 cells
+  const Result result = simplified(mesh, toRatio(0.2, 500));
+  EXPECT_EQ(result.report.window_cells, 500);
+  expectReached(result);
+}
+
+TEST(SimplifierWindow, GrowsWhereTheFrontIsWider) {
+  const TestMesh mesh = fullGrid(6, 6, 6);  // a front of more than 200 cells
+  const Result result = simplified(mesh, toRatio(0.2, 64));
+  EXPECT_GT(result.report.window_cells, 200);
+  expectReached(result);
+}
+
+// A budget either holds or the run says that it is too small; it is never passed.
+TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
+  TestMesh mesh = gridWith(6, [](double x, double y, double z) { return x * y + z; });
+  mesh.addIntegerCellData("id", [](size_t c) { return static_cast<int64_t>(c); });
+  const int64_t needed =
+      static_cast<int64_t>(simplified(mesh, toRatio(0.2, 0)).report.peak_window_bytes);
+  ASSERT_GT(needed, 100000);
+  int held = 0, refused = 0;
+  for (int64_t limit = 1000; limit < 2 * needed; limit += limit / (slowRun() ? 1 : 4)) {
+    SimplifyOptions options = toRatio(0.2, limit % 2 ? 0 : 300);
+    options.memory_bytes = limit;
+    Recorder out;
+    Simplifier simplifier(options, out, {});
+    MeshStream stream(mesh, {});
+    const auto [status, text] = thrownBy([&] { copyStream(stream, simplifier); });
+    if (status == Status::kOk) {
+      ++held;
+      EXPECT_LE(simplifier.report().peak_window_bytes, static_cast<uint64_t>(limit));
+      EXPECT_EQ(out.problem, "");
+    } else {
+      ++refused;
+      EXPECT_EQ(status, Status::kNoMemory);
+      EXPECT_NE(text, "");
+    }
+  }
+  EXPECT_GT(held, 0);
+  EXPECT_GT(refused, 5);
+}
+
+TEST(SimplifierProgress, GrowsAndEndsAtTheWhole) {
+  const TestMesh mesh = fullGrid(4, 4, 16);
+  Recorder out;
+  std::vector<Progress> told;
+  Simplifier simplifier(toRatio(0.2, 300), out, [&](const Progress& p) { told.push_back(p); });
+  MeshStream stream(mesh, {});
+  copyStream(stream, simplifier);
+  ASSERT_GT(told.size(), 3u);
+  for (size_t i = 1; i < told.size(); ++i) {
+    EXPECT_GE(told[i].cells_read, told[i - 1].cells_read);
+    EXPECT_GE(told[i].cells_written, told[i - 1].cells_written);
+    EXPECT_GE(told[i].fraction, told[i - 1].fraction);
+  }
+  EXPECT_EQ(told.back().cells_read, static_cast<int64_t>(mesh.cellCount()));
+  EXPECT_EQ(told.back().cells_written, static_cast<int64_t>(out.mesh.cellCount()));
+  EXPECT_EQ(told.back().fraction, 1);
+}
+
+TEST(SimplifierProgress, CanCancelAtAnyCall) {
+  const TestMesh mesh = fullGrid(4, 4, 16);
+  for (int allowed = 0; allowed < 4; ++allowed) {
+    Recorder out;
+    int calls = 0;
+    Simplifier simplifier(toRatio(0.2, 300), out, [&](const Progress&) {
+      if (calls++ == allowed) fail(Status::kCancelled, "enough");
+    });
+    MeshStream stream(mesh, {});
+    EXPECT_EQ(thrownBy([&] { copyStream(stream, simplifier); }).first, Status::kCancelled);
+    EXPECT_FALSE(out.finished);
+  }
+}
+
+}  // namespace
+}  // namespace tetstream::test

@@ -1,0 +1,126 @@
+// Regions: vertices on the interface of two labels stay, ids are told from labels.
+#include <array>
+#include <set>
+
+#include "simplify_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+using Place = std::array<double, 3>;
+
+// A grid of two materials, 3 below z = n and 8 above.
+TestMesh twoMaterials(int n) {
+  TestMesh mesh = fullGrid(n, n, 2 * n, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double y, double) { return x * y; });
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    double z = 0;
+    for (size_t j = 0; j < 4; ++j)
+      z += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), 2) / 4;
+    return z < n ? 3 : 8;
+  });
+  mesh.addIntegerCellData("number", [](size_t c) { return static_cast<int64_t>(c); });
+  return mesh;
+}
+
+// The places of the vertices that cells of both labels use.
+std::set<Place> interfaceOf(const TestMesh& mesh) {
+  std::vector<std::set<int64_t>> labels(mesh.vertexCount());
+  for (size_t c = 0; c < mesh.cellCount(); ++c)
+    for (size_t j = 0; j < 4; ++j)
+      labels[static_cast<size_t>(mesh.cells[4 * c + j])].insert(mesh.cellInteger(0, c));
+  std::set<Place> places;
+  for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    if (labels[v].size() > 1)
+      places.insert({mesh.position(v, 0), mesh.position(v, 1), mesh.position(v, 2)});
+  return places;
+}
+
+Result withRegions(const TestMesh& mesh, const std::string& regions, int64_t window) {
+  SimplifyOptions options = toRatio(0.25, window);
+  options.regions = regions;
+  return simplified(mesh, options);
+}
+
+TEST(SimplifierRegions, KeepTheirInterface) {
+  const TestMesh mesh = twoMaterials(slowRun() ? 3 : 5);
+  const std::set<Place> interface = interfaceOf(mesh);
+  for (int64_t window : {64, 400, 0})
+    for (const char* regions : {"auto", "material"}) {
+      const Result result = withRegions(mesh, regions, window);
+      expectSound(mesh, result);
+      EXPECT_TRUE(interfaceOf(result.out.mesh) == interface);
+      EXPECT_NE(result.report.regions.find("material"), std::string::npos);
+      EXPECT_GT(result.report.collapses, 20);
+      std::set<int64_t> labels;
+      for (size_t c = 0; c < result.out.mesh.cellCount(); ++c)
+        labels.insert(result.out.mesh.cellInteger(0, c));
+      EXPECT_EQ(labels, (std::set<int64_t>{3, 8}));
+      // Each region's own topology is that of a ball still.
+      for (int64_t label : {3, 8}) {
+        TestMesh part = result.out.mesh;
+        part.cells.clear();
+        for (size_t c = 0; c < result.out.mesh.cellCount(); ++c)
+          if (result.out.mesh.cellInteger(0, c) == label)
+            part.cells.insert(part.cells.end(), &result.out.mesh.cells[4 * c],
+                              &result.out.mesh.cells[4 * c] + 4);
+        const MeshFacts facts = factsOf(part);
+        EXPECT_EQ(facts.euler, 1);
+        EXPECT_TRUE(facts.manifold());
+      }
+    }
+}
+
+TEST(SimplifierRegions, AreNotTakenFromIds) {
+  const TestMesh mesh = twoMaterials(4);
+  const Result result = withRegions(mesh, "auto", 0);
+  EXPECT_NE(result.report.regions.find("by material"), std::string::npos) << result.report.regions;
+  EXPECT_NE(result.report.regions.find("number"), std::string::npos) << result.report.regions;
+  EXPECT_NE(result.report.regions.find("ids"), std::string::npos) << result.report.regions;
+  EXPECT_LE(result.report.cells_out, result.report.target_cells);
+}
+
+TEST(SimplifierRegions, CanBeIdsIfTheUserSaysSo) {
+  const TestMesh mesh = twoMaterials(3);
+  const Result result = withRegions(mesh, "number", 0);
+  EXPECT_EQ(result.report.collapses, 0);  // every vertex is on an interface
+  EXPECT_NE(result.report.limited_by, "");
+}
+
+TEST(SimplifierRegions, CanBeTurnedOff) {
+  const TestMesh mesh = twoMaterials(5);
+  const Result result = withRegions(mesh, "none", 0);
+  EXPECT_EQ(result.report.regions.find("material"), std::string::npos);
+  EXPECT_FALSE(interfaceOf(result.out.mesh) == interfaceOf(mesh));
+  EXPECT_LE(result.report.cells_out, result.report.target_cells);
+}
+
+TEST(SimplifierRegions, AreRefusedWhereThereAreNone) {
+  TestMesh mesh = twoMaterials(2);
+  mesh.addCellData({"heat", 1, ScalarType::kFloat32}, [](size_t, int) { return 1.0; });
+  for (const char* wrong : {"materiel", "heat"}) {
+    const auto [status, text] = thrownBy([&] { withRegions(mesh, wrong, 0); });
+    EXPECT_EQ(status, Status::kBadArgument);
+    EXPECT_NE(text.find(wrong), std::string::npos) << text;
+  }
+}
+
+TEST(SimplifierFields, AreRefusedWhereThereAreNone) {
+  TestMesh mesh = twoMaterials(2);
+  mesh.addIntegerField("label", [](size_t) { return int64_t{1}; });
+  const auto refusal = [&](const char* name, double weight) {
+    SimplifyOptions options;
+    options.fields = {{name, weight}};
+    return thrownBy([&] { simplified(mesh, options); });
+  };
+  EXPECT_EQ(refusal("f", 1).first, Status::kOk);
+  EXPECT_EQ(refusal("g", 1).first, Status::kBadArgument);
+  EXPECT_NE(refusal("g", 1).second.find("the stream has: f, label"), std::string::npos);
+  EXPECT_EQ(refusal("label", 1).first, Status::kBadArgument);
+  EXPECT_EQ(refusal("f", -1).first, Status::kBadArgument);
+  EXPECT_EQ(refusal("f", std::numeric_limits<double>::quiet_NaN()).first, Status::kBadArgument);
+}
+
+}  // namespace
+}  // namespace tetstream::test

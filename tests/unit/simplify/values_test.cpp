@@ -1,0 +1,236 @@
+// What becomes of fields and cell data: bits kept, integers picked, means conserved, units without
+// influence.
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "simplify_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+using Place = std::array<double, 3>;
+
+Place placeOf(const TestMesh& mesh, size_t v) {
+  return {mesh.position(v, 0), mesh.position(v, 1), mesh.position(v, 2)};
+}
+
+// By place: the vertex there.
+std::map<Place, size_t> placesOf(const TestMesh& mesh) {
+  std::map<Place, size_t> places;
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) places[placeOf(mesh, v)] = v;
+  return places;
+}
+
+double wild(double x, double y, double z) {
+  return std::sin(3.7 * x) * std::cos(2.9 * y) + 1e-7 * z;
+}
+
+TEST(SimplifierValues, KeepTheirBitsWhereVerticesDidNotMove) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
+  addPositionField(mesh, {"b", 3, ScalarType::kFloat64}, wild);
+  addPositionField(mesh, {"c", 2, ScalarType::kFloat32}, wild);
+  mesh.addIntegerField("d", [](size_t v) { return (int64_t{1} << 60) + static_cast<int64_t>(v); });
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(v % 3 == 0);
+  SimplifyOptions options = toRatio(0.5);
+  options.fields = {{"a", 1}};
+  for (int64_t window : {100, 0}) {
+    options.window_cells = window;
+    const Result result = simplified(mesh, options);
+    const TestMesh& out = result.out.mesh;
+    const auto places = placesOf(out);
+    size_t compared = 0;
+    for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+      if (!mesh.locked[v]) continue;
+      const auto found = places.find(placeOf(mesh, v));
+      ASSERT_TRUE(found != places.end()) << "a locked vertex moved";
+      ++compared;
+      EXPECT_TRUE(out.locked[found->second]);
+      for (size_t f = 0; f < 4; ++f) {
+        const size_t width = mesh.schema.fields[f].bytesPerRow();
+        EXPECT_EQ(0, std::memcmp(mesh.fields[f].bytes.data() + v * width,
+                                 out.fields[f].bytes.data() + found->second * width, width));
+      }
+    }
+    EXPECT_EQ(compared, (mesh.vertexCount() + 2) / 3);
+    EXPECT_GT(result.report.collapses, 10);
+  }
+}
+
+TEST(SimplifierValues, OfIntegersArePicked) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  addPositionField(mesh, {"a", 1, ScalarType::kFloat32}, wild);
+  std::set<int64_t> labels, ids;
+  const int64_t big = std::numeric_limits<int64_t>::max() - 1000000;  // no float64 holds it
+  mesh.addIntegerField("label", [&](size_t v) {
+    return *labels.insert(big + 3 * static_cast<int64_t>(v)).first;
+  });
+  mesh.addField({"small", 2, ScalarType::kInt32},
+                [](size_t v, int i) { return 7.0 * static_cast<double>(v) + i; });
+  mesh.addIntegerCellData("id", [&](size_t c) {
+    return *ids.insert(-big + 5 * static_cast<int64_t>(c)).first;
+  });
+  const Result result = simplified(mesh, toRatio(0.1));
+  expectReached(result);
+  const TestMesh& out = result.out.mesh;
+  std::set<int64_t> seen;
+  for (size_t v = 0; v < out.vertexCount(); ++v) {
+    EXPECT_TRUE(labels.count(out.fieldInteger(1, v)));
+    EXPECT_TRUE(seen.insert(out.fieldInteger(1, v)).second) << "one vertex picked twice";
+    // Both columns come from the same vertex, and so do both components.
+    EXPECT_EQ((out.fieldInteger(1, v) - big) / 3 * 7, out.field(2, v, 0));
+    EXPECT_EQ(out.field(2, v, 0) + 1, out.field(2, v, 1));
+  }
+  std::set<int64_t> seen_cells;
+  for (size_t c = 0; c < out.cellCount(); ++c) {
+    EXPECT_TRUE(ids.count(out.cellInteger(0, c)));
+    EXPECT_TRUE(seen_cells.insert(out.cellInteger(0, c)).second);
+  }
+}
+
+TEST(SimplifierValues, OfConstantFieldsStayConstant) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
+  mesh.addField({"one", 1, ScalarType::kFloat64}, [](size_t, int) { return 0.1; });
+  mesh.addField({"carried", 1, ScalarType::kFloat64}, [](size_t, int) { return 0.1; });
+  SimplifyOptions options = toRatio(0.1);
+  options.fields = {{"a", 1}, {"one", 1}, {"carried", 0}};
+  const Result result = simplified(mesh, options);
+  for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v) {
+    EXPECT_EQ(result.out.mesh.field(1, v), 0.1);
+    EXPECT_NEAR(result.out.mesh.field(2, v), 0.1, 1e-15);
+  }
+}
+
+// The boundary is locked, so that every new place lies in an old cell.
+TEST(SimplifierValues, OfCarriedLinearFieldsStayLinear) {
+  const int n = slowRun() ? 4 : 7;
+  TestMesh mesh = fullGrid(n, n, n, 0.1);
+  addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
+  addPositionField(mesh, {"linear", 2, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return 3 * x - y + 0.5 * z + 11; });
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+    uint8_t outside = 0;
+    for (int i = 0; i < 3; ++i)
+      outside |= std::fabs(mesh.position(v, i) - 0.5 * n) > 0.5 * n - 0.2;
+    mesh.locked.push_back(outside);
+  }
+  SimplifyOptions options = toRatio(0.3);
+  options.fields = {{"a", 1}};
+  const Result result = simplified(mesh, options);
+  const TestMesh& out = result.out.mesh;
+  EXPECT_GT(result.report.collapses, 20);
+  for (size_t v = 0; v < out.vertexCount(); ++v)
+    for (int i = 0; i < 2; ++i)
+      EXPECT_NEAR(out.field(1, v, i),
+                  (i + 1) * (3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) +
+                             11),
+                  1e-11);
+}
+
+// A linear field lies in the hyperplane of every cell: the metric keeps it, to rounding.
+TEST(SimplifierValues, OfMeasuredLinearFieldsStayLinear) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  addPositionField(mesh, {"linear", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return 3 * x - y + 0.5 * z + 11; });
+  const Result result = simplified(mesh, toRatio(0.2));
+  const TestMesh& out = result.out.mesh;
+  for (size_t v = 0; v < out.vertexCount(); ++v)
+    EXPECT_NEAR(out.field(0, v),
+                3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) + 11, 1e-6);
+}
+
+// Constants are the test of an average: (a w + a v) / (w + v) must give a, to the last bit.
+TEST(SimplifierValues, OfConstantCellDataStayConstant) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
+  mesh.addCellData({"one", 2, ScalarType::kFloat64}, [](size_t, int i) { return 0.1 + i / 3.0; });
+  mesh.addCellData({"two", 1, ScalarType::kFloat32}, [](size_t, int) { return 0.3; });
+  const Result result = simplified(mesh, toRatio(0.1));
+  for (size_t c = 0; c < result.out.mesh.cellCount(); ++c) {
+    EXPECT_EQ(result.out.mesh.cellValue(0, c, 0), 0.1);
+    EXPECT_EQ(result.out.mesh.cellValue(0, c, 1), 0.1 + 1 / 3.0);
+    EXPECT_EQ(result.out.mesh.cellValue(1, c), static_cast<double>(0.3f));
+  }
+}
+
+TEST(SimplifierValues, OfCellDataStayBetweenTheirEnds) {
+  TestMesh mesh = fullGrid(6, 6, 6, 0.1);
+  mesh.addCellData({"d", 1, ScalarType::kFloat64},
+                   [](size_t c, int) { return static_cast<double>(c % 7) - 3; });
+  for (int64_t window : {100, 0}) {
+    const Result result = simplified(mesh, toRatio(0.1, window));
+    double sum = 0;
+    for (size_t c = 0; c < result.out.mesh.cellCount(); ++c) {
+      const double value = result.out.mesh.cellValue(0, c);
+      EXPECT_GE(value, -3);
+      EXPECT_LE(value, 3);
+      sum += value * cellVolume(result.out.mesh, c);
+    }
+    // Not exactly conserved by the volumes that the cells end with, but near: the sum of |d| is
+    // over 300, a gradient in it would be lost with one cell in a hundred.
+    EXPECT_LT(std::fabs(sum), 12);
+  }
+}
+
+// ------------------------------------------------------------------------------------- units
+
+TestMesh scaledMesh(double length, double value, ScalarType type) {
+  TestMesh mesh = fullGrid(4, 4, 8, 0.1, type);
+  addPositionField(mesh, {"f", 1, type},
+                   [value](double x, double y, double z) { return value * wild(x, y, z); });
+  std::vector<double> positions;
+  for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    for (int i = 0; i < 3; ++i) positions.push_back(length * mesh.position(v, i));
+  TestMesh scaled = makeMesh(type, positions, mesh.cells);
+  scaled.schema.fields = mesh.schema.fields;
+  scaled.fields = mesh.fields;
+  return scaled;
+}
+
+void expectUnitsDoNotMatter(double length, double value, ScalarType type, const Cut& cut) {
+  for (QuadricForm form : {QuadricForm::kDeterminant, QuadricForm::kGarlandZhou})
+    for (int64_t window : {300, 0}) {
+      SCOPED_TRACE(textOf("length %g value %g window %lld form %d", length, value,
+                          static_cast<long long>(window), static_cast<int>(form)));
+      SimplifyOptions options = toRatio(0.2, window);
+      options.quadric = form;
+      const Result plain = simplified(scaledMesh(1, 1, type), options, cut);
+      const Result scaled = simplified(scaledMesh(length, value, type), options, cut);
+      ASSERT_TRUE(plain.out.mesh.cells == scaled.out.mesh.cells);
+      EXPECT_EQ(plain.report.largest_error, scaled.report.largest_error);
+      for (size_t v = 0; v < plain.out.mesh.vertexCount(); ++v) {
+        for (int i = 0; i < 3; ++i)
+          ASSERT_EQ(length * plain.out.mesh.position(v, i), scaled.out.mesh.position(v, i));
+        ASSERT_EQ(value * plain.out.mesh.field(0, v), scaled.out.mesh.field(0, v));
+      }
+    }
+}
+
+// Powers of two change no bit of a mantissa: the results must be the same but for them.
+TEST(SimplifierUnits, DoNotMatterForFloat64) {
+  for (bool box : {false, true}) {
+    Cut cut;
+    cut.say_box = box;
+    expectUnitsDoNotMatter(0x1p20, 1, ScalarType::kFloat64, cut);
+    expectUnitsDoNotMatter(0x1p-20, 0x1p40, ScalarType::kFloat64, cut);
+    if (slowRun()) break;
+    expectUnitsDoNotMatter(1, 0x1p-300, ScalarType::kFloat64, cut);
+    expectUnitsDoNotMatter(0x1p300, 0x1p300, ScalarType::kFloat64, cut);
+    expectUnitsDoNotMatter(0x1p-300, 0x1p300, ScalarType::kFloat64, cut);
+  }
+}
+TEST(SimplifierUnits, DoNotMatterForFloat32) {
+  for (bool box : {false, true}) {
+    Cut cut;
+    cut.say_box = box;
+    expectUnitsDoNotMatter(0x1p20, 0x1p-20, ScalarType::kFloat32, cut);
+    expectUnitsDoNotMatter(0x1p-20, 0x1p20, ScalarType::kFloat32, cut);
+    if (slowRun()) break;
+    expectUnitsDoNotMatter(0x1p60, 0x1p-60, ScalarType::kFloat32, cut);
+  }
+}
+
+}  // namespace
+}  // namespace tetstream::test

@@ -1,0 +1,61 @@
+// tests: a whole small mesh in one window, ready for collapses by hand.
+#pragma once
+
+#include "collapse.h"
+#include "intake.h"
+#include "resolve.h"
+#include "select.h"
+#include "simplify_testing.h"
+
+namespace tetstream::test {
+
+template <class S>
+struct WholeWindow {
+  WholeWindow(TestMesh the_mesh, const SimplifyOptions& the_options)
+      : mesh(std::move(the_mesh)),
+        options(the_options),
+        plan(makePlan(mesh.schema, options)),
+        core(plan, options, account, mesh.cellCount() + 1, mesh.vertexCount() + 1, 0),
+        intake(core, account),
+        regions(core),
+        metric(core),
+        resolver(core, metric, regions, account),
+        collapser(core, account) {
+    MeshStream stream(mesh, {});
+    BatchView batch;
+    while (stream.next(batch)) {
+      intake.startBatch(batch);
+      for (size_t row = 0; row < batch.cell_count; ++row) intake.takeCell(row);
+      intake.finishBatch();
+    }
+    intake.finalizeAll();
+    regions.decide();
+    metric.addCells(0, core.window.mesh.cellEnd());
+    resolver.resolve(intake.finalized(), intake.finalizedCount());
+  }
+
+  // The live cells, with the positions as they are.
+  TestMesh live() {
+    std::vector<double> positions;
+    std::vector<int64_t> cells;
+    for (uint32_t v = 0; v < core.window.mesh.vertexEnd(); ++v)
+      for (int i = 0; i < 3; ++i) positions.push_back(static_cast<double>(core.window.values(v)[i]));
+    for (uint32_t c = 0; c < core.window.mesh.cellEnd(); ++c)
+      if (core.window.mesh.isLive(c))
+        for (int j = 0; j < 4; ++j) cells.push_back(core.window.mesh.corners(c)[j]);
+    return makeMesh(ScalarType::kFloat64, positions, cells);
+  }
+
+  TestMesh mesh;
+  SimplifyOptions options;
+  Account account;
+  Plan plan;
+  Core<S> core;
+  Intake<S> intake;
+  Regions<S> regions;
+  Metric<S> metric;
+  Resolver<S> resolver;
+  Collapser<S> collapser;
+};
+
+}  // namespace tetstream::test
