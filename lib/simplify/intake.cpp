@@ -62,11 +62,22 @@ void Intake<S>::readColumn(size_t column, size_t row, uint32_t slot) {
          static_cast<unsigned long long>(batch_.first_vertex + row), c.name.c_str());
 }
 
+// By a quarter, or by what a memory budget still allows.
+template <class S>
+void Intake<S>::growVertices() {
+  const size_t capacity = core_.window.mesh.vertexCapacity();
+  try {
+    core_.window.growVertices(capacity + capacity / 4 + 64);
+  } catch (const Error& error) {
+    if (error.status() != Status::kNoMemory) throw;
+    core_.window.growVertices(capacity + capacity / 64 + 16);
+  }
+}
+
 template <class S>
 void Intake<S>::takeVertex(size_t row) {
   Window<S>& window = core_.window;
-  if (window.mesh.vertexEnd() == window.mesh.vertexCapacity())
-    window.growVertices(window.mesh.vertexCapacity() + window.mesh.vertexCapacity() / 4 + 64);
+  if (window.mesh.vertexEnd() == window.mesh.vertexCapacity()) growVertices();
   const bool locked = batch_.locked && batch_.locked[row];
   const uint32_t slot = window.mesh.addVertex(locked ? kLocked | kCallerLocked : 0);
   core_.locked.by_caller += locked;

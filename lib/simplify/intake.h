@@ -26,6 +26,7 @@ class Intake {
 
  private:
   void introduceUpTo(uint64_t vertex);
+  void growVertices();
   void takeVertex(size_t row);
   void readColumn(size_t column, size_t row, uint32_t slot);
   void takeCellData(size_t row, uint32_t cell);

@@ -17,21 +17,9 @@ constexpr int64_t kLeastWindow = 16384;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
-// Of a memory budget, not for cells and vertices: the front's map, stars, lists.
+// Of a memory budget, not for cells and vertices: stars, lists, the front's map.
 constexpr int64_t kFixedBytes = 256 << 10;
-
-int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
-  if (options.window_cells > 0) return std::max<int64_t>(options.window_cells, 64);
-  int64_t cells = schema.front_cells >= 0
-                      ? std::max(kFrontsPerWindow * schema.front_cells, kLeastWindow)
-                      : kFirstWindow;
-  if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
-  // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
-  const int64_t fitting =
-      (options.memory_bytes - kFixedBytes) / static_cast<int64_t>(bytes_per_cell);
-  if (options.memory_bytes > 0) cells = std::min(cells, std::max<int64_t>(fitting, 64));
-  return cells;
-}
+constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two of 8 bytes
 
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.
 uint64_t expectedSpan(const Schema& schema) {
@@ -50,6 +38,23 @@ double ratioFor(const Schema& schema, const SimplifyOptions& options) {
          "ratio");
   if (schema.cell_count == 0) return 1;
   return std::min(1.0, static_cast<double>(options.cells) / static_cast<double>(schema.cell_count));
+}
+
+int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
+  if (options.window_cells > 0) return std::max<int64_t>(options.window_cells, 64);
+  int64_t cells = schema.front_cells >= 0
+                      ? std::max(kFrontsPerWindow * schema.front_cells, kLeastWindow)
+                      : kFirstWindow;
+  if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
+  // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
+  if (options.memory_bytes > 0) {
+    const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
+    // A seventh is left for meshes with more vertices to a cell than usual.
+    const int64_t fitting =
+        (options.memory_bytes - kFixedBytes - map) * 6 / 7 / static_cast<int64_t>(bytes_per_cell);
+    cells = std::min(cells, std::max<int64_t>(fitting, 64));
+  }
+  return cells;
 }
 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:

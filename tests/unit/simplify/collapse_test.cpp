@@ -36,7 +36,7 @@ TEST(Collapser, TellsItsObserverOfEachCollapse) {
   Listener listener;
   w.collapser.observe(&listener);
   const auto selector = makeRandomSelector(w.core, w.collapser, w.account);
-  selector->decimate({100, 90, true});
+  selector->decimate({100, 90, true}, [] {});
   ASSERT_EQ(static_cast<int64_t>(listener.told.size()), w.core.report.collapses);
   EXPECT_GT(listener.told.size(), 30u);
   EXPECT_LE(w.core.window.mesh.liveCells(), 100u);
@@ -157,7 +157,7 @@ TEST(Collapser, ConservesCellDataOverTheVolumesTheyStandFor) {
     return sum;
   };
   const auto before = sums();
-  makeRandomSelector(w.core, w.collapser, w.account)->decimate({80, 70, true});
+  makeRandomSelector(w.core, w.collapser, w.account)->decimate({80, 70, true}, [] {});
   const auto after = sums();
   EXPECT_LE(w.core.window.mesh.liveCells(), 80u);
   for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(after[i], before[i], 1e-9 * before[0]);

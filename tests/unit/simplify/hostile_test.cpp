@@ -121,7 +121,8 @@ TEST(HostileStream, WithAWrongNumberOfCellsIsStillSimplified) {
     cut.say_counts = false;
     const Result result = simplified(lying, toRatio(0.2), cut);
     expectSound(mesh, result);
-    expectReached(result);
+    EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
+    EXPECT_LT(result.out.mesh.cellCount(), mesh.cellCount() / 3);
   }
 }
 
