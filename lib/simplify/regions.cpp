@@ -56,7 +56,7 @@ void Regions<S>::decide() {
 
 template <class S>
 bool Regions<S>::differ(const Star& star) const {
-  if (star.size() == 0) return false;
+  if (picks_.empty() || star.size() == 0) return false;
   const int64_t* first = core_.window.cellPicks(star[0].cell);
   for (const StarCell& s : star) {
     const int64_t* row = core_.window.cellPicks(s.cell);

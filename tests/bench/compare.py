@@ -22,7 +22,6 @@ import json
 import math
 import os
 import statistics
-import subprocess
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -81,32 +80,23 @@ def digest(*paths_and_words):
 class Vtk:
     """VTK's filter: what was recorded of it, and runs here."""
 
-    def __init__(self, args, tetstream, judge):
-        self.program = os.path.join(args.build, "tests", "bench", "vtk_decimate")
-        self.here = os.path.isfile(self.program)
-        if args.vtk_here and not self.here:
-            sys.exit(f"there is no {self.program}: was VTK found at configure time?")
-        self.timed = self.here and not args.no_vtk_time
+    def __init__(self, args, program, judge):
+        if args.vtk_here and not program:
+            sys.exit(f"there is no vtk_decimate in {args.build}: was VTK found at configure time?")
+        self.program = program
+        self.timed = program is not None and not args.no_vtk_time
         self.judged_here, self.work = args.vtk_here, args.work
-        self.tetstream, self.judge, self.recorded = tetstream, judge, recorded_runs()
-
-    def decimate(self, path, field, ratio, variant):
-        """One run: what the program prints, and what was measured of it."""
-        report = self.tetstream.path("vtk.json")
-        out = self.tetstream.path("vtk.vtu")
-        done = subprocess.run([self.tetstream.measured, report, self.program, path, field,
-                               str(ratio), variant, out], check=True, stdout=subprocess.PIPE)
-        with open(report, encoding="ascii") as file:
-            return {**json.loads(done.stdout), "peak_bytes": json.load(file)["peak_bytes"]}
+        self.judge, self.recorded = judge, recorded_runs()
 
     def judged_run(self, path, field, ratio, variant):
-        name = digest(path, self.program, field, str(ratio), variant, str(self.judge.samples))
+        name = digest(path, self.program.program, field, str(ratio), variant,
+                      str(self.judge.samples))
         kept = os.path.join(self.work, f"vtk-{name}.json")
         if os.path.isfile(kept):
             with open(kept, encoding="ascii") as file:
                 return json.load(file)
-        run = self.decimate(path, field, ratio, variant)
-        verdict = self.judge(path, self.tetstream.path("vtk.vtu"), field)
+        run = self.program.decimate(path, field, ratio, variant)
+        verdict = self.judge(path, self.program.path("out.vtu"), field)
         result = {"run": variant, "kept": run["cells_out"] / run["cells_in"], **errors(verdict)}
         os.makedirs(self.work, exist_ok=True)
         with open(kept, "w", encoding="ascii") as file:
@@ -140,15 +130,10 @@ def against(ours, runs):
 # ------------------------------------------------------------------------------------- one line
 class Comparison:
     def __init__(self, args):
-        programs = [os.path.join(args.build, *where) for where in
-                    (("bindings", "cli", "tetstream"), ("tests", "bench", "measured"))]
-        for program in programs:
-            if not os.path.isfile(program):
-                sys.exit(f"there is no {program}: is --build right?")
         self.args = args
-        self.tetstream = harness.Tetstream(*programs)
+        self.tetstream, vtk = harness.bench_programs(args.build)
         self.judge = harness.Judge(args.samples)
-        self.vtk = Vtk(args, self.tetstream, self.judge)
+        self.vtk = Vtk(args, vtk, self.judge)
 
     def stream_of(self, path):
         """The mesh as a .tets file, and the words that set the window."""
@@ -165,7 +150,7 @@ class Comparison:
             report = self.tetstream.simplify(*words)
             ours.append(report["measured"])
             if self.vtk.timed and variant:
-                theirs.append(self.vtk.decimate(path, field, ratio, variant))
+                theirs.append(self.vtk.program.decimate(path, field, ratio, variant))
         return report, ours, theirs
 
     def line(self, name, path, field, ratio, mode, stream, window):
@@ -191,7 +176,7 @@ class Comparison:
         if vtk_times:
             result["vtk_seconds"] = statistics.median(t["seconds"] for t in vtk_times)
             result["vtk_cpu_seconds"] = statistics.median(t["cpu_seconds"] for t in vtk_times)
-            result["vtk_peak_bytes"] = max(t["peak_bytes"] for t in vtk_times)
+            result["vtk_peak_bytes"] = max(t["measured"]["peak_bytes"] for t in vtk_times)
             result["to_vtk"]["speed"] = result["vtk_seconds"] / wall
         return result
 
@@ -203,18 +188,14 @@ def with_vtk(ours, theirs):
 
 def cells_of(r):
     """The cells of a line of the table."""
-    vtk_peak = r["vtk_peak_bytes"] / 2 ** 20 if "vtk_peak_bytes" in r else None
+    vtk_peak = harness.megabytes(r["vtk_peak_bytes"]) if "vtk_peak_bytes" in r else None
     ratios = [f"{r['to_vtk'][k]:.2f}" if k in r["to_vtk"] else "-" for k in (*ERRORS, "speed")]
     return [r["mesh"], r["field"], f"{r['ratio']:g}", r["mode"], str(r["asked"]), str(r["got"]),
             *(with_vtk(r[k], r["vtk"].get(k)) for k in ERRORS),
             ("kept" if r["topology_kept"] else "CHANGED") + ("" if r["valid"] else ", NOT VALID"),
             str(r["new_non_manifold"]), f"{r['seconds']:.3f}", f"{r['cpu_seconds']:.3f}",
-            f"{r['cells_per_second'] / 1e6:.3f}", with_vtk(r["peak_bytes"] / 2 ** 20, vtk_peak),
+            f"{r['cells_per_second'] / 1e6:.3f}", with_vtk(harness.megabytes(r["peak_bytes"]), vtk_peak),
             *ratios]
-
-
-def print_line(cells):
-    print("| " + " | ".join(cells) + " |", flush=True)
 
 
 def print_means(results, ratio, mode):
@@ -224,15 +205,14 @@ def print_means(results, ratio, mode):
     for k in (*ERRORS, "speed"):
         values = [r["to_vtk"][k] for r in chosen if k in r["to_vtk"]]
         means.append(f"{statistics.geometric_mean(values):.3f}" if values else "-")
-    print_line(["**geometric mean**", "", f"{ratio:g}", mode] + [""] * 11 + means)
+    harness.print_row(["**geometric mean**", "", f"{ratio:g}", mode] + [""] * 11 + means)
 
 
 def main():
     args = arguments()
     rows = [row.rsplit(":", 1) for row in args.rows] if args.rows else harness.ROWS
     comparison = Comparison(args)
-    print_line(HEAD)
-    print_line(["---"] * len(HEAD))
+    harness.print_head(HEAD)
     results = []
     for name, field in rows:
         path = harness.mesh_path(name)
@@ -240,7 +220,7 @@ def main():
         for ratio in args.ratios:
             for mode in args.modes:
                 results.append(comparison.line(name, path, field, ratio, mode, stream, window))
-                print_line(cells_of(results[-1]))
+                harness.print_row(cells_of(results[-1]))
     for ratio in args.ratios:
         for mode in args.modes:
             print_means(results, ratio, mode)

@@ -77,10 +77,13 @@ def deepest_allowed(target):
     return target - max(0.002 * target, 10)
 
 
-class Tetstream:
-    """The command; runs are measured if `measured`, the program of tests/bench, is given."""
+class Program:
+    """A program; its runs are measured if `measured`, the program of tests/bench, is given."""
 
     def __init__(self, program, measured=None):
+        for path in (program, measured):
+            if path and not os.path.isfile(path):
+                sys.exit(f"there is no program {path}")
         self.program, self.measured = program, measured
         self.scratch = tempfile.TemporaryDirectory(prefix="tetstream-")
 
@@ -98,11 +101,14 @@ class Tetstream:
                               text=True, check=False)
         if done.returncode not in allowed:
             sys.exit(f"{' '.join(command)}\nended with {done.returncode}: {done.stderr}")
-        taken = {}
-        if self.measured:
-            with open(report, encoding="ascii") as file:
-                taken = json.load(file)
-        return done.stdout, taken
+        if not self.measured:
+            return done.stdout, {}
+        with open(report, encoding="ascii") as file:
+            return done.stdout, json.load(file)
+
+
+class Tetstream(Program):
+    """The command."""
 
     def info(self, path):
         return json.loads(self.run("info", path, "--json", "--quiet")[0])
@@ -115,6 +121,36 @@ class Tetstream:
         """The report of a run, with the measurements under "measured"."""
         text, taken = self.run("simplify", source, target, "--quiet", "--report", "json", *words,
                                allowed=(0, TARGET_MISSED), stdin=stdin)
-        report = json.loads(text)
-        report["measured"] = taken
-        return report
+        return {**json.loads(text), "measured": taken}
+
+
+class VtkFilter(Program):
+    """VTK's filter, as vtk_decimate of tests/bench runs it."""
+
+    def decimate(self, mesh, field, ratio, run):
+        """What the program says and what was measured; the result is in self.path("out.vtu")."""
+        text, taken = self.run(mesh, field, ratio, run, self.path("out.vtu"))
+        return {**json.loads(text), "measured": taken}
+
+
+def bench_programs(build):
+    """From the folder of a build: the command, and VTK's filter or None, both measured."""
+    bench = os.path.join(build, "tests", "bench")
+    measured = os.path.join(bench, "measured")
+    filter_path = os.path.join(bench, "vtk_decimate")
+    vtk = VtkFilter(filter_path, measured) if os.path.isfile(filter_path) else None
+    return Tetstream(os.path.join(build, "bindings", "cli", "tetstream"), measured), vtk
+
+
+def print_row(cells):
+    """A line of a Markdown table."""
+    print("| " + " | ".join(map(str, cells)) + " |", flush=True)
+
+
+def print_head(names):
+    print_row(names)
+    print_row(["---"] * len(names))
+
+
+def megabytes(count):
+    return count / 2 ** 20
