@@ -61,7 +61,7 @@ extern "C" {
 
 /* TETSTREAM_VERSION_NUMBER of the library that runs. Since 0.1. */
 TETSTREAM_API int32_t tetstream_version_number(void);
-/* Its version and build in words, such as "0.1.0 (zstd)". Static. Since 0.1. */
+/* Its version and build in words, such as "0.1.0 (zstd, plain kernels)". Static. Since 0.1. */
 TETSTREAM_API const char *tetstream_version_text(void);
 
 /* -------------------------------------------------------------------------------- status */

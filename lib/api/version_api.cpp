@@ -5,10 +5,16 @@
 #define TETSTREAM_WORDS(major, minor, patch) \
   TETSTREAM_WORD(major) "." TETSTREAM_WORD(minor) "." TETSTREAM_WORD(patch)
 #ifdef TETSTREAM_WITH_ZSTD
-#define TETSTREAM_BUILD " (zstd)"
+#define TETSTREAM_ZSTD_WORD "zstd"
 #else
-#define TETSTREAM_BUILD " (no zstd)"
+#define TETSTREAM_ZSTD_WORD "no zstd"
 #endif
+#ifdef TETSTREAM_V3_KERNELS
+#define TETSTREAM_KERNEL_WORD "x86-64-v3 kernels"
+#else
+#define TETSTREAM_KERNEL_WORD "plain kernels"
+#endif
+#define TETSTREAM_BUILD " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_KERNEL_WORD ")"
 
 int32_t tetstream_version_number(void) {
   return TETSTREAM_VERSION_NUMBER;

@@ -189,13 +189,13 @@ class DescriptorSink final : public ByteSink {
 // A temporary beside the final name: the rename is atomic only within one file system.
 class TemporaryNamedSink final : public ByteSink {
  public:
-  explicit TemporaryNamedSink(const std::string& path)
-      : ByteSink(path), temporary_(path + ".XXXXXX") {
-    fd_ = ::mkostemp(temporary_.data(), O_CLOEXEC);
-    if (fd_ < 0) failIo(path, "create");
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    ::fchmod(fd_, 0666 & ~mask);
+  explicit TemporaryNamedSink(const std::string& path) : ByteSink(path) {
+    // note: not mkstemp, which would not give the file the mode that the user's umask allows.
+    for (unsigned attempt = 0; fd_ < 0; ++attempt) {
+      temporary_ = textOf("%s.%lx-%x", path.c_str(), static_cast<long>(::getpid()), attempt);
+      fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (fd_ < 0 && errno != EEXIST) failIo(path, "create");
+    }
   }
   ~TemporaryNamedSink() override {
     if (fd_ >= 0) ::close(fd_);

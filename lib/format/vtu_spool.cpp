@@ -12,8 +12,9 @@ constexpr uint64_t kWordBytes = 8;    // header_type UInt64
 constexpr size_t kCopyBytes = 1 << 15;
 
 BlockCompressor::BlockCompressor() {
+  // note: first, because zlib's state would be lost if this threw after it.
+  out_.reserve(compressBound(kVtuBlockBytes));
   if (deflateInit(&stream_, kLevel) != Z_OK) fail(Status::kNoMemory, "no memory for zlib");
-  out_.reserve(deflateBound(&stream_, kVtuBlockBytes));
 }
 
 BlockCompressor::~BlockCompressor() {

@@ -2,10 +2,9 @@
 #include "run.h"
 
 #include <chrono>
-#include <cstring>
 
 #include "front_meter.h"
-#include "memory_source.h"
+#include "mesh_collector.h"
 #include "ordered_source.h"
 #include "simplifier.h"
 #include "status.h"
@@ -55,42 +54,6 @@ struct Stream {
   Source* source;
 };
 
-// Batches of an indexed mesh that is pushed, put together.
-class Collector {
- public:
-  explicit Collector(const Schema& schema) : schema_(schema), mesh_(schema) { mesh_.clear(0); }
-
-  void put(const BatchView& batch) {
-    const size_t vertex = mesh_.addVertices(batch.vertex_count);
-    copy(mesh_.position(vertex), batch.positions,
-         batch.vertex_count * 3 * sizeOf(schema_.position_type));
-    for (size_t i = 0; i < schema_.fields.size(); ++i)
-      if (batch.vertex_count)
-        copy(mesh_.field(i, vertex), batch.fields[i],
-             batch.vertex_count * schema_.fields[i].bytesPerRow());
-    for (size_t i = 0; batch.locked && i < batch.vertex_count; ++i)
-      if (batch.locked[i]) mesh_.lock(vertex + i);
-    const size_t cell = mesh_.addCells(batch.cell_count);
-    copy(mesh_.cell(cell), batch.cells, batch.cell_count * 4 * sizeof(int64_t));
-    for (size_t i = 0; i < schema_.cell_data.size(); ++i)
-      if (batch.cell_count)
-        copy(mesh_.cellData(i, cell), batch.cell_data[i],
-             batch.cell_count * schema_.cell_data[i].bytesPerRow());
-  }
-  Input input() {
-    Input input;
-    input.indexed = std::make_unique<MemorySource>(schema_, mesh_.view());
-    return input;
-  }
-
- private:
-  static void copy(void* to, const void* from, size_t bytes) {
-    if (bytes) std::memcpy(to, from, bytes);
-  }
-  Schema schema_;
-  Batch mesh_;
-};
-
 }  // namespace
 
 struct SimplifyRun::State {
@@ -111,7 +74,7 @@ struct SimplifyRun::State {
   ProgressFunction progress;
   bool after_ordering = false;
   Simplifier simplifier;
-  std::unique_ptr<Collector> collector;
+  std::unique_ptr<MeshCollector> collector;
   Clock::time_point start;
   Report report;
 
@@ -144,7 +107,7 @@ void SimplifyRun::run(Input& input) {
 void SimplifyRun::begin(const Schema& schema, bool indexed) {
   state_->start = Clock::now();
   if (indexed)
-    state_->collector = std::make_unique<Collector>(schema);
+    state_->collector = std::make_unique<MeshCollector>(schema);
   else
     state_->simplifier.begin(schema);
 }
@@ -158,7 +121,8 @@ void SimplifyRun::put(const BatchView& batch) {
 
 void SimplifyRun::finish() {
   if (state_->collector) {
-    Input input = state_->collector->input();
+    Input input;
+    input.indexed = state_->collector->source();
     state_->simplify(input);
   } else {
     state_->simplifier.finish();

@@ -1,21 +1,9 @@
 /* Converting and inspecting, without simplifying. */
 #include <stdlib.h>
 
-#include "check.h"
-#include "hostile.h"
+#include "rig.h"
 
 static hostile_mesh* mesh;
-
-static tetstream_reader* arrays(void) {
-  static const void* pointers[3];
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  tetstream_reader* reader = NULL;
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
-  return reader;
-}
 
 static tetstream_reader* callbacks(hostile_reader* hostile, int cut, uint32_t flags) {
   tetstream_reader* reader = NULL;
@@ -35,7 +23,7 @@ static void every_format_takes_and_gives_all_cells(void) {
        ++i) {
     if (!can_read || !can_write) continue;
     tetstream_writer* writer = NULL;
-    tetstream_reader* reader = arrays();
+    tetstream_reader* reader = arrays_of(mesh);
     const void* data = NULL;
     size_t size = 0;
     hostile_writer out = {0};
@@ -94,7 +82,7 @@ static void inspection_finds_the_same_however_the_mesh_comes(void) {
   CHECK_EQUAL(hostile.closes, 1);
   check_facts(callbacks(&hostile, HOSTILE_ODD, TETSTREAM_STREAM_INDEXED));
   CHECK_EQUAL(hostile.closes, 1);
-  check_facts(arrays());
+  check_facts(arrays_of(mesh));
 }
 
 static void failures_of_the_reader_are_told_by_the_writer(void) {
@@ -122,7 +110,7 @@ static void values_too_large_for_float32_are_refused_where_nothing_else_is_held(
   tetstream_writer* writer = NULL;
   const double before = mesh->density[7];
   mesh->density[7] = 1e39;
-  tetstream_reader* reader = arrays();
+  tetstream_reader* reader = arrays_of(mesh);
   CHECK_EQUAL(tetstream_writer_create_memory("svb", &writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_UNSUPPORTED);
   CHECK_SAYS(tetstream_writer_message(writer), "vertex 7");
@@ -141,12 +129,12 @@ static void progress_cancels(void) {
   int32_t value = 5;
   tetstream_stream_info info = {0};
   tetstream_writer* writer = NULL;
-  tetstream_reader* reader = arrays();
+  tetstream_reader* reader = arrays_of(mesh);
   info.struct_size = sizeof info;
   CHECK_EQUAL(tetstream_inspect(reader, NULL, cancel, &value, &info), TETSTREAM_CANCELLED);
   CHECK_SAYS(tetstream_reader_message(reader), "5");
   tetstream_reader_destroy(reader);
-  reader = arrays();
+  reader = arrays_of(mesh);
   CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_convert(reader, writer, NULL, cancel, &value), TETSTREAM_CANCELLED);
   tetstream_reader_destroy(reader);
@@ -156,7 +144,7 @@ static void progress_cancels(void) {
 static void null_is_refused_everywhere(void) {
   tetstream_stream_info info = {0};
   tetstream_writer* writer = NULL;
-  tetstream_reader* reader = arrays();
+  tetstream_reader* reader = arrays_of(mesh);
   info.struct_size = sizeof info;
   CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_convert(NULL, writer, NULL, NULL, NULL), TETSTREAM_BAD_ARGUMENT);

@@ -34,8 +34,9 @@ static tetstream_status run(hostile_reader* hostile, hostile_writer* out, char m
 }
 
 static void every_way_of_cutting_gives_a_valid_stream(void) {
-  static const int cuts[] = {HOSTILE_WHOLE, HOSTILE_ITEMS, HOSTILE_ODD, HOSTILE_VERTICES};
-  for (int i = 0; i < 4; ++i)
+  static const int cuts[] = {HOSTILE_WHOLE, HOSTILE_ITEMS, HOSTILE_ODD, HOSTILE_VERTICES,
+                             HOSTILE_LISTS};
+  for (int i = 0; i < 5; ++i)
     for (uint32_t flags = 0; flags <= TETSTREAM_STREAM_INDEXED; ++flags) {
       hostile_reader reader = {0};
       hostile_writer writer = {0};

@@ -1,167 +1,11 @@
-/* Simplifiers: the ways of feeding them, their states, progress, reports, wrong calls. */
+/* Simplifiers: their states, progress, reports, wrong calls. */
 #include <stdlib.h>
 
-#include "check.h"
-#include "hostile.h"
+#include "rig.h"
 
 static hostile_mesh* mesh;
 
-static tetstream_options* options_of(double ratio) {
-  tetstream_options* options = NULL;
-  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, ratio), TETSTREAM_OK);
-  return options;
-}
-
-/* A simplifier with a writer into memory. */
-typedef struct rig {
-  tetstream_options* options;
-  tetstream_writer* writer;
-  tetstream_simplifier* simplifier;
-} rig;
-
-static rig rig_create(const char* format) {
-  rig r = {options_of(0.4), NULL, NULL};
-  CHECK_EQUAL(tetstream_writer_create_memory(format, &r.writer), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_simplifier_create(r.options, r.writer, &r.simplifier), TETSTREAM_OK);
-  return r;
-}
-
-static void rig_destroy(rig r) {
-  tetstream_simplifier_destroy(r.simplifier);
-  tetstream_writer_destroy(r.writer);
-  tetstream_options_destroy(r.options);
-}
-
-/* ---------------------------------------------------------- the same bytes, however it is fed */
-
-static void* bytes;
-static size_t size;
-
-/* The first result is kept, the others must equal it. */
-static void compare(rig r, const char* way) {
-  const void* data = NULL;
-  size_t length = 0;
-  CHECK_EQUAL(tetstream_writer_get_memory(r.writer, &data, &length), TETSTREAM_OK);
-  if (!bytes) {
-    bytes = malloc(length);
-    size = length;
-    memcpy(bytes, data, length);
-  }
-  if (!CHECK(length == size && memcmp(bytes, data, size) == 0))
-    printf("    %s: %lu bytes, wanted %lu\n", way, (unsigned long)length, (unsigned long)size);
-}
-
-static void forget(void) {
-  free(bytes);
-  bytes = NULL;
-}
-
-static void pull(int cut, uint32_t flags, const char* way) {
-  rig r = rig_create("tets");
-  hostile_reader hostile = {0};
-  tetstream_reader* reader = NULL;
-  hostile.mesh = mesh;
-  hostile.cut = cut;
-  hostile.flags = flags;
-  const tetstream_reader_callbacks reads = hostile_reader_callbacks(&hostile);
-  CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
-  CHECK(tetstream_simplifier_run(r.simplifier, reader) >= 0);
-  CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "");
-  compare(r, way);
-  tetstream_reader_destroy(reader);
-  rig_destroy(r);
-}
-
-static void push(int cut, uint32_t flags, const char* way) {
-  rig r = rig_create("tets");
-  hostile_reader hostile = {0};
-  tetstream_stream_info info;
-  hostile.mesh = mesh;
-  hostile.cut = cut;
-  hostile.flags = flags;
-  const tetstream_reader_callbacks feed = hostile_reader_callbacks(&hostile);
-  hostile_mesh_info(mesh, &info);
-  CHECK_EQUAL(feed.open(feed.user, &info), 0);
-  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
-  while (!hostile.ended) {
-    tetstream_batch batch = {0};
-    batch.struct_size = sizeof batch;
-    CHECK_EQUAL(feed.next(feed.user, &batch), 0);
-    if (!CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_OK)) break;
-  }
-  feed.close(feed.user);
-  CHECK(tetstream_simplifier_finish(r.simplifier) >= 0);
-  compare(r, way);
-  rig_destroy(r);
-}
-
-static void pull_from(tetstream_reader* reader, const char* way) {
-  rig r = rig_create("tets");
-  CHECK(tetstream_simplifier_run(r.simplifier, reader) >= 0);
-  CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "");
-  compare(r, way);
-  tetstream_reader_destroy(reader);
-  rig_destroy(r);
-}
-
-static tetstream_reader* arrays(void) {
-  static const void* pointers[3];
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  tetstream_reader* reader = NULL;
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
-  return reader;
-}
-
-/* The stream as the bytes of a file in memory; the writer holds them. */
-static tetstream_reader* file(const char* format, uint32_t flags, tetstream_writer** writer) {
-  tetstream_reader* reader = NULL;
-  const void* data = NULL;
-  size_t length = 0;
-  hostile_reader hostile = {0};
-  hostile.mesh = mesh;
-  hostile.flags = flags;
-  const tetstream_reader_callbacks reads = hostile_reader_callbacks(&hostile);
-  CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_writer_create_memory(format, writer), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_convert(reader, *writer, NULL, NULL, NULL), TETSTREAM_OK);
-  tetstream_reader_destroy(reader);
-  CHECK_EQUAL(tetstream_writer_get_memory(*writer, &data, &length), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_reader_open_memory(data, length, format, &reader), TETSTREAM_OK);
-  return reader;
-}
-
-static void a_stream_gives_the_same_bytes_however_it_is_cut_and_fed(void) {
-  tetstream_writer* writer = NULL;
-  pull(HOSTILE_WHOLE, 0, "pull, one batch");
-  pull(HOSTILE_ITEMS, 0, "pull, item by item");
-  pull(HOSTILE_ODD, 0, "pull, odd sizes");
-  push(HOSTILE_WHOLE, 0, "push, one batch");
-  push(HOSTILE_ITEMS, 0, "push, item by item");
-  push(HOSTILE_ODD, 0, "push, odd sizes");
-  pull_from(file("tets", 0, &writer), "file");
-  tetstream_writer_destroy(writer);
-  forget();
-}
-
-static void an_indexed_mesh_gives_the_same_bytes_however_it_is_cut_and_fed(void) {
-  const uint32_t indexed = TETSTREAM_STREAM_INDEXED;
-  pull_from(arrays(), "arrays");
-  pull(HOSTILE_WHOLE, indexed, "pull, one batch");
-  pull(HOSTILE_ITEMS, indexed, "pull, item by item");
-  pull(HOSTILE_ODD, indexed, "pull, odd sizes");
-  pull(HOSTILE_VERTICES, indexed, "pull, vertices first");
-  push(HOSTILE_WHOLE, indexed, "push, one batch");
-  push(HOSTILE_ITEMS, indexed, "push, item by item");
-  push(HOSTILE_VERTICES, indexed, "push, vertices first");
-  forget();
-}
-
-/* ------------------------------------------------------------------------------------ the report
- */
+/* -------------------------------------------------------------------------------- the report */
 
 static void the_report_agrees_with_what_came_out(void) {
   hostile_writer hostile = {0};
@@ -169,7 +13,7 @@ static void the_report_agrees_with_what_came_out(void) {
   tetstream_options* options = options_of(0.5);
   tetstream_writer* writer = NULL;
   tetstream_simplifier* simplifier = NULL;
-  tetstream_reader* reader = arrays();
+  tetstream_reader* reader = arrays_of(mesh);
   tetstream_report report = {0};
   report.struct_size = sizeof report;
   CHECK_EQUAL(tetstream_writer_create(&writes, &writer), TETSTREAM_OK);
@@ -195,6 +39,33 @@ static void the_report_agrees_with_what_came_out(void) {
   hostile_writer_free(&hostile);
 }
 
+/* A caller who locks everything keeps everything, whichever way it comes. */
+static void locked_vertices_stay(void) {
+  uint8_t* locked = malloc((size_t)mesh->vertex_count);
+  memset(locked, 1, (size_t)mesh->vertex_count);
+  for (uint32_t flags = 0; flags <= TETSTREAM_STREAM_INDEXED; ++flags) {
+    rig r = rig_create("tets");
+    tetstream_stream_info info;
+    tetstream_batch batch;
+    const void* pointers[3];
+    tetstream_report report = {0};
+    report.struct_size = sizeof report;
+    hostile_mesh_info(mesh, &info);
+    hostile_mesh_batch(mesh, &batch, pointers);
+    info.flags = flags;
+    batch.locked = locked;
+    CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_finish(r.simplifier), TETSTREAM_TARGET_MISSED);
+    CHECK_EQUAL(tetstream_simplifier_get_report(r.simplifier, &report), TETSTREAM_OK);
+    CHECK_EQUAL(report.cells_out, mesh->cell_count);
+    CHECK_EQUAL(report.vertices_out, mesh->vertex_count);
+    CHECK_SAYS(report.limited_by, "locked");
+    rig_destroy(r);
+  }
+  free(locked);
+}
+
 static void report_structs_of_other_sizes_are_respected(void) {
   struct {
     tetstream_report report;
@@ -214,8 +85,7 @@ static void report_structs_of_other_sizes_are_respected(void) {
   rig_destroy(r);
 }
 
-/* ---------------------------------------------------------------------------------- the progress
- */
+/* ------------------------------------------------------------------------------ the progress */
 
 typedef struct watcher {
   int calls, cancel_at;
@@ -286,8 +156,7 @@ static void calls_from_inside_a_callback_are_refused(void) {
   CHECK_EQUAL(out.finishes, 1);
 }
 
-/* -------------------------------------------------------------------------------------- the states
- */
+/* -------------------------------------------------------------------------------- the states */
 
 static void wrong_states_are_named(void) {
   rig r = rig_create("tets");
@@ -305,7 +174,7 @@ static void wrong_states_are_named(void) {
   CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "has begun");
   CHECK_EQUAL(tetstream_simplifier_set_progress(r.simplifier, NULL, NULL), TETSTREAM_BAD_STATE);
-  tetstream_reader* reader = arrays();
+  tetstream_reader* reader = arrays_of(mesh);
   CHECK_EQUAL(tetstream_simplifier_run(r.simplifier, reader), TETSTREAM_BAD_STATE);
   CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, NULL), TETSTREAM_BAD_ARGUMENT);
 
@@ -332,7 +201,7 @@ static void wrong_states_are_named(void) {
   CHECK_EQUAL(tetstream_simplifier_run(r.simplifier, reader), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "reader");
   tetstream_reader_destroy(reader);
-  reader = arrays();
+  reader = arrays_of(mesh);
   CHECK(tetstream_simplifier_run(r.simplifier, reader) >= 0);
   tetstream_reader_destroy(reader);
   rig_destroy(r);
@@ -464,9 +333,8 @@ static void null_is_refused_everywhere(void) {
 int main(void) {
   mesh = hostile_mesh_create(5, 5, 7);
   CHECK(mesh != NULL);
-  RUN_CASE(a_stream_gives_the_same_bytes_however_it_is_cut_and_fed);
-  RUN_CASE(an_indexed_mesh_gives_the_same_bytes_however_it_is_cut_and_fed);
   RUN_CASE(the_report_agrees_with_what_came_out);
+  RUN_CASE(locked_vertices_stay);
   RUN_CASE(report_structs_of_other_sizes_are_respected);
   RUN_CASE(progress_cancels_at_any_call);
   RUN_CASE(calls_from_inside_a_callback_are_refused);

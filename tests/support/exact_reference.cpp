@@ -43,7 +43,9 @@ Integer combine(const Integer& a, const Integer& b, bool subtract) {
 
 Integer add(const Integer& a, const Integer& b) {
   const bool same_sign = a.negative == b.negative, a_wins = compareMagnitude(a, b) >= 0;
-  Integer out = same_sign ? combine(a, b, false) : a_wins ? combine(a, b, true) : combine(b, a, true);
+  Integer out = same_sign ? combine(a, b, false)
+                : a_wins  ? combine(a, b, true)
+                          : combine(b, a, true);
   out.negative = !out.isZero() && (a_wins ? a.negative : b.negative);
   return out;
 }
@@ -107,8 +109,7 @@ int referenceOrientation(const double a[3], const double b[3], const double c[3]
   Integer det;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const Integer minor =
-        add(multiply(e[1][j], e[2][k]), minus(multiply(e[1][k], e[2][j])));
+    const Integer minor = add(multiply(e[1][j], e[2][k]), minus(multiply(e[1][k], e[2][j])));
     det = add(det, multiply(e[0][i], minor));
   }
   return det.isZero() ? 0 : det.negative ? -1 : 1;

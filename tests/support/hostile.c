@@ -33,6 +33,18 @@ static void fill_cells(hostile_mesh* mesh, int64_t* rank, int nx, int ny, int nz
   mesh->cell_count = cell;
 }
 
+static void fill_box(hostile_mesh* mesh) {
+  for (int64_t v = 0; v < mesh->vertex_count; ++v) {
+    const double* x = mesh->positions + 3 * v;
+    const float* u = mesh->velocity + 3 * v;
+    const double row[7] = {x[0], x[1], x[2], mesh->density[v], u[0], u[1], u[2]};
+    for (int i = 0; i < 7; ++i) {
+      if (v == 0 || row[i] < mesh->box_min[i]) mesh->box_min[i] = row[i];
+      if (v == 0 || row[i] > mesh->box_max[i]) mesh->box_max[i] = row[i];
+    }
+  }
+}
+
 /* rank[v] becomes 1 once a later cell uses v. */
 static void fill_last_uses(hostile_mesh* mesh, int64_t* rank) {
   for (int64_t v = 0; v < mesh->vertex_count; ++v) rank[v] = 0;
@@ -68,6 +80,7 @@ hostile_mesh* hostile_mesh_create(int nx, int ny, int nz) {
   for (size_t v = 0; v < vertices; ++v) rank[v] = -1;
   fill_cells(mesh, rank, nx, ny, nz);
   fill_last_uses(mesh, rank);
+  fill_box(mesh);
   free(rank);
   return mesh;
 }
@@ -97,6 +110,8 @@ void hostile_mesh_info(const hostile_mesh* mesh, tetstream_stream_info* info) {
   info->vertex_count = mesh->vertex_count;
   info->cell_count = mesh->cell_count;
   info->front_width = info->front_span = info->front_cells = -1;
+  info->box_min = mesh->box_min;
+  info->box_max = mesh->box_max;
 }
 
 void hostile_mesh_batch(const hostile_mesh* mesh, tetstream_batch* batch, const void* columns[3]) {
@@ -146,7 +161,7 @@ static span next_span(hostile_reader* r) {
   if (r->cut == HOSTILE_WHOLE) {
     s.cells = left;
     s.vertices = r->mesh->vertex_count - r->vertex;
-  } else if (r->cut == HOSTILE_ODD) {
+  } else if (r->cut == HOSTILE_ODD || r->cut == HOSTILE_LISTS) {
     s.cells = at_most(odd[r->step++ % 10], left);
     s.vertices = vertices_needed(r, s.cells);
   } else if (r->cut == HOSTILE_VERTICES) {
@@ -240,7 +255,7 @@ static int fill(hostile_reader* r, tetstream_batch* b, span s) {
   b->finalized = finalized;
   if (r->flags & TETSTREAM_STREAM_INDEXED) {
     b->finalized_count = 0;
-  } else if (r->cut == HOSTILE_ODD) {
+  } else if (r->cut == HOSTILE_LISTS) {
     b->finalized_count = list_finalized(r, r->cell, s.cells, finalized);
   } else if (s.finalized) {
     finalized[0] = m->cells[4 * (r->cell - 1) + r->explicit_at];

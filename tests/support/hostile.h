@@ -14,6 +14,7 @@ typedef struct hostile_mesh {
   int64_t* cells;     /* [cell_count][4] */
   uint8_t* last_uses; /* [cell_count] */
   int32_t* region;    /* [cell_count] */
+  double box_min[7], box_max[7];
 } hostile_mesh;
 
 /* A box of nx x ny x nz cubes of six cells each, slab by slab along z; region 1 below the middle
@@ -29,8 +30,10 @@ void hostile_mesh_batch(const hostile_mesh* mesh, tetstream_batch* batch, const 
 /* How a reader cuts the mesh into batches. */
 #define HOSTILE_WHOLE 0    /* one batch */
 #define HOSTILE_ITEMS 1    /* one vertex, one cell or one finalization at a time */
-#define HOSTILE_ODD 2      /* 1, 2, 3, 5, 7, 11, ... cells, finalized explicitly */
+#define HOSTILE_ODD 2      /* 1, 2, 3, 5, 7, 11, ... cells */
 #define HOSTILE_VERTICES 3 /* all vertices first, then ten cells at a time */
+/* As HOSTILE_ODD, but finalized by a list at the end of each batch: other events, later ones. */
+#define HOSTILE_LISTS 4
 
 /* What the n-th batch (from 1) is spoilt with. */
 #define HOSTILE_GARBAGE_ID 1

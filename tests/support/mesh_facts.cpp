@@ -46,7 +46,8 @@ double determinant(const double p[4][3], double* magnitude) {
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     det += e[0][i] * (e[1][j] * e[2][k] - e[1][k] * e[2][j]);
-    *magnitude += std::fabs(e[0][i]) * (std::fabs(e[1][j] * e[2][k]) + std::fabs(e[1][k] * e[2][j]));
+    *magnitude +=
+        std::fabs(e[0][i]) * (std::fabs(e[1][j] * e[2][k]) + std::fabs(e[1][k] * e[2][j]));
   }
   return det;
 }
@@ -166,7 +167,8 @@ void countLooseStars(const Complex& k, MeshFacts& facts) {
       for (size_t b = 0; b < a; ++b) {
         int shared = 0;
         for (int64_t w : k.cells[star[a]])
-          shared += static_cast<int>(std::count(k.cells[star[b]].begin(), k.cells[star[b]].end(), w));
+          shared +=
+              static_cast<int>(std::count(k.cells[star[b]].begin(), k.cells[star[b]].end(), w));
         if (shared >= 3) groups.join(a, b);
       }
     for (size_t a = 1; a < star.size(); ++a)

@@ -14,13 +14,13 @@ struct MeshFacts {
   int64_t cells = 0, euler = 0, components = 0;
   int64_t boundary_faces = 0, boundary_euler = 0, boundary_components = 0;
   // What a manifold with boundary does not have.
-  int64_t crowded_faces = 0;    // of more than two cells
-  int64_t crowded_edges = 0;    // boundary edges that are not between two boundary faces
-  int64_t pinched_vertices = 0; // whose boundary faces are more than one fan, or whose cells are
-                                // not connected by faces
-  int64_t duplicates = 0;       // cells with the same four vertices as another
-  int64_t flat = 0;             // of volume zero, exactly
-  int64_t folded = 0;           // faces whose two cells are on the same side, exactly
+  int64_t crowded_faces = 0;     // of more than two cells
+  int64_t crowded_edges = 0;     // boundary edges that are not between two boundary faces
+  int64_t pinched_vertices = 0;  // whose boundary faces are more than one fan, or whose cells are
+                                 // not connected by faces
+  int64_t duplicates = 0;        // cells with the same four vertices as another
+  int64_t flat = 0;              // of volume zero, exactly
+  int64_t folded = 0;            // faces whose two cells are on the same side, exactly
   int64_t positive = 0, negative = 0;
   double volume = 0;
 

@@ -26,10 +26,10 @@ TestMesh cubes(int nx, int ny, int nz, const Keep& keep, double jitter, ScalarTy
         if (!keep(x, y, z)) continue;
         for (const auto& path : kPaths)
           for (int corner : path)
-            cells.push_back((x + (corner & 1)) +
-                            static_cast<int64_t>(nx + 1) *
-                                ((y + (corner >> 1 & 1)) + static_cast<int64_t>(ny + 1) *
-                                                               (z + (corner >> 2))));
+            cells.push_back(
+                (x + (corner & 1)) +
+                static_cast<int64_t>(nx + 1) *
+                    ((y + (corner >> 1 & 1)) + static_cast<int64_t>(ny + 1) * (z + (corner >> 2))));
       }
   return inStreamOrder(makeMesh(type, positions, cells));
 }
@@ -47,8 +47,8 @@ TestMesh slitGrid(int n) {
     for (int i = 0; i < 3; ++i) positions.push_back(mesh.position(v, i));
   std::vector<int64_t> twin(mesh.vertexCount(), -1);
   const auto inSlit = [&](size_t v) {
-    return mesh.position(v, 0) == middle && mesh.position(v, 1) > 1 && mesh.position(v, 1) < n - 1 &&
-           mesh.position(v, 2) > 1 && mesh.position(v, 2) < n - 1;
+    return mesh.position(v, 0) == middle && mesh.position(v, 1) > 1 &&
+           mesh.position(v, 1) < n - 1 && mesh.position(v, 2) > 1 && mesh.position(v, 2) < n - 1;
   };
   for (size_t v = 0; v < twin.size(); ++v) {
     if (!inSlit(v)) continue;
@@ -75,9 +75,8 @@ TestMesh shellGrid(int n) {
 }
 
 TestMesh ringGrid(int n) {
-  return cubes(n, n, 1, [n](int x, int y, int) {
-    return x == 0 || y == 0 || x == n - 1 || y == n - 1;
-  });
+  return cubes(n, n, 1,
+               [n](int x, int y, int) { return x == 0 || y == 0 || x == n - 1 || y == n - 1; });
 }
 
 TestMesh cubesAtEdge(int n) {

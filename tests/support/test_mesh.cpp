@@ -303,8 +303,7 @@ void Recorder::put(const BatchView& batch) {
   if (finished) wrong("a batch came after the end");
   if (batch.first_vertex != mesh.vertexCount()) wrong("a batch does not follow the one before");
   const size_t first = mesh.vertexCount();
-  mesh.positions.append(batch.positions, batch.vertex_count,
-                        3 * sizeOf(mesh.schema.position_type));
+  mesh.positions.append(batch.positions, batch.vertex_count, 3 * sizeOf(mesh.schema.position_type));
   for (size_t f = 0; batch.vertex_count && f < mesh.fields.size(); ++f)
     mesh.fields[f].append(batch.fields[f], batch.vertex_count, mesh.schema.fields[f].bytesPerRow());
   for (size_t i = 0; i < batch.vertex_count; ++i)

@@ -34,11 +34,12 @@ TEST(SimplifierTarget, IsReachedForAZeroField) {
   expectAllRatiosReached(gridWith(side(), [](double, double, double) { return 0.0; }));
 }
 TEST(SimplifierTarget, IsReachedForAConstantField) {
-  expectAllRatiosReached(
-      gridWith(side(), [](double, double, double) { return 1e9; }, ScalarType::kFloat32));
+  expectAllRatiosReached(gridWith(
+      side(), [](double, double, double) { return 1e9; }, ScalarType::kFloat32));
 }
 TEST(SimplifierTarget, IsReachedForALinearField) {
-  expectAllRatiosReached(gridWith(side(), [](double x, double y, double z) { return x - y + 2 * z; }));
+  expectAllRatiosReached(
+      gridWith(side(), [](double x, double y, double z) { return x - y + 2 * z; }));
 }
 TEST(SimplifierTarget, IsReachedForAHalfFlatField) {
   expectAllRatiosReached(

@@ -128,7 +128,8 @@ TEST(Collapser, RefusesToPinch) {
 
 TEST(Collapser, RoundsPlacesToTheTypeThatIsWritten) {
   TestMesh mesh = fullGrid(4, 4, 4, 0, ScalarType::kFloat32);
-  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [](double x, double, double) { return x; });
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double, double) { return x; });
   WholeWindow<double> w(mesh, {});
   const uint32_t u = slotAt(mesh, 2, 2, 2), v = slotAt(mesh, 3, 2, 2);
   const double z[4] = {0.01, 0.003, 0.0007, 0};

@@ -47,7 +47,8 @@ std::pair<Status, std::string> refusalOf(const std::function<void(Push&)>& damag
   });
 }
 
-void expectRefused(const std::function<void(Push&)>& damage, const std::vector<std::string>& words) {
+void expectRefused(const std::function<void(Push&)>& damage,
+                   const std::vector<std::string>& words) {
   const auto [status, text] = refusalOf(damage);
   EXPECT_EQ(status, Status::kBadData) << text;
   for (const std::string& word : words)

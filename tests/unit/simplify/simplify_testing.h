@@ -16,7 +16,8 @@ struct Result {
   Report report;
 };
 
-inline Result simplified(const TestMesh& mesh, const SimplifyOptions& options, const Cut& cut = {}) {
+inline Result simplified(const TestMesh& mesh, const SimplifyOptions& options,
+                         const Cut& cut = {}) {
   Result result;
   Simplifier simplifier(options, result.out, {});
   MeshStream stream(mesh, cut);
@@ -51,7 +52,8 @@ inline void expectSound(const TestMesh& in, const Result& result) {
 inline void expectReached(const Result& result) {
   const Report& report = result.report;
   EXPECT_LE(report.cells_out, report.target_cells) << report.limited_by;
-  EXPECT_GE(report.cells_out, report.target_cells - std::max<int64_t>(report.target_cells / 500, 10));
+  EXPECT_GE(report.cells_out,
+            report.target_cells - std::max<int64_t>(report.target_cells / 500, 10));
 }
 
 // The status and sentence of what an action throws; kOk and "" if it throws nothing.

@@ -27,7 +27,6 @@ TEST(SimplifierStream, PassesOneCellOn) {
   expectSound(mesh, result);
   EXPECT_EQ(result.out.mesh.cells, mesh.cells);
   EXPECT_EQ(result.out.mesh.positions.bytes, mesh.positions.bytes);
-  EXPECT_FALSE(result.report.limited_by.empty());
 }
 
 TEST(SimplifierStream, PassesAnEmptyStreamOn) {
@@ -38,9 +37,9 @@ TEST(SimplifierStream, PassesAnEmptyStreamOn) {
 }
 
 TEST(SimplifierStream, DropsVerticesWithoutCells) {
-  TestMesh mesh = makeMesh(ScalarType::kFloat64,
-                           {9, 9, 9, 0, 0, 0, 1, 0, 0, 8, 8, 8, 0, 1, 0, 0, 0, 1, 7, 7, 7},
-                           {1, 2, 4, 5});
+  TestMesh mesh =
+      makeMesh(ScalarType::kFloat64,
+               {9, 9, 9, 0, 0, 0, 1, 0, 0, 8, 8, 8, 0, 1, 0, 0, 0, 1, 7, 7, 7}, {1, 2, 4, 5});
   for (bool explicit_final : {false, true}) {
     Cut cut;
     cut.explicit_final = explicit_final;

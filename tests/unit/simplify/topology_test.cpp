@@ -16,7 +16,8 @@ void expectKept(const TestMesh& mesh, double volume_tolerance, const char* name)
   for (double ratio : {1.0, 0.5, 0.1, 0.02})
     for (int64_t window : {64, 512, 0}) {
       if (slowRun() && (window != 64 || ratio == 0.5)) continue;
-      SCOPED_TRACE(textOf("%s, ratio %g, window %lld", name, ratio, static_cast<long long>(window)));
+      SCOPED_TRACE(
+          textOf("%s, ratio %g, window %lld", name, ratio, static_cast<long long>(window)));
       const Result result = simplified(mesh, toRatio(ratio, window));
       expectSound(mesh, result);
       const MeshFacts after = factsOf(result.out.mesh);
@@ -100,7 +101,8 @@ TEST(SimplifierTopology, KeepsCubesThatTouchAtAVertex) {
 // Meshes of the wild mix both orders of the corners: it says nothing, and the order is kept.
 TEST(SimplifierTopology, KeepsMixedOrientation) {
   TestMesh mesh = withWave(fullGrid(4, 4, 6, 0.1));
-  for (size_t c = 0; c < mesh.cellCount(); c += 3) std::swap(mesh.cells[4 * c], mesh.cells[4 * c + 1]);
+  for (size_t c = 0; c < mesh.cellCount(); c += 3)
+    std::swap(mesh.cells[4 * c], mesh.cells[4 * c + 1]);
   expectKept(mesh, 0.2, "mixed");
   const Result result = simplified(mesh, toRatio(0.5));
   const MeshFacts after = factsOf(result.out.mesh);

@@ -63,14 +63,12 @@ TEST(SimplifierValues, OfIntegersArePicked) {
   addPositionField(mesh, {"a", 1, ScalarType::kFloat32}, wild);
   std::set<int64_t> labels, ids;
   const int64_t big = std::numeric_limits<int64_t>::max() - 1000000;  // no float64 holds it
-  mesh.addIntegerField("label", [&](size_t v) {
-    return *labels.insert(big + 3 * static_cast<int64_t>(v)).first;
-  });
+  mesh.addIntegerField(
+      "label", [&](size_t v) { return *labels.insert(big + 3 * static_cast<int64_t>(v)).first; });
   mesh.addField({"small", 2, ScalarType::kInt32},
                 [](size_t v, int i) { return 7.0 * static_cast<double>(v) + i; });
-  mesh.addIntegerCellData("id", [&](size_t c) {
-    return *ids.insert(-big + 5 * static_cast<int64_t>(c)).first;
-  });
+  mesh.addIntegerCellData(
+      "id", [&](size_t c) { return *ids.insert(-big + 5 * static_cast<int64_t>(c)).first; });
   const Result result = simplified(mesh, toRatio(0.1));
   expectReached(result);
   const TestMesh& out = result.out.mesh;
@@ -112,8 +110,7 @@ TEST(SimplifierValues, OfCarriedLinearFieldsStayLinear) {
                    [](double x, double y, double z) { return 3 * x - y + 0.5 * z + 11; });
   for (size_t v = 0; v < mesh.vertexCount(); ++v) {
     uint8_t outside = 0;
-    for (int i = 0; i < 3; ++i)
-      outside |= std::fabs(mesh.position(v, i) - 0.5 * n) > 0.5 * n - 0.2;
+    for (int i = 0; i < 3; ++i) outside |= std::fabs(mesh.position(v, i) - 0.5 * n) > 0.5 * n - 0.2;
     mesh.locked.push_back(outside);
   }
   SimplifyOptions options = toRatio(0.3);
@@ -123,10 +120,10 @@ TEST(SimplifierValues, OfCarriedLinearFieldsStayLinear) {
   EXPECT_GT(result.report.collapses, 20);
   for (size_t v = 0; v < out.vertexCount(); ++v)
     for (int i = 0; i < 2; ++i)
-      EXPECT_NEAR(out.field(1, v, i),
-                  (i + 1) * (3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) +
-                             11),
-                  1e-11);
+      EXPECT_NEAR(
+          out.field(1, v, i),
+          (i + 1) * (3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) + 11),
+          1e-11);
 }
 
 // A linear field lies in the hyperplane of every cell: the metric keeps it, to rounding.

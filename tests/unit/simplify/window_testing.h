@@ -39,7 +39,8 @@ struct WholeWindow {
     std::vector<double> positions;
     std::vector<int64_t> cells;
     for (uint32_t v = 0; v < core.window.mesh.vertexEnd(); ++v)
-      for (int i = 0; i < 3; ++i) positions.push_back(static_cast<double>(core.window.values(v)[i]));
+      for (int i = 0; i < 3; ++i)
+        positions.push_back(static_cast<double>(core.window.values(v)[i]));
     for (uint32_t c = 0; c < core.window.mesh.cellEnd(); ++c)
       if (core.window.mesh.isLive(c))
         for (int j = 0; j < 4; ++j) cells.push_back(core.window.mesh.corners(c)[j]);

@@ -1,0 +1,91 @@
+#!/usr/bin/env bash
+# bash tests/all.sh: sets up and runs all tests, in stages; `bash tests/all.sh STAGE...` runs only
+# those named. Every stage runs, also after one that failed; the last one is the main layer.
+#   build      release, with compiler warnings as errors, into build/release
+#   format     clang-format finds nothing to change
+#   lint       cppcheck finds nothing to say about the library and the command
+#   sanitize   another build, with AddressSanitizer and UndefinedBehaviorSanitizer, and its tests
+#   memcheck   unit and API tests of the release under Valgrind
+#   tests      the quick layer of the release
+# Not among them without being named:
+#   full       the long layer: real meshes at every ratio
+# Tests on real meshes need TETSTREAM_MESHES and TETSTREAM_JUDGE (tests/CMakeLists.txt); those that
+# lack something say "not run".
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+jobs=$(nproc)
+stages=("${@:-build}")
+(($#)) || stages=(build format lint sanitize memcheck tests)
+failed=()
+
+# The Python of the distribution has the modules that some tests need; another may come first.
+configure() {
+  local python=()
+  [[ -x /usr/bin/python3 ]] && python=(-DPython3_EXECUTABLE=/usr/bin/python3)
+  cmake -S . -B "$1" -G Ninja -DTETSTREAM_WARNINGS_AS_ERRORS=ON "${python[@]}" "${@:2}" >/dev/null
+}
+
+# ctest tells what it runs; what failed shows its output.
+check() {
+  ctest --test-dir "$1" -j "$jobs" --output-on-failure --no-tests=error "${@:2}"
+}
+
+sources() {
+  find include lib bindings tests \( -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.inl' \)
+}
+
+stage_build() {
+  configure build/release -DCMAKE_BUILD_TYPE=Release && cmake --build build/release
+}
+
+stage_format() {
+  sources | xargs clang-format --dry-run --Werror
+}
+
+stage_lint() {
+  cppcheck --quiet --error-exitcode=1 -j "$jobs" --std=c++20 --language=c++ --inline-suppr \
+    --enable=warning,performance,portability --suppress=missingIncludeSystem \
+    --suppress=unmatchedSuppression -I include $(printf -- '-I %s ' lib/*/) \
+    --cppcheck-build-dir=build/lint lib bindings/cli
+}
+
+stage_sanitize() {
+  configure build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTETSTREAM_SANITIZE=ON &&
+    cmake --build build/sanitize && check build/sanitize
+}
+
+# The same programs as those of the release; only how ctest starts them is another.
+stage_memcheck() {
+  configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi)\.'
+  local result=$?
+  configure build/release -DTETSTREAM_MEMCHECK=OFF && return $result
+}
+
+stage_tests() {
+  check build/release
+}
+
+stage_full() {
+  configure build/release -DTETSTREAM_FULL_TESTS=ON && check build/release
+  local result=$?
+  configure build/release -DTETSTREAM_FULL_TESTS=OFF && return $result
+}
+
+echo "== packages"
+bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev \
+  libcli11-dev libgtest-dev clang-format cppcheck valgrind mandoc python3 || exit 1
+mkdir -p build/lint
+for stage in "${stages[@]}"; do
+  echo "== $stage"
+  begin=$SECONDS
+  if "stage_$stage"; then
+    [[ $stage == tests ]] || echo "-- $stage: passed in $((SECONDS - begin)) s"
+  else
+    failed+=("$stage")
+    echo "-- $stage: FAILED"
+  fi
+done
+((${#failed[@]})) || exit 0
+echo "failed: ${failed[*]}"
+exit 1

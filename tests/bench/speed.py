@@ -1,0 +1,90 @@
+#!/usr/bin/python3
+"""Speed of `tetstream simplify`, .tets file to .tets file, on generated meshes of several sizes.
+
+With VTK's filter (built when VTK was found), its time for the same mesh and ratio beside ours:
+`Update()` alone of the run helped by scaling (see vtk_decimate.cpp), our whole process; both in
+turn, medians of --rounds. VTK is left out above --vtk-cells, since it holds the mesh in memory.
+"""
+import argparse
+import os
+import statistics
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+import harness  # noqa: E402
+
+HEAD = ("mesh", "cells", "got / asked", "s", "CPU s", "M cells/s", "peak MB", "VTK got / asked",
+        "VTK s", "VTK CPU s", "VTK peak MB", "speed / VTK")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build/release", help="the folder of the build")
+    parser.add_argument("--kinds", nargs="+", default=["fluid", "ball"], metavar="KIND")
+    parser.add_argument("--cells", nargs="+", type=float, default=[1e5, 1e6, 1e7], metavar="N")
+    parser.add_argument("--mesh", nargs="+", default=[], metavar="MESH:FIELD", help="real meshes, "
+                        "too: a name in TETSTREAM_MESHES or a path")
+    parser.add_argument("--ratio", type=float, default=0.1)
+    parser.add_argument("--rounds", type=int, default=3, help="runs for the time; 5 is fair")
+    parser.add_argument("--vtk-cells", type=float, default=4e6)
+    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="further words for simplify")
+    return parser.parse_args()
+
+
+class Speed:
+    def __init__(self, args):
+        self.args = args
+        self.tetstream, self.vtk = harness.bench_programs(args.build)
+
+    def line(self, name, stream, mesh, field):
+        """`mesh` is the .vtu of `stream`, or None: VTK is left out."""
+        words = [stream, self.tetstream.path("out.tets"), "--ratio", self.args.ratio, "--field",
+                 field, *self.args.options]
+        ours, theirs = [], []
+        for _ in range(self.args.rounds):
+            report = self.tetstream.simplify(*words)
+            ours.append(report["measured"])
+            if mesh:
+                theirs.append(self.vtk.decimate(mesh, field, self.args.ratio, "scaled"))
+        wall = statistics.median(t["wall"] for t in ours)
+        line = [name, report["cells_in"], f"{report['cells_out'] / report['target_cells']:.4f}",
+                f"{wall:.3f}", f"{statistics.median(t['user'] + t['system'] for t in ours):.3f}",
+                f"{report['cells_in'] / wall / 1e6:.3f}",
+                f"{harness.megabytes(max(t['peak_bytes'] for t in ours)):.1f}"]
+        if theirs:
+            vtk_wall = statistics.median(t["seconds"] for t in theirs)
+            line += [f"{theirs[0]['cells_out'] / report['target_cells']:.4f}", f"{vtk_wall:.3f}",
+                     f"{statistics.median(t['cpu_seconds'] for t in theirs):.3f}",
+                     f"{harness.megabytes(max(t['measured']['peak_bytes'] for t in theirs)):.1f}",
+                     f"{vtk_wall / wall:.2f}"]
+        else:
+            line += ["-"] * 5
+        harness.print_row(line)
+
+    def generated(self, kind, cells):
+        stream, mesh = self.tetstream.path("in.tets"), None
+        self.tetstream.run("generate", kind, "--cells", int(cells), stream, "--quiet")
+        if self.vtk and cells <= self.args.vtk_cells:
+            mesh = self.tetstream.convert(stream, self.tetstream.path("in.vtu"))
+        self.line(kind, stream, mesh, "density")
+
+    def real(self, name, field):
+        mesh = harness.mesh_path(name)
+        stream = self.tetstream.convert(mesh, self.tetstream.path("in.tets"))
+        self.line(f"{name} {field}", stream, mesh if self.vtk else None, field)
+
+
+def main():
+    args = arguments()
+    speed = Speed(args)
+    harness.print_head(HEAD)
+    for row in args.mesh:
+        speed.real(*row.rsplit(":", 1))
+    for kind in args.kinds:
+        for cells in args.cells:
+            speed.generated(kind, cells)
+
+
+if __name__ == "__main__":
+    main()

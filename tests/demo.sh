@@ -1,0 +1,18 @@
+#!/usr/bin/env bash
+# bash tests/demo.sh: from a bare Debian 12 to a simplified mesh. Installs what is needed (as root),
+# builds the release into build/demo, takes the example mesh to a tenth of its cells and prints
+# the report. The result is build/bracket-10.vtu.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+echo "== packages"
+bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev libcli11-dev
+
+echo "== build"
+cmake -S . -B build/demo -G Ninja -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_BUILD_TESTS=OFF
+cmake --build build/demo
+
+echo "== tetstream simplify tests/data/bracket/bracket.vtu build/bracket-10.vtu --ratio 0.1" \
+  "--field von_mises"
+build/demo/bindings/cli/tetstream simplify tests/data/bracket/bracket.vtu build/bracket-10.vtu \
+  --ratio 0.1 --field von_mises

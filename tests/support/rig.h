@@ -1,0 +1,48 @@
+/* tests/support: a simplifier with a writer into memory, for programs in C. */
+#ifndef TETSTREAM_TEST_RIG_H
+#define TETSTREAM_TEST_RIG_H
+
+#include "check.h"
+#include "hostile.h"
+
+typedef struct rig {
+  tetstream_options* options;
+  tetstream_writer* writer;
+  tetstream_simplifier* simplifier;
+} rig;
+
+static inline tetstream_options* options_of(double ratio) {
+  tetstream_options* options = NULL;
+  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, ratio), TETSTREAM_OK);
+  return options;
+}
+
+static inline rig rig_create(const char* format) {
+  rig r = {options_of(0.4), NULL, NULL};
+  /* So that a small mesh fills the window several times. */
+  CHECK_EQUAL(tetstream_options_set_int64(r.options, TETSTREAM_OPTION_WINDOW, 400), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory(format, &r.writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_create(r.options, r.writer, &r.simplifier), TETSTREAM_OK);
+  return r;
+}
+
+static inline void rig_destroy(rig r) {
+  tetstream_simplifier_destroy(r.simplifier);
+  tetstream_writer_destroy(r.writer);
+  tetstream_options_destroy(r.options);
+}
+
+/* A reader of the mesh's own arrays. One at a time: the pointers to its columns are shared. */
+static inline tetstream_reader* arrays_of(const hostile_mesh* mesh) {
+  static const void* pointers[3];
+  tetstream_stream_info info;
+  tetstream_batch batch;
+  tetstream_reader* reader = NULL;
+  hostile_mesh_info(mesh, &info);
+  hostile_mesh_batch(mesh, &batch, pointers);
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  return reader;
+}
+
+#endif

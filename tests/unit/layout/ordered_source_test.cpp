@@ -1,0 +1,341 @@
+// An indexed mesh as a stream: the same mesh, in a coherent order, with its front told exactly.
+#include "ordered_source.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "front_meter.h"
+#include "memory_source.h"
+#include "shapes.h"
+#include "status.h"
+
+namespace tetstream::test {
+namespace {
+
+// A source that is cheap in sequence only, so that values are spooled. Counts how often it is
+// asked.
+class SequentialSource final : public IndexedSource {
+ public:
+  explicit SequentialSource(IndexedSource& in) : in_(in) {}
+  const Schema& schema() const override { return in_.schema(); }
+  const uint8_t* locked() const override { return in_.locked(); }
+  void readPositions(uint64_t first, size_t count, void* out) override {
+    ++reads;
+    in_.readPositions(first, count, out);
+  }
+  void readField(size_t column, uint64_t first, size_t count, void* out) override {
+    ++reads;
+    in_.readField(column, first, count, out);
+  }
+  void readCells(uint64_t first, size_t count, int64_t* out) override {
+    ++reads;
+    in_.readCells(first, count, out);
+  }
+  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
+    ++reads;
+    in_.readCellData(column, first, count, out);
+  }
+  size_t reads = 0;
+
+ private:
+  IndexedSource& in_;
+};
+
+// Every type of column, and ids to know vertices and cells again.
+TestMesh withColumns(TestMesh mesh) {
+  mesh.addIntegerField("vertex", [](size_t v) { return static_cast<int64_t>(v) + 100; });
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat32},
+                   [](double x, double y, double z) { return x * y - z; });
+  addPositionField(mesh, {"t", 9, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return x + 0.1 * y * z; });
+  mesh.addIntegerCellData("cell", [](size_t c) { return static_cast<int64_t>(c) - 50; });
+  mesh.addCellData({"d", 2, ScalarType::kFloat32},
+                   [](size_t c, int i) { return static_cast<double>(c % 91) + i; });
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(v % 11 == 3);
+  return mesh;
+}
+
+void expectSameRow(const Rows& a, size_t i, const Rows& b, size_t j, size_t bytes) {
+  ASSERT_LE((i + 1) * bytes, a.bytes.size());
+  ASSERT_LE((j + 1) * bytes, b.bytes.size());
+  EXPECT_EQ(0, std::memcmp(a.bytes.data() + i * bytes, b.bytes.data() + j * bytes, bytes));
+}
+
+// The stream's vertices and cells are those of the mesh, found by their ids, bit by bit.
+void expectSameMesh(const TestMesh& mesh, const TestMesh& out) {
+  ASSERT_EQ(out.cellCount(), mesh.cellCount());
+  std::map<int64_t, size_t> vertices, cells;
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) vertices[mesh.fieldInteger(0, v)] = v;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) cells[mesh.cellInteger(0, c)] = c;
+  std::vector<size_t> old_vertex;
+  for (size_t v = 0; v < out.vertexCount(); ++v) {
+    ASSERT_TRUE(vertices.count(out.fieldInteger(0, v)));
+    old_vertex.push_back(vertices[out.fieldInteger(0, v)]);
+    vertices.erase(out.fieldInteger(0, v));  // each once
+    expectSameRow(mesh.positions, old_vertex[v], out.positions, v,
+                  3 * sizeOf(mesh.schema.position_type));
+    for (size_t f = 0; f < mesh.fields.size(); ++f)
+      expectSameRow(mesh.fields[f], old_vertex[v], out.fields[f], v,
+                    mesh.schema.fields[f].bytesPerRow());
+    EXPECT_EQ(out.locked[v] != 0, !mesh.locked.empty() && mesh.locked[old_vertex[v]] != 0);
+  }
+  for (size_t c = 0; c < out.cellCount(); ++c) {
+    ASSERT_TRUE(cells.count(out.cellInteger(0, c)));
+    const size_t old = cells[out.cellInteger(0, c)];
+    cells.erase(out.cellInteger(0, c));
+    for (size_t j = 0; j < 4; ++j)  // the corners' order, too
+      EXPECT_EQ(old_vertex[static_cast<size_t>(out.cells[4 * c + j])],
+                static_cast<size_t>(mesh.cells[4 * old + j]));
+    for (size_t k = 0; k < mesh.cell_data.size(); ++k)
+      expectSameRow(mesh.cell_data[k], old, out.cell_data[k], c,
+                    mesh.schema.cell_data[k].bytesPerRow());
+  }
+}
+
+// The schema's counts, front and box are those of what was emitted.
+void expectTruthful(const Schema& schema, const TestMesh& out, const FrontStatistics& front) {
+  EXPECT_EQ(schema.vertex_count, static_cast<int64_t>(out.vertexCount()));
+  EXPECT_EQ(schema.cell_count, static_cast<int64_t>(out.cellCount()));
+  EXPECT_EQ(schema.front_width, front.width);
+  EXPECT_EQ(schema.front_span, front.span);
+  EXPECT_EQ(schema.front_cells, front.cells);
+  if (out.vertexCount() == 0) {
+    EXPECT_FALSE(schema.hasBox());
+    return;
+  }
+  ASSERT_TRUE(schema.hasBox());
+  for (size_t i = 0; i < 3; ++i) {
+    double low = out.position(0, static_cast<int>(i)), high = low;
+    for (size_t v = 0; v < out.vertexCount(); ++v) {
+      low = std::min(low, out.position(v, static_cast<int>(i)));
+      high = std::max(high, out.position(v, static_cast<int>(i)));
+    }
+    EXPECT_EQ(schema.box_min[i], low) << "axis " << i;
+    EXPECT_EQ(schema.box_max[i], high) << "axis " << i;
+  }
+  size_t at = 3;
+  for (size_t f = 0; f < out.fields.size(); ++f)
+    for (int k = 0; k < out.schema.fields[f].components; ++k, ++at) {
+      double low = out.field(f, 0, k), high = low;
+      for (size_t v = 0; v < out.vertexCount(); ++v) {
+        low = std::min(low, out.field(f, v, k));
+        high = std::max(high, out.field(f, v, k));
+      }
+      EXPECT_EQ(schema.box_min[at], low) << "field " << f;
+      EXPECT_EQ(schema.box_max[at], high) << "field " << f;
+    }
+}
+
+struct Ordered {
+  Recorder out;
+  Schema schema;
+  FrontStatistics front;
+  char axis = 0;
+  int64_t unused = 0;
+};
+
+Ordered ordered(TestMesh mesh, const std::string& axis, bool spooled) {
+  Ordered result;
+  MemorySource memory(mesh.schema, mesh.view());
+  SequentialSource sequential(memory);
+  OrderOptions options;
+  options.axis = axis;
+  OrderedSource source(spooled ? static_cast<IndexedSource&>(sequential) : memory, options);
+  const size_t reads = sequential.reads;
+  result.schema = source.schema();
+  result.axis = source.axis();
+  result.unused = source.unusedVertices();
+  Account account;
+  FrontMeter meter(account);
+  result.out.begin(source.schema());
+  BatchView batch;
+  while (source.next(batch)) {
+    meter.put(batch);
+    result.out.put(batch);
+  }
+  EXPECT_FALSE(source.next(batch));  // and again
+  EXPECT_EQ(sequential.reads, reads) << "values were not spooled";
+  result.out.finish();
+  result.front = meter.statistics();
+  return result;
+}
+
+void expectOrdered(const TestMesh& mesh) {
+  for (bool spooled : {false, true})
+    for (const char* axis : {"auto", "x", "y", "z"}) {
+      SCOPED_TRACE(std::string(axis) + (spooled ? ", spooled" : ""));
+      const Ordered result = ordered(mesh, axis, spooled);
+      EXPECT_EQ(result.out.problem, "");
+      EXPECT_TRUE(result.out.exact_finalization);
+      EXPECT_TRUE(result.out.compact);
+      expectSameMesh(mesh, result.out.mesh);
+      expectTruthful(result.schema, result.out.mesh, result.front);
+    }
+}
+
+TEST(OrderedSource, GivesTheSameMesh) {
+  expectOrdered(withColumns(shuffled(fullGrid(3, 4, 5, 0.1), 3)));
+  expectOrdered(withColumns(shuffled(fullGrid(3, 3, 3, 0, ScalarType::kFloat32), 4)));
+  expectOrdered(withColumns(shuffled(ringGrid(5), 5)));
+  expectOrdered(withColumns(oneCell()));
+}
+
+TEST(OrderedSource, GivesTheSameMeshWithoutAnyColumns) {
+  TestMesh mesh = shuffled(fullGrid(3, 3, 3), 8);
+  for (bool spooled : {false, true}) {
+    const Ordered result = ordered(mesh, "auto", spooled);
+    EXPECT_EQ(result.out.problem, "");
+    EXPECT_EQ(result.out.mesh.cellCount(), mesh.cellCount());
+    EXPECT_EQ(result.out.mesh.vertexCount(), mesh.vertexCount());
+  }
+}
+
+// Larger than what is read and spooled at once.
+TEST(OrderedSource, GivesTheSameLargeMesh) {
+  if (slowRun()) return;
+  const TestMesh mesh = withColumns(shuffled(fullGrid(26, 26, 26, 0.1), 6));
+  ASSERT_GT(mesh.vertexCount(), 16384u);
+  const Ordered result = ordered(mesh, "auto", true);
+  EXPECT_EQ(result.out.problem, "");
+  EXPECT_TRUE(result.out.exact_finalization);
+  EXPECT_GT(result.out.batches, 10u);
+  expectSameMesh(mesh, result.out.mesh);
+  expectTruthful(result.schema, result.out.mesh, result.front);
+}
+
+TEST(OrderedSource, SweepsAlongTheNarrowestFront) {
+  EXPECT_EQ(ordered(shuffled(fullGrid(12, 3, 3), 1), "auto", false).axis, 'x');
+  EXPECT_EQ(ordered(shuffled(fullGrid(3, 12, 3), 1), "auto", false).axis, 'y');
+  EXPECT_EQ(ordered(shuffled(fullGrid(3, 3, 12), 1), "auto", false).axis, 'z');
+  const TestMesh mesh = shuffled(fullGrid(3, 4, 8), 2);
+  const int64_t best = ordered(mesh, "auto", false).front.cells;
+  for (const char* axis : {"x", "y", "z"}) {
+    const Ordered result = ordered(mesh, axis, false);
+    EXPECT_EQ(result.axis, axis[0]);
+    EXPECT_GE(result.front.cells, best);
+  }
+  // A layer of 3 x 4 x 6 = 72 cells, and the next one half begun.
+  EXPECT_LT(best, 3 * 72);
+}
+
+TEST(OrderedSource, ComesAlongTheAxis) {
+  const Ordered result = ordered(shuffled(fullGrid(4, 4, 4), 3), "y", false);
+  double highest = -1;
+  for (size_t c = 0; c < result.out.mesh.cellCount(); ++c) {
+    double last = 0;  // a cell comes with its last vertex
+    for (size_t j = 0; j < 4; ++j)
+      last = std::max(
+          last, result.out.mesh.position(static_cast<size_t>(result.out.mesh.cells[4 * c + j]), 1));
+    EXPECT_GE(last, highest);
+    highest = last;
+  }
+}
+
+// Far from the origin and in any unit the order is the same: places count relative to the box.
+TEST(OrderedSource, DoesNotDependOnUnitOrPlace) {
+  const TestMesh mesh = shuffled(fullGrid(3, 3, 6), 3);
+  const auto cells = ordered(mesh, "z", false).out.mesh.cells;
+  for (double unit : {0x1p-300, 0x1p300, 0x1p-20})
+    for (double offset : {0.0, 1e6}) {
+      std::vector<double> positions;
+      for (size_t v = 0; v < mesh.vertexCount(); ++v)
+        for (int i = 0; i < 3; ++i) positions.push_back(unit * (mesh.position(v, i) + offset));
+      EXPECT_TRUE(ordered(makeMesh(ScalarType::kFloat64, positions, mesh.cells), "z", false)
+                      .out.mesh.cells == cells);
+    }
+}
+
+// Points that no cell uses are left out: of the stream, of its counts and of its box, whatever
+// values they have.
+TEST(OrderedSource, LeavesUnusedPointsOut) {
+  TestMesh mesh = makeMesh(ScalarType::kFloat64,
+                           {-50, 0, 0, 0, 0, 0, 1, 0, 0, 0, 90, 0, 0, 1, 0, 0, 0, 1}, {1, 2, 4, 5});
+  mesh = withColumns(mesh);
+  for (bool spooled : {false, true}) {
+    const Ordered result = ordered(mesh, "auto", spooled);
+    EXPECT_EQ(result.unused, 2);
+    EXPECT_EQ(result.out.mesh.vertexCount(), 4u);
+    expectSameMesh(mesh, result.out.mesh);
+    expectTruthful(result.schema, result.out.mesh, result.front);
+  }
+}
+
+TEST(OrderedSource, TakesMeshesWithoutCellsOrPoints) {
+  const TestMesh none = makeMesh(ScalarType::kFloat32, {}, {});
+  const TestMesh points = makeMesh(ScalarType::kFloat32, {0, 0, 0, 1, 2, 3}, {});
+  for (bool spooled : {false, true}) {
+    EXPECT_EQ(ordered(none, "auto", spooled).out.batches, 0u);
+    const Ordered result = ordered(points, "auto", spooled);
+    EXPECT_EQ(result.unused, 2);
+    EXPECT_EQ(result.schema.vertex_count, 0);
+  }
+}
+
+std::string refusalOf(const std::function<void(TestMesh&)>& damage, bool spooled, Status wanted,
+                      const std::string& axis = "auto") {
+  TestMesh mesh = withColumns(fullGrid(2, 2, 2));
+  damage(mesh);
+  try {
+    ordered(mesh, axis, spooled);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), wanted);
+    return error.text();
+  }
+  return "";
+}
+
+TEST(OrderedSource, NamesBadIds) {
+  for (bool spooled : {false, true})
+    for (int64_t bad : {int64_t{27}, int64_t{-1}, int64_t{1} << 32, int64_t{1} << 62}) {
+      const std::string text =
+          refusalOf([bad](TestMesh& m) { m.cells[4 * 5 + 2] = bad; }, spooled, Status::kBadData);
+      EXPECT_NE(text.find("cell 5"), std::string::npos) << text;
+      EXPECT_NE(text.find(std::to_string(bad)), std::string::npos) << text;
+    }
+}
+
+TEST(OrderedSource, NamesValuesThatAreNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (bool spooled : {false, true}) {
+    EXPECT_NE(refusalOf([nan](TestMesh& m) { m.setField(2, 7, nan, 8); }, spooled, Status::kBadData)
+                  .find("point 7: its t"),
+              std::string::npos);
+    EXPECT_NE(refusalOf(
+                  [nan](TestMesh& m) {
+                    std::memcpy(m.positions.bytes.data() + (3 * 9 + 1) * 8, &nan, 8);
+                  },
+                  spooled, Status::kBadData)
+                  .find("point 9: its position"),
+              std::string::npos);
+  }
+}
+
+TEST(OrderedSource, RefusesAxesThatThereAreNot) {
+  EXPECT_NE(refusalOf([](TestMesh&) {}, false, Status::kBadArgument, "w").find("\"w\""),
+            std::string::npos);
+  EXPECT_NE(refusalOf([](TestMesh&) {}, false, Status::kBadArgument, "xy"), "");
+}
+
+TEST(OrderedSource, TellsHowFarItIsAndCanBeStopped) {
+  TestMesh mesh = withColumns(fullGrid(2, 2, 2));
+  MemorySource memory(mesh.schema, mesh.view());
+  OrderOptions options;
+  std::vector<double> told;
+  options.tell = [&](double fraction) { told.push_back(fraction); };
+  OrderedSource whole(memory, options);
+  ASSERT_GT(told.size(), 3u);
+  for (size_t i = 1; i < told.size(); ++i) EXPECT_GE(told[i], told[i - 1]);
+  EXPECT_LE(told.back(), 1);
+  for (size_t stop = 0; stop < told.size(); ++stop) {
+    size_t calls = 0;
+    options.tell = [&](double) {
+      if (calls++ == stop) fail(Status::kCancelled, "enough");
+    };
+    EXPECT_THROW(OrderedSource(memory, options), Error);
+  }
+}
+
+}  // namespace
+}  // namespace tetstream::test
