@@ -33,10 +33,12 @@ static double valueAt(const void* rows, ScalarType type, size_t index) {
   return 0;
 }
 
-// Box of `components` values per row, starting at box component `first`.
+// Box of `components` values per row, starting at box component `first`, of points that are used.
 static void growBox(Schema& schema, size_t first, const void* rows, ScalarType type,
-                    size_t components, size_t count, uint64_t row, const char* what) {
+                    size_t components, const uint8_t* used, size_t count, uint64_t row,
+                    const char* what) {
   for (size_t i = 0; i < count * components; ++i) {
+    if (!used[i / components]) continue;
     const double value = valueAt(rows, type, i);
     if (!std::isfinite(value))
       fail(Status::kBadData, "point %llu: its %s is not finite",
@@ -53,6 +55,7 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
       options_(options),
       schema_(source.schema()),
       mesh_(account_),
+      used_(account_),
       order_(account_),
       batch_(schema_) {
   const int axis = axisOf(options.axis);
@@ -79,16 +82,19 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
   orderBySweep(
       mesh_, axis, account_, [&] { tell(fraction += 0.05); }, order_);
   mesh_.places.resize(0);
+  used_.resize(0);
   unused_ = schema_.vertex_count - order_.used_vertices;
   schema_.vertex_count = order_.used_vertices;
   schema_.front_cells = order_.front_cells;
   schema_.front_width = order_.front_width;
   schema_.front_span = order_.front_span;
-  if (mesh_.vertices == 0) schema_.box_min.clear();
+  if (order_.used_vertices == 0) schema_.box_min.clear();
 }
 
 void OrderedSource::readCells() {
   mesh_.corners.resize(4 * size_t{mesh_.cells});
+  used_.resize(mesh_.vertices);
+  std::fill_n(used_.data(), mesh_.vertices, uint8_t{0});
   std::vector<int64_t> rows(4 * std::min<size_t>(kRowsAtOnce, mesh_.cells));
   for (uint32_t at = 0; at < mesh_.cells;) {
     const size_t count = std::min<size_t>(kRowsAtOnce, mesh_.cells - at);
@@ -98,6 +104,7 @@ void OrderedSource::readCells() {
         fail(Status::kBadData, "cell %zu: point %lld is not one of the mesh's %lld", at + i / 4,
              static_cast<long long>(rows[i]), static_cast<long long>(schema_.vertex_count));
       mesh_.corners[4 * size_t{at} + i] = static_cast<uint32_t>(rows[i]);
+      used_[static_cast<size_t>(rows[i])] = 1;
     }
     at += static_cast<uint32_t>(count);
   }
@@ -112,7 +119,8 @@ void OrderedSource::readPoints() {
       const size_t count = std::min<size_t>(kRowsAtOnce, mesh_.vertices - at);
       source_.readPositions(at, count, rows.data());
       if (pass == 0)
-        growBox(schema_, 0, rows.data(), schema_.position_type, 3, count, at, "position");
+        growBox(schema_, 0, rows.data(), schema_.position_type, 3, &used_[at], count, at,
+                "position");
       for (size_t i = 0; pass == 1 && i < 3 * count; ++i) {
         const size_t axis = i % 3;
         const double low = schema_.box_min[axis], size = schema_.box_max[axis] - low;
@@ -146,8 +154,8 @@ void OrderedSource::readValues() {
     for (size_t f = 0; f < schema_.fields.size(); ++f) {
       const Column& c = schema_.fields[f];
       source_.readField(f, at, count, column.data());
-      growBox(schema_, in_box, column.data(), c.type, static_cast<size_t>(c.components), count, at,
-              c.name.c_str());
+      growBox(schema_, in_box, column.data(), c.type, static_cast<size_t>(c.components), &used_[at],
+              count, at, c.name.c_str());
       in_box += static_cast<size_t>(c.components);
       scatter(c.bytesPerRow());
     }

@@ -42,6 +42,7 @@ class OrderedSource : public Source {
   Schema schema_;
   Account account_;
   Connectivity mesh_;
+  Array<uint8_t> used_;  // per point, while the mesh is read: whether a cell uses it
   SweepOrder order_;
   std::unique_ptr<RowSpool> vertex_rows_, cell_rows_;  // empty with random access
   Batch batch_;

@@ -83,21 +83,22 @@ void addProduct(const Expansion& a, const Expansion& b, double sign, Expansion& 
     }
 }
 
-// Powers of two change no sign; with the largest coordinate near 1 no product over- or underflows.
-double scaleFor(const double* const p[4]) {
+// Powers of two along an axis change no sign; with the largest coordinate of each axis near 1 no
+// product overflows, and what underflows is 2^-300 smaller than all else along its axis.
+double scaleFor(const double* const p[4], int axis) {
   double largest = 0;
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 3; ++i) largest = std::fmax(largest, std::fabs(p[k][i]));
+  for (int k = 0; k < 4; ++k) largest = std::fmax(largest, std::fabs(p[k][axis]));
   int exponent = 0;
   if (largest > 0) std::frexp(largest, &exponent);
   return std::ldexp(1.0, exponent > 1000 ? -1000 : exponent < -1000 ? 1000 : -exponent);
 }
 
 int exactOrientation(const double* const p[4]) {
-  const double scale = scaleFor(p);
   Expansion d[3][3];
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) d[k][i] = differenceOf(p[k + 1][i] * scale, p[0][i] * scale);
+  for (int i = 0; i < 3; ++i) {
+    const double scale = scaleFor(p, i);
+    for (int k = 0; k < 3; ++k) d[k][i] = differenceOf(p[k + 1][i] * scale, p[0][i] * scale);
+  }
   Expansion det;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -117,16 +118,19 @@ int orientation(const double a[3], const double b[3], const double c[3], const d
   const double* const corners[3] = {b, c, d};
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 3; ++i) e[k][i] = corners[k][i] - a[i];
-  double det = 0, bound = 0;
+  double det = 0, bound = 0, size = 0;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const double p = e[1][j] * e[2][k], q = e[1][k] * e[2][j];
     det += e[0][i] * (p - q);
     bound += magnitude(e[0][i]) * (magnitude(p) + magnitude(q));
+    size += magnitude(e[0][i]);
   }
   bound *= kErrorBound;
-  if (det > bound) return 1;
-  if (det < -bound) return -1;
+  if (bound > kLeastBound && size < kLargestDifference) {
+    if (det > bound) return 1;
+    if (det < -bound) return -1;
+  }
   const double* const points[4] = {a, b, c, d};
   return exactOrientation(points);
 }

@@ -6,8 +6,9 @@
 namespace tetstream {
 
 // Sign of det(b - a, c - a, d - a), six times the signed volume of the cell (a, b, c, d), decided
-// exactly for any finite doubles: floating-point filter first, expansions where it cannot tell
-// (Shewchuk, Adaptive precision floating-point arithmetic, 1997).
+// exactly for finite doubles (along each axis: not more than 2^300 apart in size, or equal, or
+// zero): floating-point filter first, expansions where it cannot tell (Shewchuk, Adaptive precision
+// floating-point arithmetic, 1997).
 int orientation(const double a[3], const double b[3], const double c[3], const double d[3]);
 
 // Eight triangles and a point at once. xyz[3 * k + i][lane]: coordinate i of corner k.

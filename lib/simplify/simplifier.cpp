@@ -182,9 +182,10 @@ class WindowedEngine final : public Simplifier::Engine {
     p.cells_total = plan_.schema.cell_count;
     p.cells_written = core_.report.cells_out;
     const int64_t done = p.cells_read - std::max<int64_t>(mesh().liveCells() - goal, 0);
-    if (p.cells_total > 0)
-      p.fraction =
-          std::clamp(static_cast<double>(done) / static_cast<double>(p.cells_total), 0.0, 1.0);
+    if (p.cells_total > 0) {
+      const double fraction = static_cast<double>(done) / static_cast<double>(p.cells_total);
+      p.fraction = told_ = std::clamp(fraction, told_, 1.0);  // a new goal never turns it back
+    }
     p.phase = "simplify";
     progress_(p);
   }
@@ -228,6 +229,7 @@ class WindowedEngine final : public Simplifier::Engine {
   Account account_;
   int64_t capacity_;  // cells
   uint32_t resolved_cells_ = 0;
+  double told_ = 0;  // the last fraction of the progress
   Core<S> core_;
   UniformRatio budget_;
   Intake<S> intake_;

@@ -2,6 +2,7 @@
 // domains with everything that a domain can have, at all ratios and windows.
 #include <cmath>
 
+#include "random.h"
 #include "simplify_testing.h"
 
 namespace tetstream::test {
@@ -185,6 +186,57 @@ TEST(SimplifierTopology, PassesFoldedCellsOnUnchanged) {
       EXPECT_EQ(cellsFound(mesh, folded, result.out.mesh), folded.size());
       EXPECT_GE(result.report.locked_cells, static_cast<int64_t>(folded.size()));
     }
+}
+
+// Cells taken out of a grid at random, in random order, some the other way round: holes, tunnels,
+// loose pieces, non-manifold edges and vertices everywhere.
+TestMesh randomPart(uint64_t seed) {
+  Random r(seed);
+  TestMesh mesh = shuffled(fullGrid(4, 4, 4, 0.1), seed);
+  const uint32_t kept = 55 + r.below(44), turned = r.below(3);
+  std::vector<int64_t> cells;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) {
+    if (r.below(100) >= kept) continue;
+    int64_t* cell = &mesh.cells[4 * c];
+    if (turned == 2 && r.below(2)) std::swap(cell[0], cell[3]);
+    cells.insert(cells.end(), cell, cell + 4);
+  }
+  mesh.cells = cells;
+  return withWave(inStreamOrder(mesh));
+}
+
+TEST(SimplifierTopology, KeepsWhateverThereIs) {
+  for (uint64_t seed = 1; seed < (slowRun() ? 3u : 25u); ++seed) {
+    const TestMesh mesh = randomPart(seed);
+    const MeshFacts before = factsOf(mesh);
+    for (int64_t window : {64, 150, 0}) {
+      SCOPED_TRACE(textOf("seed %d, window %d", static_cast<int>(seed), static_cast<int>(window)));
+      const Result result = simplified(mesh, toRatio(0.05, window));
+      expectSound(mesh, result);
+      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+    }
+  }
+}
+
+// Random points of a grid thrown far off: many folded cells, some flat ones, all passed on.
+TEST(SimplifierTopology, KeepsTangles) {
+  for (uint64_t seed = 1; seed < (slowRun() ? 3u : 25u); ++seed) {
+    Random r(seed);
+    TestMesh mesh = fullGrid(4, 4, 4);
+    for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+      if (r.below(12) != 0) continue;
+      const double place[3] = {r.below(9) / 2.0, r.below(9) / 2.0, r.below(9) / 2.0};
+      std::memcpy(mesh.positions.bytes.data() + v * sizeof place, place, sizeof place);
+    }
+    mesh = withWave(mesh);
+    const MeshFacts before = factsOf(mesh);
+    for (int64_t window : {64, 150, 0}) {
+      SCOPED_TRACE(textOf("seed %d, window %d", static_cast<int>(seed), static_cast<int>(window)));
+      const Result result = simplified(mesh, toRatio(0.05, window));
+      expectSound(mesh, result);
+      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+    }
+  }
 }
 
 // Every cell twice: each face has four cells or two. Nothing can be made of it, only worse.

@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# Takes the example in C and the one in shell out of README.md and runs both, in a folder of their
+# own that has nothing but the example mesh.
+set -euo pipefail
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+# block LANGUAGE: what stands between ```LANGUAGE and ``` in README.md.
+block() {
+  sed -n "/^\`\`\`$1\$/,/^\`\`\`\$/p" "$TETSTREAM_SOURCE/README.md" | sed '/^```/d'
+}
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
+[[ $TETSTREAM_SANITIZED == 1 ]] && flags+=(-fsanitize=address,undefined)
+
+block c >program.c
+[[ -s program.c ]] || fail "README.md has no example in C"
+"$CC" "${flags[@]}" -I"$TETSTREAM_SOURCE/include" program.c -o program -L"$TETSTREAM_LIBRARY" \
+  -ltetstream -Wl,-rpath,"$TETSTREAM_LIBRARY"
+
+# Without the mesh it says why it fails, and leaves nothing behind.
+if ./program 2>message; then fail "the example succeeds without its mesh"; fi
+grep -q 'bracket\.vtu' message || fail "the message does not name the missing file: $(<message)"
+[[ ! -e small.vtu ]] || fail "there is an output without an input"
+
+cp "$TETSTREAM_SOURCE/tests/data/bracket/bracket.vtu" .
+./program
+ln -s "$TETSTREAM_COMMAND" tetstream
+PATH=$PWD:$PATH
+cells_of() {
+  tetstream info --json --quiet "$1" | sed -n 's/^ *"cells": \([0-9]*\),$/\1/p'
+}
+whole=$(cells_of bracket.vtu)
+small=$(cells_of small.vtu)
+((small > whole / 11 && small <= whole / 10)) || fail "$whole cells became $small"
+
+block sh >commands
+[[ -s commands ]] || fail "README.md has no example in shell"
+bash -e -o pipefail commands
+[[ $(cells_of bracket-10.vtu) -le $((whole / 10)) && -s fluid-1.tets ]] ||
+  fail "the commands did not do what README.md says"
+
+# The two commands that it promises are there.
+for script in $(sed -n 's/^    bash \(tests\/[a-z.]*\)$/\1/p' "$TETSTREAM_SOURCE/README.md"); do
+  [[ -f $TETSTREAM_SOURCE/$script ]] || fail "there is no $script"
+done

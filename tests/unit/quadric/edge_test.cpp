@@ -1,0 +1,235 @@
+// The minimum of an edge against a dense solution, and the same bits from every build.
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "dense_testing.h"
+#include "kernel_builds.h"
+#include "test_mesh.h"
+
+namespace tetstream::test {
+namespace {
+
+// Two random positive definite quadrics, of condition about `1 / floor`.
+template <class S>
+struct Edge {
+  Edge(Random& r, size_t n, double floor, size_t rank) : scale(n), x1(n), x2(n), z(n) {
+    for (auto* q : {&q1, &q2}) {
+      Matrix a(n, Vector(n, 0.0));
+      for (size_t k = 0; k < 2 * rank; ++k) {
+        const Vector v = randomVector(r, rank);
+        for (size_t i = 0; i < rank; ++i)
+          for (size_t j = 0; j < rank; ++j) a[i][j] += v[i] * v[j] / static_cast<double>(rank);
+      }
+      for (size_t i = 0; i < rank; ++i) a[i][i] += floor;
+      *q = packed<S>(a, std::fabs(uniform(r)));
+    }
+    for (size_t i = 0; i < n; ++i) {
+      scale[i] = static_cast<S>(std::exp2(2 * uniform(r)));
+      x1[i] = static_cast<S>(uniform(r));
+      x2[i] = static_cast<S>(uniform(r));
+    }
+  }
+  int n() const { return static_cast<int>(scale.size()); }
+  S minimize() {
+    return quadricKernels<S>(n()).minimizeEdge(q1.data(), x1.data(), q2.data(), x2.data(),
+                                               scale.data(), n(), z.data());
+  }
+  S errorAt(const std::vector<S>& at) const {
+    return quadricKernels<S>(n()).errorAt(q1.data(), x1.data(), q2.data(), x2.data(), scale.data(),
+                                          n(), at.data());
+  }
+  Vector half() const {
+    Vector h;
+    for (size_t i = 0; i < scale.size(); ++i)
+      h.push_back(0.5 * static_cast<double>(x2[i] - x1[i]) * static_cast<double>(scale[i]));
+    return h;
+  }
+  // The error by the definition, z relative to the midpoint.
+  double denseError(const Vector& at) const {
+    const Vector h = half();
+    Vector d1 = at, d2 = at;
+    for (size_t i = 0; i < h.size(); ++i) d1[i] += h[i], d2[i] -= h[i];
+    return static_cast<double>(q1.back()) + static_cast<double>(q2.back()) +
+           formOf(denseOf(q1, scale.size()), d1) + formOf(denseOf(q2, scale.size()), d2);
+  }
+  // (A1 + A2) z = (A2 - A1) h over the first `rank` dimensions.
+  Vector denseMinimum(size_t rank) const {
+    const Matrix a = denseOf(q1, scale.size()), b = denseOf(q2, scale.size());
+    const Vector h = half();
+    Matrix sum(rank, Vector(rank));
+    Vector right(rank, 0.0);
+    for (size_t i = 0; i < rank; ++i)
+      for (size_t j = 0; j < rank; ++j) {
+        sum[i][j] = a[i][j] + b[i][j];
+        right[i] += (b[i][j] - a[i][j]) * h[j];
+      }
+    Vector at = solve(sum, right);
+    at.resize(scale.size(), 0.0);
+    return at;
+  }
+  std::vector<S> q1, q2, scale, x1, x2, z;
+};
+
+template <class S>
+void expectDenseMinimum(double tolerance) {
+  Random r(7);
+  for (int n : {3, 4, 6, 9, 20})
+    for (int round = 0; round < (slowRun() ? 3 : 50); ++round) {
+      Edge<S> e(r, static_cast<size_t>(n), 0.2, static_cast<size_t>(n));
+      const auto error = static_cast<double>(e.minimize());
+      const Vector wanted = e.denseMinimum(static_cast<size_t>(n));
+      const double least = e.denseError(wanted);
+      EXPECT_NEAR(error, least, tolerance * least) << "n = " << n;
+      const double size = std::sqrt(dotOf(e.half(), e.half()));
+      for (size_t i = 0; i < wanted.size(); ++i)
+        EXPECT_NEAR(static_cast<double>(e.z[i]), wanted[i], 30 * tolerance * size) << "n = " << n;
+      EXPECT_GE(e.minimize(), e.q1.back() + e.q2.back());
+      EXPECT_EQ(e.minimize(), e.errorAt(e.z));
+    }
+}
+TEST(MinimumOfAnEdge, IsTheDenseOneInDouble) {
+  expectDenseMinimum<double>(1e-10);
+}
+TEST(MinimumOfAnEdge, IsTheDenseOneInFloat) {
+  expectDenseMinimum<float>(3e-5);
+}
+
+// Nothing determines the dimensions beyond the rank: the midpoint is kept there, exactly.
+template <class S>
+void expectMidpointInTheNullSpace(double tolerance) {
+  Random r(8);
+  for (int n : {3, 4, 6, 9, 20})
+    for (size_t rank = 0; rank < static_cast<size_t>(n); rank += 2)
+      for (int round = 0; round < 5; ++round) {
+        Edge<S> e(r, static_cast<size_t>(n), 0.2, rank);
+        const auto error = static_cast<double>(e.minimize());
+        const Vector wanted = e.denseMinimum(rank);
+        const double size = std::sqrt(dotOf(e.half(), e.half()));
+        for (size_t i = 0; i < wanted.size(); ++i)
+          EXPECT_NEAR(static_cast<double>(e.z[i]), wanted[i], i < rank ? tolerance * size : 0);
+        EXPECT_NEAR(error, e.denseError(wanted), tolerance * (1 + error));
+      }
+}
+TEST(MinimumOfAnEdge, StaysAtTheMidpointWhereNothingDeterminesIt) {
+  expectMidpointInTheNullSpace<double>(1e-9);
+  expectMidpointInTheNullSpace<float>(2e-3);
+}
+
+// A direction that is determined 10^6 times worse than the others is not followed.
+TEST(MinimumOfAnEdge, IsNotDrawnAwayByNearlySingularDirections) {
+  Random r(9);
+  Edge<double> e(r, 3, 0, 3);
+  e.q1 = packed<double>({{1, 0, 0}, {0, 1, 0}, {0, 0, 1e-6}}, 0);
+  e.q2 = packed<double>({{1, 0, 0}, {0, 1, 0}, {0, 0, 1e-9}}, 0);
+  e.minimize();
+  EXPECT_LT(std::fabs(e.z[2]), 1e-3 * std::fabs(e.half()[2]));
+}
+
+// Both quadrics alike: the midpoint. All zero: the midpoint, at no cost.
+TEST(MinimumOfAnEdge, IsTheMidpointOfEqualQuadrics) {
+  Random r(10);
+  for (int n : {3, 4, 9}) {
+    Edge<double> e(r, static_cast<size_t>(n), 0.1, static_cast<size_t>(n));
+    e.q2 = e.q1;
+    e.minimize();
+    for (double z : e.z) EXPECT_EQ(z, 0);
+    std::fill(e.q1.begin(), e.q1.end(), 0.0);
+    e.q2 = e.q1;
+    EXPECT_EQ(e.minimize(), 0);
+    for (double z : e.z) EXPECT_EQ(z, 0);
+  }
+}
+
+// Halving the user's unit doubles the scale: not a bit of z or of the error changes.
+TEST(MinimumOfAnEdge, DoesNotDependOnUnits) {
+  Random r(11);
+  for (int n : {4, 9})
+    for (double unit : {0x1p20, 0x1p-20, 0x1p60}) {
+      Edge<float> e(r, static_cast<size_t>(n), 0.1, static_cast<size_t>(n));
+      const float error = e.minimize();
+      const std::vector<float> z = e.z;
+      for (size_t i = 0; i < e.scale.size(); ++i) {
+        e.x1[i] *= static_cast<float>(unit);
+        e.x2[i] *= static_cast<float>(unit);
+        e.scale[i] /= static_cast<float>(unit);
+      }
+      EXPECT_EQ(e.minimize(), error);
+      EXPECT_TRUE(e.z == z);
+    }
+}
+
+TEST(MinimumOfAnEdge, IsNeverBelowTheErrorsItStartsFrom) {
+  Random r(12);
+  for (int round = 0; round < (slowRun() ? 50 : 2000); ++round) {
+    const size_t n = 3 + r.below(6);
+    // Not even positive semidefinite: what rounding may leave of a sum of quadrics.
+    Edge<float> e(r, n, -0.05, n);
+    const float error = e.minimize();
+    EXPECT_FALSE(error < e.q1.back() + e.q2.back());
+    EXPECT_FALSE(e.errorAt(e.z) < e.q1.back() + e.q2.back());
+  }
+}
+
+TEST(MinimumOfAnEdge, IsNotFiniteWhereTheArithmeticOverflows) {
+  Random r(13);
+  Edge<float> e(r, 4, 0.2, 4);
+  for (float& q : e.q1) q *= 1e38f;
+  for (float& x : e.x1) x *= 1e19f;
+  const float error = e.minimize();
+  EXPECT_FALSE(std::isfinite(error));
+}
+
+// ---------------------------------------------------------------------------------- builds
+
+template <class S>
+void expectSameBits(const QuadricKernels<S>& a, const QuadricKernels<S>& b, int n, Random& r) {
+  const auto bytes = [](const std::vector<S>& v) { return v.size() * sizeof(S); };
+  Corners<S> cell(r, 4, n, false), other = cell, face(r, 3, n, false), other_face = face;
+  const auto addAll = [n](const QuadricKernels<S>& k, Corners<S>& c, Corners<S>& f) {
+    c.template addWith<4>([&](const S* const* x, S* const* q) {
+      k.addCellField(x, c.scale.data(), n, q);
+      k.addCellDistance(x, c.scale.data(), n, q);
+    });
+    f.template addWith<3>([&](const S* const* x, S* const* q) {
+      k.addFacePlane(x, f.scale.data(), n, 300, q);
+      k.addFaceDistance(x, f.scale.data(), n, 300, q);
+    });
+  };
+  addAll(a, cell, face);
+  addAll(b, other, other_face);
+  for (size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(
+        0, std::memcmp(cell.quadrics[i].data(), other.quadrics[i].data(), bytes(cell.quadrics[i])));
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(0, std::memcmp(face.quadrics[i].data(), other_face.quadrics[i].data(),
+                             bytes(face.quadrics[i])));
+  Edge<S> e(r, static_cast<size_t>(n), 0.01, static_cast<size_t>(n));
+  std::vector<S> z1(static_cast<size_t>(n)), z2(static_cast<size_t>(n));
+  const auto minimum = [&](const QuadricKernels<S>& k, std::vector<S>& z) {
+    return k.minimizeEdge(e.q1.data(), e.x1.data(), e.q2.data(), e.x2.data(), e.scale.data(), n,
+                          z.data());
+  };
+  EXPECT_EQ(minimum(a, z1), minimum(b, z2));
+  EXPECT_EQ(0, std::memcmp(z1.data(), z2.data(), bytes(z1)));
+  const auto errorOf = [&](const QuadricKernels<S>& k) {
+    return k.errorAt(e.q1.data(), e.x1.data(), e.q2.data(), e.x2.data(), e.scale.data(), n,
+                     e.q1.data());
+  };
+  EXPECT_EQ(errorOf(a), errorOf(b));
+}
+
+// quadricKernels gives the build for this processor.
+TEST(QuadricKernels, GiveTheSameBitsFromEveryBuild) {
+  Random r(14);
+  for (int n : kDimensions)
+    for (int round = 0; round < (slowRun() ? 2 : 50); ++round) {
+      expectSameBits(plainKernelsFloat(n), quadricKernels<float>(n), n, r);
+      expectSameBits(plainKernelsDouble(n), quadricKernels<double>(n), n, r);
+    }
+  RecordProperty("build", kernelBuild());
+}
+
+}  // namespace
+}  // namespace tetstream::test
