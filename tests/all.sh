@@ -11,6 +11,7 @@
 #   full       the long layer: real meshes at every ratio
 # Tests on real meshes need TETSTREAM_MESHES and TETSTREAM_JUDGE (tests/CMakeLists.txt); those that
 # lack something say "not run".
+# shellcheck disable=SC2317  # the stages are called by their names
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
@@ -31,8 +32,9 @@ check() {
   ctest --test-dir "$1" -j "$jobs" --output-on-failure --no-tests=error "${@:2}"
 }
 
+# The public header is laid out by hand.
 sources() {
-  find include lib bindings tests \( -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.inl' \)
+  find lib bindings tests \( -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.inl' \)
 }
 
 stage_build() {
@@ -44,7 +46,7 @@ stage_format() {
 }
 
 stage_lint() {
-  ls lib/*/*.cpp bindings/cli/*.cpp | xargs -P "$jobs" -n 4 clang-tidy --quiet -p build/release \
+  printf '%s\n' lib/*/*.cpp bindings/cli/*.cpp | xargs -P "$jobs" -n 4 clang-tidy --quiet -p build/release \
     2>&1 | sed '/warnings\? generated\.$/d'
 }
 
@@ -57,7 +59,7 @@ stage_sanitize() {
 stage_memcheck() {
   configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi)\.'
   local result=$?
-  configure build/release -DTETSTREAM_MEMCHECK=OFF && return $result
+  configure build/release -DTETSTREAM_MEMCHECK=OFF && return "$result"
 }
 
 stage_tests() {
@@ -67,7 +69,7 @@ stage_tests() {
 stage_full() {
   configure build/release -DTETSTREAM_FULL_TESTS=ON && check build/release
   local result=$?
-  configure build/release -DTETSTREAM_FULL_TESTS=OFF && return $result
+  configure build/release -DTETSTREAM_FULL_TESTS=OFF && return "$result"
 }
 
 echo "== packages"

@@ -17,6 +17,8 @@ constexpr int64_t kLeastWindow = 16384;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
+// A header that claims more is not believed: the window grows when such a front comes.
+constexpr int64_t kWidestFront = 1 << 26;
 // Of a memory budget, not for cells and vertices: stars, lists, the front's map.
 constexpr int64_t kFixedBytes = 256 << 10;
 constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two of 8 bytes
@@ -41,11 +43,12 @@ double ratioFor(const Schema& schema, const SimplifyOptions& options) {
 }
 
 int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
-  if (options.window_cells > 0) return std::max<int64_t>(options.window_cells, 64);
-  int64_t cells = schema.front_cells >= 0
-                      ? std::max(kFrontsPerWindow * schema.front_cells, kLeastWindow)
-                      : kFirstWindow;
+  const int64_t front = std::min(schema.front_cells, kWidestFront);
+  int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
+                  : front >= 0             ? std::max(kFrontsPerWindow * front, kLeastWindow)
+                                           : kFirstWindow;
   if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
+  if (options.window_cells > 0) return cells;
   // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
   if (options.memory_bytes > 0) {
     const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));

@@ -17,7 +17,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
-[[ $TETSTREAM_SANITIZED == 1 ]] && flags+=(-fsanitize=address,undefined)
+[[ $TETSTREAM_SANITIZED == 1 ]] && flags+=("-fsanitize=address,undefined")
 
 block c >program.c
 [[ -s program.c ]] || fail "README.md has no example in C"
@@ -47,6 +47,8 @@ bash -e -o pipefail commands
   fail "the commands did not do what README.md says"
 
 # The two commands that it promises are there.
-for script in $(sed -n 's/^    bash \(tests\/[a-z.]*\)$/\1/p' "$TETSTREAM_SOURCE/README.md"); do
+sed -n 's/^    bash \(tests\/[a-z.]*\)$/\1/p' "$TETSTREAM_SOURCE/README.md" >scripts
+[[ $(wc -l <scripts) == 2 ]] || fail "README.md should have two commands: $(<scripts)"
+while read -r script; do
   [[ -f $TETSTREAM_SOURCE/$script ]] || fail "there is no $script"
-done
+done <scripts
