@@ -189,10 +189,13 @@ class DescriptorSink final : public ByteSink {
 // A temporary beside the final name: the rename is atomic only within one file system.
 class TemporaryNamedSink final : public ByteSink {
  public:
-  explicit TemporaryNamedSink(const std::string& path) : ByteSink(path) {
+  explicit TemporaryNamedSink(const std::string& path) : ByteSink(path), target_(path) {
+    // A link stays one: what it points to is replaced.
+    const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
+    if (real) target_ = real.get();
     // note: not mkstemp, which would not give the file the mode that the user's umask allows.
     for (unsigned attempt = 0; fd_ < 0; ++attempt) {
-      temporary_ = textOf("%s.%lx-%x", path.c_str(), static_cast<long>(::getpid()), attempt);
+      temporary_ = textOf("%s.%lx-%x", target_.c_str(), static_cast<long>(::getpid()), attempt);
       fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (fd_ < 0 && errno != EEXIST) failIo(path, "create");
     }
@@ -210,12 +213,12 @@ class TemporaryNamedSink final : public ByteSink {
     const int fd = fd_;
     fd_ = -1;
     if (::close(fd) != 0) failIo(name(), "write");
-    if (::rename(temporary_.c_str(), name().c_str()) != 0) failIo(name(), "rename into place");
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) failIo(name(), "rename into place");
     committed_ = true;
   }
 
  private:
-  std::string temporary_;
+  std::string target_, temporary_;
   int fd_ = -1;
   bool committed_ = false;
 };

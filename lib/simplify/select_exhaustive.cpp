@@ -7,7 +7,8 @@
 namespace tetstream {
 namespace {
 
-constexpr size_t kEdgesPerTick = 4096;
+// Edges listed at once: bounds the memory that this step takes beside the window's.
+constexpr size_t kEdgesAtOnce = 16384;
 
 template <class S>
 class ExhaustiveSelector final : public Selector<S> {
@@ -17,15 +18,17 @@ class ExhaustiveSelector final : public Selector<S> {
     for (auto& z : z_) z.resize(room_);
   }
 
-  // Half of the edges at a time, the better half: the errors of the others change with it.
+  // A part of the window at a time, and of its edges the better half: the errors of the others
+  // change with it.
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
     for (bool all = false; !reached(goal);) {
-      listEdges();
-      const size_t count = all ? edges_.size() : (edges_.size() + 1) / 2;
       bool moved = false;
-      for (size_t i = 0; i < count && !reached(goal); ++i) {
-        if (i % kEdgesPerTick == 0) tick();
-        moved = tryEdge(edges_[i].u, edges_[i].v, goal) || moved;
+      for (uint32_t cell = 0; cell < core_.window.mesh.cellEnd() && !reached(goal);) {
+        tick();
+        cell = listEdges(cell);
+        const size_t count = all ? edges_.size() : (edges_.size() + 1) / 2;
+        for (size_t i = 0; i < count && !reached(goal); ++i)
+          moved = tryEdge(edges_[i].u, edges_[i].v, goal) || moved;
       }
       if (!moved && all) return;
       all = !moved;
@@ -42,13 +45,14 @@ class ExhaustiveSelector final : public Selector<S> {
   };
 
   bool reached(const Goal& goal) const { return core_.window.mesh.liveCells() <= goal.cells; }
-  void listEdges();
+  uint32_t listEdges(uint32_t first_cell);
   S minimize(uint32_t u, uint32_t v, S* z);
   bool tryEdge(uint32_t u, uint32_t v, const Goal& goal);
 
   Core<S>& core_;
   Collapser<S>& collapser_;
   size_t room_;
+  std::vector<uint64_t> pairs_;
   std::vector<Edge> edges_;
   std::array<std::vector<S>, 4> z_;
 };
@@ -60,27 +64,31 @@ S ExhaustiveSelector<S>::minimize(uint32_t u, uint32_t v, S* z) {
                                     core_.scale.data(), core_.plan.dimension, z);
 }
 
+// The edges of the cells from `first_cell` on, in order of their error; returns the first cell that
+// was left for the next time.
 template <class S>
-void ExhaustiveSelector<S>::listEdges() {
+uint32_t ExhaustiveSelector<S>::listEdges(uint32_t first_cell) {
   const Topology& mesh = core_.window.mesh;
-  std::vector<uint64_t> pairs;
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
-    if (!mesh.isLive(c)) continue;
-    const uint32_t* v = mesh.corners(c);
+  uint32_t cell = first_cell;
+  pairs_.clear();
+  for (; cell < mesh.cellEnd() && pairs_.size() < kEdgesAtOnce; ++cell) {
+    if (!mesh.isLive(cell)) continue;
+    const uint32_t* v = mesh.corners(cell);
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j)
         if (mesh.isFree(v[i]) && mesh.isFree(v[j]))
-          pairs.push_back(uint64_t{std::min(v[i], v[j])} << 32 | std::max(v[i], v[j]));
+          pairs_.push_back(uint64_t{std::min(v[i], v[j])} << 32 | std::max(v[i], v[j]));
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::sort(pairs_.begin(), pairs_.end());
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
   edges_.clear();
-  for (uint64_t pair : pairs) {
+  for (uint64_t pair : pairs_) {
     Edge e{0, static_cast<uint32_t>(pair >> 32), static_cast<uint32_t>(pair)};
     e.error = minimize(e.u, e.v, z_[0].data());
     if (std::isfinite(e.error)) edges_.push_back(e);
   }
   std::sort(edges_.begin(), edges_.end());
+  return cell;
 }
 
 // The minimizer first, then the midpoint and the ends by their errors.
