@@ -161,7 +161,7 @@ S RandomSelector<S>::sampledBound() {
     const S error = best_[0].error;
     if (best_[0].u != kNone && error > 0 && std::isfinite(error)) errors.push_back(error);
   }
-  if (errors.empty()) return std::numeric_limits<S>::min();
+  if (errors.empty()) return 0;
   std::sort(errors.begin(), errors.end());
   return errors[errors.size() / 10];
 }
@@ -169,7 +169,9 @@ S RandomSelector<S>::sampledBound() {
 template <class S>
 void RandomSelector<S>::sweep(const std::function<void()>& tick) {
   if (tiles_.tiles().empty()) return;
-  S bound = bound_ > 0 ? bound_ * S(kFirstBound) : sampledBound();
+  // note: never 0, which would not rise.
+  S bound = std::max(bound_ > 0 ? bound_ * S(kFirstBound) : sampledBound(),
+                     std::numeric_limits<S>::min());
   for (bool going = true; going;) {
     bool moved = false, bounded = false;
     for (Tile& tile : tiles_.tiles()) {
