@@ -24,7 +24,8 @@ size_t checkedAdd(size_t a, size_t b) {
 void Account::charge(size_t bytes) {
   const size_t after = checkedAdd(used_, bytes);
   if (limit_ != 0 && after > limit_)
-    fail(Status::kNoMemory, "the memory budget of %zu bytes is too small: %zu are needed", limit_, after);
+    fail(Status::kNoMemory, "the memory budget of %zu bytes is too small: %zu are needed", limit_,
+         after);
   used_ = after;
   if (used_ > peak_) peak_ = used_;
 }

@@ -7,13 +7,31 @@
 namespace tetstream {
 
 static const Format kFormats[] = {
-    {"tets", ".tets", "tetstream's own stream: any fields and cell data, checksums",
-     {true, -1, true}, true, true, openTets, createTets},
+    {"tets",
+     ".tets",
+     "tetstream's own stream: any fields and cell data, checksums",
+     {true, -1, true},
+     true,
+     true,
+     openTets,
+     createTets},
     {"vtu", ".vtu", "VTK XML unstructured grid", {true, -1, true}, false, true, openVtu, createVtu},
-    {"sva", ".sva", "streaming volume mesh of Isenburg, text",
-     {true, -1, true}, true, true, openSva, createSva},
-    {"svb", ".svb", "streaming volume mesh of Isenburg, binary",
-     {false, 1, false}, true, true, openSvb, createSvb},
+    {"sva",
+     ".sva",
+     "streaming volume mesh of Isenburg, text",
+     {true, -1, true},
+     true,
+     true,
+     openSva,
+     createSva},
+    {"svb",
+     ".svb",
+     "streaming volume mesh of Isenburg, binary",
+     {false, 1, false},
+     true,
+     true,
+     openSvb,
+     createSvb},
 };
 
 const Format* formats(size_t* count) {

@@ -12,15 +12,15 @@
 namespace tetstream {
 
 struct ReadOptions {
-  std::string temp_dir;                           // for spools; empty: $TMPDIR or /tmp
-  std::function<void(const std::string&)> note;   // what was left out or assumed; may be empty
+  std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
+  std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
 };
 
 struct WriteOptions {
   std::string temp_dir;
   std::function<void(const std::string&)> note;
-  bool compress = true;      // .tets: zstd where built in; .vtu: zlib
-  bool post_order = false;   // .sva, .svb
+  bool compress = true;     // .tets: zstd where built in; .vtu: zlib
+  bool post_order = false;  // .sva, .svb
 };
 
 // What a format can hold, so that values are rounded before and not after they were checked.
@@ -42,8 +42,8 @@ struct Format {
 };
 
 const Format* formats(size_t* count);
-const Format* findFormat(const std::string& name);           // null: no such format
-const Format* formatOfPath(const std::string& path);         // by extension; null: unknown
+const Format* findFormat(const std::string& name);    // null: no such format
+const Format* formatOfPath(const std::string& path);  // by extension; null: unknown
 // As above, but throw kUnsupported with a sentence that lists what there is. `name` may be empty:
 // then the path's extension decides.
 const Format& needFormat(const std::string& name, const std::string& path);

@@ -290,7 +290,7 @@ class HeaderParser {
     }
     const VtuPiece& piece = file_.pieces.back();
     const size_t number = (field ? piece.point_data : piece.cell_data).size() + 1;
-    const std::string made = (field ? "field_" : "cell_data_") + std::to_string(number);
+    std::string made = (field ? "field_" : "cell_data_") + std::to_string(number);
     file_.addNote("an array without a name is called \"" + made + "\"");
     return made;
   }

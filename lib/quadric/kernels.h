@@ -43,10 +43,10 @@ struct QuadricKernels {
   void (*addFaceDistance)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
   // Minimizes Q1 + Q2 by conjugate gradients from the midpoint m: z = scale (x - m). Returns the
   // error there, not less than e1 + e2; not finite if the arithmetic overflowed.
-  S (*minimizeEdge)
+  S(*minimizeEdge)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, S* z);
   // The error of Q1 + Q2 at a given z.
-  S (*errorAt)
+  S(*errorAt)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, const S* z);
 };
 

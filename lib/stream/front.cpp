@@ -10,7 +10,7 @@ constexpr unsigned kSmallestBits = 12, kLargestFirstBits = 22;
 constexpr unsigned kDisplacedShare = 8;
 
 Front::Front(Account& account, uint64_t expected_span)
-    : account_(account), ring_(account), hash_(account), bits_(kSmallestBits) {
+    : ring_(account), hash_(account), bits_(kSmallestBits) {
   while (bits_ < kLargestFirstBits && (uint64_t{1} << bits_) < expected_span) ++bits_;
   mask_ = (uint64_t{1} << bits_) - 1;
   ring_.resize(mask_ + 1);

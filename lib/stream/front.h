@@ -58,7 +58,6 @@ class Front {
   void growRing();
   void growHash();
 
-  Account& account_;
   Array<Entry> ring_;
   Array<HashEntry> hash_;  // open addressing, linear probes, at most half full
   unsigned bits_;
