@@ -60,7 +60,8 @@ stage_lint() {
 # With sanitizers, gcc warns of what cannot be: not here. -O1 builds twice as fast as -O3.
 stage_sanitize() {
   configure build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTETSTREAM_SANITIZE=ON \
-    -DCMAKE_CXX_FLAGS=-w "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1" && build build/sanitize && check build/sanitize
+    -DCMAKE_CXX_FLAGS=-w "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1" &&
+    build build/sanitize && check build/sanitize
 }
 
 # The same programs as those of the release; only how ctest starts them is another.

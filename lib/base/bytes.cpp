@@ -199,6 +199,8 @@ class TemporaryNamedSink final : public ByteSink {
       fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (fd_ < 0 && errno != EEXIST) failIo(path, "create");
     }
+    struct stat old;  // what is replaced keeps its mode
+    if (::stat(target_.c_str(), &old) == 0) ::fchmod(fd_, old.st_mode & 07777);
   }
   ~TemporaryNamedSink() override {
     if (fd_ >= 0) ::close(fd_);

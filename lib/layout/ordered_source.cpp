@@ -125,7 +125,7 @@ void OrderedSource::readPoints() {
         const size_t axis = i % 3;
         const double low = schema_.box_min[axis], size = schema_.box_max[axis] - low;
         mesh_.places[axis * mesh_.vertices + at + i / 3] =
-            size > 0
+            size > 0 && used_[at + i / 3]
                 ? static_cast<float>((valueAt(rows.data(), schema_.position_type, i) - low) / size)
                 : 0.0f;
       }

@@ -132,11 +132,17 @@ bool LinkCondition::boundaryLinksAgree(uint32_t v, const Star& around_u, const S
   for (size_t i = 0; i < count_u; ++i)
     if (std::binary_search(fv, fv + count_v, fu[i])) return false;
   // A boundary neighbour of both makes a boundary face with both.
+  if (neighbours_.size() < 2 * count_v) neighbours_.resize(2 * count_v);
+  uint32_t* const end = neighbours_.data() + 2 * count_v;
+  for (size_t j = 0; j < count_v; ++j) {
+    neighbours_[2 * j] = lowOf(fv[j]);
+    neighbours_[2 * j + 1] = highOf(fv[j]);
+  }
+  std::sort(neighbours_.data(), end);
   for (size_t i = 0; i < count_u; ++i)
     for (uint32_t a : {lowOf(fu[i]), highOf(fu[i])}) {
       if (a == v || a == shared[0] || a == shared[1]) continue;
-      for (size_t j = 0; j < count_v; ++j)
-        if (lowOf(fv[j]) == a || highOf(fv[j]) == a) return false;
+      if (std::binary_search(neighbours_.data(), end, a)) return false;
     }
   return true;
 }

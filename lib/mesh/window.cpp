@@ -22,6 +22,32 @@ void Window<S>::sizeCells() {
 }
 
 template <class S>
+void Window<S>::growCells(size_t capacity) {
+  const size_t before = mesh.cellCapacity();
+  try {
+    mesh.growCells(capacity);
+    sizeCells();
+  } catch (...) {
+    mesh.growCells(before);
+    sizeCells();
+    throw;
+  }
+}
+
+template <class S>
+void Window<S>::growVertices(size_t capacity) {
+  const size_t before = mesh.vertexCapacity();
+  try {
+    mesh.growVertices(capacity);
+    sizeVertices();
+  } catch (...) {
+    mesh.growVertices(before);
+    sizeVertices();
+    throw;
+  }
+}
+
+template <class S>
 uint32_t Window<S>::chooseVertices(uint64_t* unused) {
   const uint32_t end = mesh.vertexEnd();
   std::fill(remap_.data(), remap_.data() + end, kNone);

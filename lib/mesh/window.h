@@ -48,14 +48,9 @@ class Window {
   double* cellMeans(uint32_t c) { return &cell_means_[size_t{c} * meansStride()]; }
   int64_t* cellPicks(uint32_t c) { return &cell_picks_[size_t{c} * shape_.cell_picks]; }
 
-  void growCells(size_t capacity) {
-    mesh.growCells(capacity);
-    sizeCells();
-  }
-  void growVertices(size_t capacity) {
-    mesh.growVertices(capacity);
-    sizeVertices();
-  }
+  // When memory does not suffice they throw, and the window is as it was.
+  void growCells(size_t capacity);
+  void growVertices(size_t capacity);
 
   // Drops dead cells, and the vertices that are final and in no cell; tells the front. Returns how
   // many vertices were dropped that no cell ever used.

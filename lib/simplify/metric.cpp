@@ -110,10 +110,14 @@ void Metric<S>::updateScales() {
     const double weight = i < 3 ? 1 : std::sqrt(core_.plan.weights[i - 3]);
     const double size = extent() > 0 ? extent() : 1;  // all points coincide: every cell is flat
     const double unit = i < 3 ? length_unit_ : length_unit_ * (range[i] / size) / weight;
-    const S scale = i >= 3 && !(range[i] > 0) ? S(0) : static_cast<S>(1 / unit);
-    if (!first_time && core_.scale[i] > 0) factor[i] = core_.scale[i] / scale;
+    // A range of nothing, or one that the window's numbers cannot be divided by, counts as
+    // constant.
+    const S given = static_cast<S>(1 / unit), inverse = static_cast<S>(unit);
+    const bool usable = std::isfinite(given) && given > 0 && std::isfinite(inverse) && inverse > 0;
+    const S scale = usable ? given : i < 3 ? S(1) : S(0);
+    if (!first_time && core_.scale[i] > 0 && scale > 0) factor[i] = core_.scale[i] / scale;
     core_.scale[i] = scale;
-    core_.inverse_scale[i] = scale > 0 ? static_cast<S>(unit) : S(0);
+    core_.inverse_scale[i] = usable ? inverse : scale;
   }
   used_range_ = range;
   const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;

@@ -96,29 +96,31 @@ void Resolver<S>::lockNonManifold(uint32_t v) {
 }
 
 // Whether the boundary faces round a vertex form one fan: the edges of the link's boundary make a
-// single circle.
+// single circle. Each end of each edge is listed with its edge; in a circle every vertex is there
+// twice, and walking from edge to edge meets all of them.
 template <class S>
 bool Resolver<S>::isDisk(const std::vector<uint64_t>& boundary) {
-  const uint32_t start = static_cast<uint32_t>(boundary[0] >> 32);
-  uint32_t at = start;
-  size_t came_by = boundary.size(), walked = 0;
+  ends_.clear();
+  for (uint64_t edge = 0; edge < boundary.size(); ++edge) {
+    ends_.push_back((boundary[edge] >> 32) << 32 | edge);
+    ends_.push_back(boundary[edge] << 32 | edge);
+  }
+  std::sort(ends_.begin(), ends_.end());
+  for (size_t i = 0; i < ends_.size(); i += 2) {
+    const bool pair = ends_[i] >> 32 == ends_[i + 1] >> 32;
+    if (!pair || (i + 2 < ends_.size() && ends_[i + 2] >> 32 == ends_[i] >> 32)) return false;
+  }
+  uint64_t edge = 0, at = boundary[0] >> 32;
+  size_t walked = 0;
   do {
-    size_t next = boundary.size();
-    for (size_t i = 0; i < boundary.size(); ++i) {
-      const uint32_t a = static_cast<uint32_t>(boundary[i] >> 32),
-                     b = static_cast<uint32_t>(boundary[i]);
-      if (i == came_by || (a != at && b != at)) continue;
-      if (next != boundary.size()) return false;  // a third face at this edge
-      next = i;
-      if (came_by == boundary.size()) break;  // at the start either direction will do
-    }
-    if (next == boundary.size()) return false;  // the fan is open
-    const uint32_t a = static_cast<uint32_t>(boundary[next] >> 32),
-                   b = static_cast<uint32_t>(boundary[next]);
-    at = a == at ? b : a;
-    came_by = next;
+    const uint64_t other =
+        boundary[edge] >> 32 == at ? boundary[edge] & 0xffffffffu : boundary[edge] >> 32;
+    const auto first = std::lower_bound(ends_.begin(), ends_.end(), other << 32);
+    const uint64_t next = first[0] & 0xffffffffu;
+    edge = next != edge ? next : first[1] & 0xffffffffu;
+    at = other;
     ++walked;
-  } while (at != start);
+  } while (edge != 0 && walked <= boundary.size());
   return walked == boundary.size();
 }
 

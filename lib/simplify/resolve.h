@@ -31,7 +31,7 @@ class Resolver {
   Regions<S>& regions_;
   Star star_;
   Array<uint64_t> edges_;  // of the link, directed, as (low, high, direction)
-  std::vector<uint64_t> boundary_;
+  std::vector<uint64_t> boundary_, ends_;
 };
 
 }  // namespace tetstream

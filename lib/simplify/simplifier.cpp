@@ -1,6 +1,7 @@
 #include "simplifier.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "budget.h"
 #include "intake.h"
@@ -18,7 +19,7 @@ constexpr int64_t kLeastWindow = 16384;
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
 // A header that claims more is not believed: the window grows when such a front comes.
-constexpr int64_t kWidestFront = 1 << 26;
+constexpr int64_t kWidestFront = 1 << 23;
 // Of a memory budget, not for cells and vertices: stars, lists, the front's map.
 constexpr int64_t kFixedBytes = 256 << 10;
 constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two of 8 bytes
@@ -26,10 +27,12 @@ constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two 
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.
 uint64_t expectedSpan(const Schema& schema) {
   if (schema.front_span < 0) return 0;
+  // A front of more vertices than that comes as a surprise, and the map grows.
+  const int64_t most = kWidestFront;
   const int64_t wide = schema.front_width < 0
                            ? schema.front_span
                            : std::min(schema.front_span / 8, schema.front_width) * 8;
-  return static_cast<uint64_t>(wide);
+  return static_cast<uint64_t>(std::min(wide, most));
 }
 
 double ratioFor(const Schema& schema, const SimplifyOptions& options) {
@@ -103,6 +106,8 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   void finish() override {
+    checkCount("cells", plan_.schema.cell_count, intake_.cellsRead());
+    checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
     intake_.finalizeAll();
     resolveNew();
     decimate(budget_.lastGoal(ledger()));
@@ -115,6 +120,12 @@ class WindowedEngine final : public Simplifier::Engine {
 
  private:
   Topology& mesh() { return core_.window.mesh; }
+
+  static void checkCount(const char* what, int64_t announced, uint64_t came) {
+    if (announced >= 0 && static_cast<uint64_t>(announced) != came)
+      fail(Status::kBadData, "the stream announced %lld %s, %llu came",
+           static_cast<long long>(announced), what, static_cast<unsigned long long>(came));
+  }
 
   // The window is full: simplify it and make room.
   void turn() {
@@ -159,21 +170,29 @@ class WindowedEngine final : public Simplifier::Engine {
   void makeRoom(int64_t front) {
     const int64_t live = mesh().cellEnd();
     int64_t wanted = capacity_;
-    if (options_.window_cells == 0 && plan_.schema.front_cells < 0)
-      wanted = std::max(wanted, front * kFrontsPerWindow);
-    if (live > capacity_ - capacity_ / 8) wanted = std::max(wanted, live + live / 2);
+    if (options_.window_cells == 0) wanted = std::max(wanted, front * kFrontsPerWindow);
+    const bool stuck = live > capacity_ - capacity_ / 8;
+    if (stuck) wanted = std::max(wanted, live + live / 2);
     if (wanted <= capacity_) return;
-    wanted = std::max(wanted, capacity_ + capacity_ / 4);
-    try {
+    wanted = std::min(std::max(wanted, capacity_ + capacity_ / 4), affordable());
+    if (wanted > capacity_) {
       core_.window.growCells(static_cast<size_t>(wanted));
-    } catch (const Error& error) {
-      if (error.status() != Status::kNoMemory) throw;
-      if (capacity_ - live >= std::max<int64_t>(capacity_ / 64, 1)) return;
-      fail(Status::kNoMemory, "the front of the stream, %lld cells, does not fit the window: %s",
-           static_cast<long long>(front), error.text().c_str());
+      capacity_ = wanted;
+      core_.report.window_cells = capacity_;
+    } else if (capacity_ - live < std::max<int64_t>(capacity_ / 64, 1)) {
+      fail(Status::kNoMemory,
+           "the front of the stream, %lld cells, does not fit a window of %lld, and the memory "
+           "budget of %lld bytes allows no more",
+           static_cast<long long>(front), static_cast<long long>(capacity_),
+           static_cast<long long>(options_.memory_bytes));
     }
-    capacity_ = wanted;
-    core_.report.window_cells = capacity_;
+  }
+
+  // The cells for which the budget has room, with the vertices that come with them.
+  int64_t affordable() const {
+    if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
+    const auto left = static_cast<int64_t>(account_.limit() - account_.used());
+    return capacity_ + left * 6 / 7 / static_cast<int64_t>(Core<S>::bytesPerCell(plan_));
   }
 
   // The window's cells beyond its goal are what is left to do of what was read.
@@ -218,6 +237,12 @@ class WindowedEngine final : public Simplifier::Engine {
     name(core_.locked.bad_cells, "flat or folded cells of the input");
     name(core_.locked.by_caller, "vertices locked by the stream");
     core_.report.limited_by = "no legal collapse is left";
+    if (core_.report.window_cells < 2 * core_.report.front_cells)
+      core_.report.limited_by += textOf(
+          "; the window of %lld cells is less than two fronts of %lld: give it more cells or "
+          "memory",
+          static_cast<long long>(core_.report.window_cells),
+          static_cast<long long>(core_.report.front_cells));
     if (!kept.empty()) core_.report.limited_by += "; kept as they are: " + kept;
     core_.report.limited_by += textOf(
         "; refused: %lld collapses that would turn a cell over or flatten it, %lld that would "

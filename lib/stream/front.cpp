@@ -5,7 +5,7 @@
 namespace tetstream {
 
 // A ring of 4096 entries is 32 KB: less would save nothing.
-constexpr unsigned kSmallestBits = 12, kLargestFirstBits = 22;
+constexpr unsigned kSmallestBits = 12, kLargestFirstBits = 20;
 // The ring doubles when more than 1/8 of its size was displaced into the hash.
 constexpr unsigned kDisplacedShare = 8;
 

@@ -8,9 +8,9 @@ diagonal of the bounding box.
 
 VTK's run is, of its two runs (plain: as it is; scaled: helped by scaling, see vtk_decimate.cpp),
 the one with the lower RMS among those that kept at most 1.05 times the target. For Hausdorff it is
-the smaller of those runs. Ratios to it are taken after raising both sides to 0.001 %. Its errors are
-those recorded in vtk_runs.csv, or with --vtk-here those of runs on this machine, which are kept in
-the folder --work.
+the smaller of those runs. Ratios to it are taken after raising both sides to 0.001 %. Its errors
+are those recorded in vtk_runs.csv, or with --vtk-here those of runs on this machine, which are
+kept in the folder --work.
 
 Speed is the wall time of the whole process, .tets file to .tets file, against that of VTK's filter
 alone, for the same ratio: medians of --rounds rounds in which both run in turn.
@@ -51,7 +51,7 @@ def arguments():
     parser.add_argument("--work", default="build/bench", help="where VTK's verdicts are kept")
     parser.add_argument("--samples", type=int, default=200000, help="of the judge")
     parser.add_argument("--json", metavar="FILE", help="also write all verdicts there")
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="further words for simplify")
+    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
 
@@ -194,8 +194,8 @@ def cells_of(r):
             *(with_vtk(r[k], r["vtk"].get(k)) for k in ERRORS),
             ("kept" if r["topology_kept"] else "CHANGED") + ("" if r["valid"] else ", NOT VALID"),
             str(r["new_non_manifold"]), f"{r['seconds']:.3f}", f"{r['cpu_seconds']:.3f}",
-            f"{r['cells_per_second'] / 1e6:.3f}", with_vtk(harness.megabytes(r["peak_bytes"]), vtk_peak),
-            *ratios]
+            f"{r['cells_per_second'] / 1e6:.3f}",
+            with_vtk(harness.megabytes(r["peak_bytes"]), vtk_peak), *ratios]
 
 
 def print_means(results, ratio, mode):

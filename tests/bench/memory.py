@@ -3,7 +3,8 @@
 
 Each line of the table is
 
-    tetstream generate KIND --cells N - | tetstream simplify - OUT.tets --ratio R --field density ...
+    tetstream generate KIND --cells N - |
+    tetstream simplify - OUT.tets --ratio R --field density ...
 
 and shows the peak resident set of the simplifier as the system reports it (1 MB = 2^20 bytes), its
 wall time while both processes run, and whether the target was reached; missing it, or more than
@@ -20,7 +21,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import harness  # noqa: E402
 
 HEAD = ("kind", "cells", "options", "peak MB", "bytes / front cell", "cells out", "target",
-        "s", "M cells/s", "front cells", "window cells")
+        "s", "CPU s", "M cells/s", "front cells", "window cells")
 
 
 def arguments():
@@ -33,7 +34,7 @@ def arguments():
     parser.add_argument("--window", type=int, metavar="CELLS", help="the same for all sizes")
     parser.add_argument("--compress", choices=("yes", "no"), default="yes", help="OUT.tets")
     parser.add_argument("--limit", type=float, metavar="MB", help="more than this is a failure")
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="further words for simplify")
+    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
 
@@ -66,6 +67,7 @@ def main():
                     f"{harness.megabytes(taken['peak_bytes']):.1f}",
                     f"{taken['peak_bytes'] / max(report['front_cells'], 1):.0f}",
                     report["cells_out"], "MISSED" if missed else "reached", f"{taken['wall']:.2f}",
+                    f"{taken['user'] + taken['system']:.2f}",
                     f"{report['cells_in'] / taken['wall'] / 1e6:.3f}", report["front_cells"],
                     report["window_cells"]]
             harness.print_row(line)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""smoke.py --build BUILD: the measurements work. Runs them on meshes of some thousand cells, without
-VTK, and looks whether their tables make sense; checks the arithmetic of the comparison."""
+"""smoke.py --build BUILD: the measurements work. Runs them on meshes of some thousand cells,
+without VTK, and looks whether their tables make sense; checks the arithmetic of the comparison."""
 import argparse
 import os
 import subprocess

@@ -28,7 +28,7 @@ def arguments():
     parser.add_argument("--ratio", type=float, default=0.1)
     parser.add_argument("--rounds", type=int, default=3, help="runs for the time; 5 is fair")
     parser.add_argument("--vtk-cells", type=float, default=4e6)
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="further words for simplify")
+    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
 

@@ -31,7 +31,7 @@ ended() {
   [[ $code == "$1" ]] || fail "exit code $code, not $1"
 }
 
-has_temporary() { compgen -G "$1.??????" >/dev/null; }
+has_temporary() { compgen -G "$1.*-*" >/dev/null; }
 waits_in_read() {
   # The state of a process that sleeps; a program under a launcher needs some time to get there.
   [[ -r /proc/$pid/stat && $(<"/proc/$pid/stat") == *") S "* ]]

@@ -3,7 +3,7 @@
 
 Simplifies a real mesh at each ratio, by the error of one field or (without --field) by its geometry
 alone, and has an independent judge look at the result. Every one of these must hold:
-  valid       no cell inverted, flat or folded, none twice, none upon another, that was not so before
+  valid       no cell inverted, flat or folded, none twice, none upon another, unless it was before
   topology    Euler characteristics, components and counts of non-manifold elements as before; no
               new non-manifold face, edge or vertex
   reached     never above the target, and at most the larger of 0.2 % and 10 cells below it; the

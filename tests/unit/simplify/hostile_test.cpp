@@ -111,16 +111,27 @@ TEST(HostileStream, OfTheLargestNumbersStaysFinite) {
     for (size_t f = 0; f < 2; ++f) EXPECT_TRUE(std::isfinite(result.out.mesh.field(f, v)));
 }
 
-TEST(HostileStream, WithAWrongNumberOfCellsIsStillSimplified) {
-  const TestMesh mesh = fullGrid(4, 4, 8);
+TEST(HostileStream, WithAWrongNumberOfCellsIsRefused) {
   for (int64_t claimed : {int64_t{0}, int64_t{1}, int64_t{70}, int64_t{1} << 20}) {
-    TestMesh lying = mesh;
+    TestMesh lying = fullGrid(4, 4, 8);
     lying.schema.cell_count = claimed;
-    lying.schema.front_cells = claimed / 2;
-    lying.schema.front_span = claimed;
     Cut cut;
     cut.say_counts = false;
-    const Result result = simplified(lying, toRatio(0.2), cut);
+    const auto [status, text] = thrownBy([&] { simplified(lying, toRatio(0.2), cut); });
+    EXPECT_EQ(status, Status::kBadData) << claimed;
+    EXPECT_NE(text.find(textOf("announced %lld cells, 768 came", static_cast<long long>(claimed))),
+              std::string::npos)
+        << text;
+  }
+}
+
+TEST(HostileStream, WithAWrongFrontIsStillSimplified) {
+  const TestMesh mesh = fullGrid(4, 4, 8);
+  for (int64_t claimed : {int64_t{0}, int64_t{1}, int64_t{70}, int64_t{1} << 40}) {
+    TestMesh lying = mesh;
+    lying.schema.front_cells = claimed;
+    lying.schema.front_span = lying.schema.front_width = claimed;
+    const Result result = simplified(lying, toRatio(0.2));
     expectSound(mesh, result);
     EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
     EXPECT_LT(result.out.mesh.cellCount(), mesh.cellCount() / 3);
