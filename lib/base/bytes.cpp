@@ -193,9 +193,13 @@ class TemporaryNamedSink final : public ByteSink {
     // A link stays one: what it points to is replaced.
     const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
     if (real) target_ = real.get();
+    // A name has 255 bytes at most: a long one leaves no room for a suffix.
+    const size_t slash = target_.find_last_of('/') + 1;
+    const std::string stem =
+        target_.size() - slash > 220 ? target_.substr(0, slash) + ".tetstream" : target_;
     // note: not mkstemp, which would not give the file the mode that the user's umask allows.
     for (unsigned attempt = 0; fd_ < 0; ++attempt) {
-      temporary_ = textOf("%s.%lx-%x", target_.c_str(), static_cast<long>(::getpid()), attempt);
+      temporary_ = textOf("%s.%lx-%x", stem.c_str(), static_cast<long>(::getpid()), attempt);
       fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (fd_ < 0 && errno != EEXIST) failIo(path, "create");
     }

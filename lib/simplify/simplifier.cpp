@@ -27,8 +27,7 @@ constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two 
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.
 uint64_t expectedSpan(const Schema& schema) {
   if (schema.front_span < 0) return 0;
-  // A front of more vertices than that comes as a surprise, and the map grows.
-  const int64_t most = kWidestFront;
+  const int64_t most = 1 << 20;  // a header that claims more is not believed: the map grows
   const int64_t wide = schema.front_width < 0
                            ? schema.front_span
                            : std::min(schema.front_span / 8, schema.front_width) * 8;
@@ -45,6 +44,17 @@ double ratioFor(const Schema& schema, const SimplifyOptions& options) {
   return std::min(1.0, static_cast<double>(options.cells) / static_cast<double>(schema.cell_count));
 }
 
+// The window that a memory budget allows. A seventh is left for meshes with more vertices to a
+// cell than usual.
+int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
+  if (options.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
+  const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
+  const int64_t cells =
+      (options.memory_bytes - kFixedBytes - map) * 6 / 7 / static_cast<int64_t>(bytes_per_cell);
+  return std::max<int64_t>(cells, 64);
+}
+
+// A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
 int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
   const int64_t front = std::min(schema.front_cells, kWidestFront);
   int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
@@ -52,15 +62,7 @@ int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t b
                                            : kFirstWindow;
   if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
   if (options.window_cells > 0) return cells;
-  // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
-  if (options.memory_bytes > 0) {
-    const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
-    // A seventh is left for meshes with more vertices to a cell than usual.
-    const int64_t fitting =
-        (options.memory_bytes - kFixedBytes - map) * 6 / 7 / static_cast<int64_t>(bytes_per_cell);
-    cells = std::min(cells, std::max<int64_t>(fitting, 64));
-  }
-  return cells;
+  return std::min(cells, fittingCells(schema, options, bytes_per_cell));
 }
 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
@@ -174,7 +176,7 @@ class WindowedEngine final : public Simplifier::Engine {
     const bool stuck = live > capacity_ - capacity_ / 8;
     if (stuck) wanted = std::max(wanted, live + live / 2);
     if (wanted <= capacity_) return;
-    wanted = std::min(std::max(wanted, capacity_ + capacity_ / 4), affordable());
+    wanted = std::min(std::max(wanted, capacity_ + capacity_ / 4), affordable(stuck));
     if (wanted > capacity_) {
       core_.window.growCells(static_cast<size_t>(wanted));
       capacity_ = wanted;
@@ -188,11 +190,12 @@ class WindowedEngine final : public Simplifier::Engine {
     }
   }
 
-  // The cells for which the budget has room, with the vertices that come with them.
-  int64_t affordable() const {
+  // The largest window that the budget allows; a stuck one may take half of what is left beyond.
+  int64_t affordable(bool stuck) const {
     if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
-    const auto left = static_cast<int64_t>(account_.limit() - account_.used());
-    return capacity_ + left * 6 / 7 / static_cast<int64_t>(Core<S>::bytesPerCell(plan_));
+    const auto bytes = Core<S>::bytesPerCell(plan_);
+    const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2 / bytes);
+    return std::max(fittingCells(plan_.schema, options_, bytes), stuck ? capacity_ + left : 0);
   }
 
   // The window's cells beyond its goal are what is left to do of what was read.

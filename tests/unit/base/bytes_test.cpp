@@ -298,5 +298,34 @@ TEST(SpoolFile, SaysWhichFolderItCannotUse) {
   EXPECT_EQ(text.find("/nowhere/"), 0u) << text;
 }
 
+TEST(CreateFile, TakesTheLongestNames) {
+  const Folder folder;
+  const std::string name(255, 'n');
+  writeFile(folder.file(name), "mesh");
+  EXPECT_EQ(contents(folder.file(name)), "mesh");
+  EXPECT_EQ(folder.names(), Names{name});
+}
+
+TEST(CreateFile, KeepsTheModeOfWhatItReplaces) {
+  const Folder folder;
+  writeFile(folder.file("private"), "old");
+  ASSERT_EQ(::chmod(folder.file("private").c_str(), 0600), 0);
+  writeFile(folder.file("private"), "new");
+  struct stat info;
+  ASSERT_EQ(::stat(folder.file("private").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 07777, 0600u);
+}
+
+TEST(CreateFile, WritesThroughALink) {
+  const Folder folder;
+  writeFile(folder.file("file"), "old");
+  ASSERT_EQ(::symlink("file", folder.file("link").c_str()), 0);
+  writeFile(folder.file("link"), "new");
+  EXPECT_EQ(contents(folder.file("file")), "new");
+  struct stat info;
+  ASSERT_EQ(::lstat(folder.file("link").c_str(), &info), 0);
+  EXPECT_TRUE(S_ISLNK(info.st_mode));
+}
+
 }  // namespace
 }  // namespace tetstream::test

@@ -262,6 +262,26 @@ TEST(OrderedSource, LeavesUnusedPointsOut) {
   }
 }
 
+// What an unused point holds must not reach the sweep, NaN least of all.
+TEST(OrderedSource, IsNotDisturbedByUnusedPoints) {
+  const TestMesh mesh = fullGrid(3, 3, 12);
+  const Ordered plain = ordered(mesh, "auto", false);
+  for (double value : {0.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    // An unused point before each used one.
+    std::vector<double> points;
+    std::vector<int64_t> cells;
+    for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+      points.insert(points.end(), {value, value, value});
+      for (int axis = 0; axis < 3; ++axis) points.push_back(mesh.position(v, axis));
+    }
+    for (int64_t corner : mesh.cells) cells.push_back(2 * corner + 1);
+    const Ordered result = ordered(makeMesh(ScalarType::kFloat64, points, cells), "auto", true);
+    EXPECT_EQ(result.schema.front_cells, plain.schema.front_cells) << value;
+    EXPECT_EQ(result.schema.box_max, plain.schema.box_max) << value;
+    EXPECT_TRUE(result.out.mesh.cells == plain.out.mesh.cells) << value;
+  }
+}
+
 TEST(OrderedSource, TakesMeshesWithoutCellsOrPoints) {
   const TestMesh none = makeMesh(ScalarType::kFloat32, {}, {});
   const TestMesh points = makeMesh(ScalarType::kFloat32, {0, 0, 0, 1, 2, 3}, {});

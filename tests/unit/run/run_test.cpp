@@ -163,6 +163,20 @@ TEST(Convert, CopiesAStream) {
   EXPECT_EQ(told.back(), 1);
 }
 
+TEST(Convert, RefusesAStreamThatBreaksTheRules) {
+  TestMesh mesh = richMesh();
+  mesh.cells[4] = mesh.cells[5];
+  Recorder out;
+  Input input = streamed(mesh);
+  try {
+    convert(input, out, {}, {});
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::kBadData);
+    EXPECT_EQ(error.text().rfind("cell 1: ", 0), 0u) << error.text();
+  }
+}
+
 TEST(Convert, OrdersAnIndexedMesh) {
   TestMesh mesh = shuffled(richMesh(), 7);
   Recorder out;

@@ -49,6 +49,11 @@ TEST(SimplifierTarget, IsReachedForAStep) {
   expectAllRatiosReached(
       gridWith(side(), [](double, double, double z) { return z < 4.2 ? 0 : 1e6; }));
 }
+// 1 / range is no float32 any more: the field counts as constant.
+TEST(SimplifierTarget, IsReachedForARangeThatCannotBeDividedBy) {
+  expectAllRatiosReached(gridWith(
+      side(), [](double x, double, double) { return 1e-41 * x; }, ScalarType::kFloat32));
+}
 TEST(SimplifierTarget, IsReachedWithoutAField) {
   expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0.05));
   expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0, ScalarType::kFloat32));
@@ -161,6 +166,28 @@ TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
   }
   EXPECT_GT(held, 0);
   EXPECT_GT(refused, 5);
+}
+
+// A window that starts small and grows must not fail with more memory where it held with less.
+TEST(SimplifierMemory, SufficesIfLessDid) {
+  const TestMesh mesh = gridWith(slowRun() ? 6 : 14,
+                                 [](double x, double y, double z) { return std::sin(x) + y * z; });
+  int64_t sufficed = 0;
+  for (int64_t limit = 300000; limit < 6000000; limit += limit / (slowRun() ? 2 : 12)) {
+    SimplifyOptions options = toRatio(0.2, 0);
+    options.memory_bytes = limit;
+    Recorder out;
+    Simplifier simplifier(options, out, {});
+    Cut cut;
+    cut.say_counts = false;
+    MeshStream stream(mesh, cut);
+    const auto [status, text] = thrownBy([&] { copyStream(stream, simplifier); });
+    if (status == Status::kOk && sufficed == 0) sufficed = limit;
+    if (sufficed > 0) {
+      EXPECT_EQ(status, Status::kOk) << limit << " fails, " << sufficed << " sufficed: " << text;
+    }
+  }
+  EXPECT_GT(sufficed, 0);
 }
 
 TEST(SimplifierProgress, GrowsAndEndsAtTheWhole) {
