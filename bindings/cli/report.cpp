@@ -21,7 +21,7 @@ static std::string frontText(const tetstream_report& r) {
 }
 
 static std::string memoryText(const tetstream_report& r) {
-  const std::string window = megabytes(r.peak_window_bytes) + " of it window and order";
+  std::string window = megabytes(r.peak_window_bytes) + " of it window";
   if (r.peak_resident_bytes == 0) return window;
   return megabytes(r.peak_resident_bytes) + " at most, " + window;
 }

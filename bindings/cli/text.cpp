@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -43,7 +44,7 @@ std::string shortCount(double count) {
 std::string clockText(double seconds) {
   // A rate of nearly nothing makes times that do not fit; nobody waits that long anyway.
   if (!(seconds < 3.6e6)) return "> 999 h";
-  const long s = static_cast<long>(seconds + 0.5);
+  const long s = std::lround(seconds);
   if (s >= 3600) return textOf("%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
   return textOf("%ld:%02ld", s / 60, s % 60);
 }

@@ -18,6 +18,7 @@ tetstream_status tetstream_convert(tetstream_reader* reader, tetstream_writer* w
                                    tetstream_progress_callback progress, void* user) {
   return guard(__func__, writer, [&](tetstream_writer& w) {
     needPlace(reader, "reader");
+    needCreated(*reader);
     needState(*reader, State::kReady);
     Output& output = outputOf(w);
     output.needReady();

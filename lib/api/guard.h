@@ -52,6 +52,13 @@ void needState(const H& handle, State state) {
   if (handle.state != state) failState(H::kNoun, handle.state);
 }
 
+// For a handle that another one's function is given: if it could not be created, says why.
+template <class H>
+void needCreated(const H& handle) {
+  if (handle.state == State::kFailed)
+    fail(Status::kBadState, "the %s could not be created: %s", H::kNoun, handle.message.text());
+}
+
 // A body gives a Status or nothing, which means kOk.
 template <class Body, class... Arguments>
 tetstream_status statusOf(Body&& body, Arguments&... arguments) {

@@ -5,6 +5,7 @@
 namespace tetstream {
 
 Output& outputOf(const tetstream_writer& writer) {
+  needCreated(writer);
   if (!writer.output) failState(writer.kNoun, writer.state);
   return *writer.output;
 }

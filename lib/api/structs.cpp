@@ -71,6 +71,7 @@ Schema schemaOf(const tetstream_stream_info& info) {
 
 static std::vector<tetstream_column> publicColumns(const std::vector<Column>& columns) {
   std::vector<tetstream_column> out;
+  out.reserve(columns.size());
   for (const Column& c : columns)
     out.push_back({c.name.c_str(), c.components, static_cast<int32_t>(c.type)});
   return out;

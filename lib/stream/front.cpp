@@ -4,8 +4,8 @@
 
 namespace tetstream {
 
-// A ring of 4096 entries is 32 KB: less would save nothing.
-constexpr unsigned kSmallestBits = 12, kLargestFirstBits = 20;
+// The first ring has 1024 entries, 8 KB; one that a header asks for has 2^20 at most, 8 MB.
+constexpr unsigned kSmallestBits = 10, kLargestFirstBits = 20;
 // The ring doubles when more than 1/8 of its size was displaced into the hash.
 constexpr unsigned kDisplacedShare = 8;
 

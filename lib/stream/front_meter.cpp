@@ -6,13 +6,15 @@
 
 namespace tetstream {
 
+constexpr size_t kFirstRows = 256;
+
 FrontMeter::FrontMeter(Account& account)
     : front_(account), vertex_head_(account), corner_next_(account), pending_(account) {}
 
 uint32_t FrontMeter::takeVertex() {
   if (vertex_free_ == kNone) {
     const size_t size = vertex_head_.size();
-    vertex_head_.resize(size ? 2 * size : 4096);
+    vertex_head_.resize(size ? 2 * size : kFirstRows);
     for (size_t i = vertex_head_.size(); i-- > size;) {
       vertex_head_[i] = vertex_free_;
       vertex_free_ = static_cast<uint32_t>(i);
@@ -26,7 +28,7 @@ uint32_t FrontMeter::takeVertex() {
 uint32_t FrontMeter::takeCell() {
   if (cell_free_ == kNone) {
     const size_t size = pending_.size();
-    pending_.resize(size ? 2 * size : 4096);
+    pending_.resize(size ? 2 * size : kFirstRows);
     corner_next_.resize(4 * pending_.size());
     for (size_t i = pending_.size(); i-- > size;) {
       corner_next_[4 * i] = cell_free_;
