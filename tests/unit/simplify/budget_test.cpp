@@ -54,6 +54,20 @@ TEST(SimplifierTarget, IsReachedForARangeThatCannotBeDividedBy) {
   expectAllRatiosReached(gridWith(
       side(), [](double x, double, double) { return 1e-41 * x; }, ScalarType::kFloat32));
 }
+// Layers that shrink to 1e-9 of the first: float32 errors underflow, and the bound that rises from
+// window to window must not stand still at nothing.
+TEST(SimplifierTarget, IsReachedWhereErrorsUnderflow) {
+  const TestMesh grid = fullGrid(4, 4, slowRun() ? 40 : 80);
+  std::vector<double> points;
+  for (size_t v = 0; v < grid.vertexCount(); ++v) {
+    const double size = std::pow(1.3, -grid.position(v, 2));
+    for (int axis = 0; axis < 2; ++axis)
+      points.push_back(0.3 * size * (grid.position(v, axis) - 2));
+    points.push_back(-size);
+  }
+  const TestMesh mesh = makeMesh(ScalarType::kFloat32, points, grid.cells);
+  expectSound(mesh, simplified(mesh, toRatio(0.5, 100)));
+}
 TEST(SimplifierTarget, IsReachedWithoutAField) {
   expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0.05));
   expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0, ScalarType::kFloat32));
