@@ -68,7 +68,7 @@ TETSTREAM_API const char *tetstream_version_text(void);
 
 typedef int32_t tetstream_status;
 #define TETSTREAM_OK 0
-#define TETSTREAM_END 1            /* a reader has no more events */
+#define TETSTREAM_END 1            /* no more events; reserved: no function returns it yet */
 #define TETSTREAM_TARGET_MISSED 2  /* the output is complete and valid, but has more cells than
                                       asked for; the report says what stopped it */
 #define TETSTREAM_BAD_ARGUMENT (-1)
