@@ -12,6 +12,9 @@ the smaller of those runs. Ratios to it are taken after raising both sides to 0.
 are those recorded in vtk_runs.csv, or with --vtk-here those of runs on this machine, which are
 kept in the folder --work.
 
+Shapes: the share of cells whose smallest dihedral angle is below 1 and below 10 degrees, beside it
+the input's and, with --vtk-here, that of VTK's run.
+
 Speed is the wall time of the whole process, .tets file to .tets file, against that of VTK's filter
 alone, for the same ratio: medians of --rounds rounds in which both run in turn.
 """
@@ -30,9 +33,11 @@ import harness  # noqa: E402
 
 FLOOR = 0.001  # percent, below which two errors count as the same
 ERRORS = ("rms", "max", "hausdorff")
+SHAPES = ("percent_min_dihedral_below_1", "percent_min_dihedral_below_10")  # as the judge says
 HEAD = ("mesh", "field", "ratio", "mode", "asked", "got", "RMS % (VTK)", "max % (VTK)",
-        "Hausdorff % (VTK)", "topology", "new non-manifold", "s", "CPU s", "M cells/s",
-        "peak MB (VTK)", "RMS / VTK", "max / VTK", "Hausdorff / VTK", "speed / VTK")
+        "Hausdorff % (VTK)", "below 1 degree % (input, VTK)", "below 10 degrees % (input, VTK)",
+        "topology", "new non-manifold", "s", "CPU s", "M cells/s", "peak MB (VTK)", "RMS / VTK",
+        "max / VTK", "Hausdorff / VTK", "speed / VTK")
 
 
 def arguments():
@@ -42,7 +47,8 @@ def arguments():
     parser.add_argument("--rows", nargs="+", metavar="MESH:FIELD", help="default: all; MESH is a "
                         "name in TETSTREAM_MESHES or a path")
     parser.add_argument("--ratios", nargs="+", type=float, default=[0.1], metavar="R")
-    parser.add_argument("--modes", nargs="+", default=["paper"], metavar="MODE")
+    parser.add_argument("--modes", nargs="+", default=["default"], metavar="MODE",
+                        help="of simplify; default: the one that it has if none is named")
     parser.add_argument("--fronts", type=float, metavar="N",
                         help="the window holds N times the front (default: as the command does)")
     parser.add_argument("--rounds", type=int, default=1, help="runs for the time; 5 is fair")
@@ -90,14 +96,15 @@ class Vtk:
 
     def judged_run(self, path, field, ratio, variant):
         name = digest(path, self.program.program, field, str(ratio), variant,
-                      str(self.judge.samples))
+                      str(self.judge.samples), *SHAPES)
         kept = os.path.join(self.work, f"vtk-{name}.json")
         if os.path.isfile(kept):
             with open(kept, encoding="ascii") as file:
                 return json.load(file)
         run = self.program.decimate(path, field, ratio, variant)
         verdict = self.judge(path, self.program.path("out.vtu"), field)
-        result = {"run": variant, "kept": run["cells_out"] / run["cells_in"], **errors(verdict)}
+        result = {"run": variant, "kept": run["cells_out"] / run["cells_in"], **errors(verdict),
+                  **shapes(verdict["simplified"])}
         os.makedirs(self.work, exist_ok=True)
         with open(kept, "w", encoding="ascii") as file:
             json.dump(result, file)
@@ -116,6 +123,10 @@ def errors(verdict):
     return {"rms": verdict["field"]["rms"],
             "max": verdict["field"]["max_incl_outside_by_nearest"],
             "hausdorff": verdict["boundary"]["hausdorff"]}
+
+
+def shapes(described):
+    return {name: described[name] for name in SHAPES}
 
 
 def against(ours, runs):
@@ -155,8 +166,8 @@ class Comparison:
 
     def line(self, name, path, field, ratio, mode, stream, window):
         out = self.tetstream.path("out.tets")
-        words = [stream, out, "--ratio", ratio, "--field", field, "--mode", mode, *window,
-                 *self.args.options]
+        words = [stream, out, "--ratio", ratio, "--field", field, *window,
+                 *([] if mode == "default" else ["--mode", mode]), *self.args.options]
         runs = self.vtk.runs(name, path, field, ratio)
         theirs = min(runs, key=lambda run: run["rms"]) if runs else {}
         report, times, vtk_times = self.timed_runs(words, path, field, ratio, theirs.get("run"))
@@ -167,6 +178,8 @@ class Comparison:
         wall = statistics.median(t["wall"] for t in times)
         result = {"mesh": name, "field": field, "ratio": ratio, "mode": mode,
                   "asked": report["target_cells"], "got": report["cells_out"], **ours,
+                  "shapes": shapes(verdict["simplified"]),
+                  "shapes_of_input": shapes(verdict["original"]),
                   "vtk": theirs, "to_vtk": ratios, "valid": verdict["valid"],
                   "topology_kept": verdict["reduction"]["topology_kept"],
                   "new_non_manifold": harness.new_non_manifold(verdict), "seconds": wall,
@@ -186,12 +199,19 @@ def with_vtk(ours, theirs):
     return f"{ours:.3g} ({theirs:.3g})" if theirs is not None else f"{ours:.3g} (-)"
 
 
+def shape_cells(r):
+    for name in SHAPES:
+        beside = [r["shapes_of_input"][name], r["vtk"].get(name)]
+        texts = ["-" if share is None else f"{share:.3g}" for share in beside]
+        yield f"{r['shapes'][name]:.3g} ({', '.join(texts)})"
+
+
 def cells_of(r):
     """The cells of a line of the table."""
     vtk_peak = harness.megabytes(r["vtk_peak_bytes"]) if "vtk_peak_bytes" in r else None
     ratios = [f"{r['to_vtk'][k]:.2f}" if k in r["to_vtk"] else "-" for k in (*ERRORS, "speed")]
     return [r["mesh"], r["field"], f"{r['ratio']:g}", r["mode"], str(r["asked"]), str(r["got"]),
-            *(with_vtk(r[k], r["vtk"].get(k)) for k in ERRORS),
+            *(with_vtk(r[k], r["vtk"].get(k)) for k in ERRORS), *shape_cells(r),
             ("kept" if r["topology_kept"] else "CHANGED") + ("" if r["valid"] else ", NOT VALID"),
             str(r["new_non_manifold"]), f"{r['seconds']:.3f}", f"{r['cpu_seconds']:.3f}",
             f"{r['cells_per_second'] / 1e6:.3f}",
@@ -205,7 +225,7 @@ def print_means(results, ratio, mode):
     for k in (*ERRORS, "speed"):
         values = [r["to_vtk"][k] for r in chosen if k in r["to_vtk"]]
         means.append(f"{statistics.geometric_mean(values):.3f}" if values else "-")
-    harness.print_row(["**geometric mean**", "", f"{ratio:g}", mode] + [""] * 11 + means)
+    harness.print_row(["**geometric mean**", "", f"{ratio:g}", mode] + [""] * 13 + means)
 
 
 def main():

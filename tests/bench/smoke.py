@@ -1,32 +1,62 @@
 #!/usr/bin/python3
 """smoke.py --build BUILD: the measurements work. Runs them on meshes of some thousand cells,
-without VTK, and looks whether their tables make sense; checks the arithmetic of the comparison."""
+without VTK, and looks whether their tables make sense; checks the arithmetic of the comparison.
+Those that ask the judge are left out where the environment names none."""
 import argparse
 import os
 import subprocess
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import compare  # noqa: E402
+import harness  # noqa: E402 (compare says where it is)
+
+
+def printed(build, script, *words):
+    done = subprocess.run([sys.executable, os.path.join(HERE, script), "--build", build, *words],
+                          check=True, stdout=subprocess.PIPE, text=True)
+    return done.stdout.splitlines()
 
 
 def table(build, script, *words):
     """The lines of the table that a script prints, each as {column: text}."""
-    done = subprocess.run([sys.executable, os.path.join(HERE, script), "--build", build, *words],
-                          check=True, stdout=subprocess.PIPE, text=True)
-    rows = [line.strip("| \n").split(" | ") for line in done.stdout.splitlines()]
+    rows = [line[2:-2].split(" | ") for line in printed(build, script, *words)]
     return [dict(zip(rows[0], row)) for row in rows[2:]]
 
 
 def check_speed(build):
-    rows = table(build, "speed.py", "--cells", "3000", "--rounds", "1", "--vtk-cells", "0")
-    assert [row["mesh"] for row in rows] == ["fluid", "ball"], rows
+    rows = table(build, "speed.py", "--cells", "3000", "--rounds", "1", "--vtk-cells", "0",
+                 "--ratio", "0.5", "0.1")
+    assert [(row["mesh"], row["ratio"]) for row in rows] == [
+        (kind, ratio) for kind in ("fluid", "ball") for ratio in ("0.5", "0.1")], rows
     for row in rows:
         assert 1000 < int(row["cells"]) < 9000, row
         assert 0.9 < float(row["got / asked"]) <= 1, row
         assert float(row["s"]) > 0 and float(row["M cells/s"]) > 0, row
+        assert float(row["ns / cell"]) > 0, row
         assert row["speed / VTK"] == "-", row
+
+
+def check_calibration(build):
+    lines = printed(build, "speed.py", "--cells", "500", "--kinds", "ball", "--rounds", "1",
+                    "--vtk-cells", "0", "--calibrate")
+    assert [line.split(":")[0] for line in lines[-2:]] == ["Before", "After"], lines
+    for line in lines[-2:]:
+        # Nothing is slower than what is near, and no machine is a thousand times off.
+        words = line.split()
+        times = [float(words[i - 1]) for i, word in enumerate(words) if word == "in"]
+        assert len(times) == 4 and 0.2 < times[0] < times[3] < 3000, line
+        assert 0.1 < float(words[-2]) < 3000, line
+
+
+def check_slope(build):
+    rows = table(build, "memory.py", "--slope", "--windows", "2000", "20000", "--fills", "2")
+    assert len(rows) == 10, rows
+    for small, large in zip(rows[::2], rows[1::2]):
+        assert (small["window cells"], large["window cells"]) == ("2000", "20000"), (small, large)
+        assert 10 < float(large["bytes / cell of its arrays"]) < 500, large
 
 
 def check_memory(build):
@@ -41,6 +71,34 @@ def check_memory_limit(build):
     done = subprocess.run([sys.executable, script, "--build", build, "--cells", "1000", "--limit",
                            "0.1"], check=False, stdout=subprocess.DEVNULL)
     assert done.returncode == 1, "a limit of 0.1 MB was kept"
+
+
+def fluid(build, folder):
+    """A mesh of some thousand cells."""
+    tetstream, _ = harness.bench_programs(build)
+    path = os.path.join(folder, "fluid.vtu")
+    stream = os.path.join(folder, "fluid.tets")
+    tetstream.run("generate", "fluid", "--cells", 5000, stream, "--quiet")
+    return tetstream.convert(stream, path) + ":density"
+
+
+def check_windows(build, mesh):
+    rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000")
+    assert [row["window"] for row in rows] == ["in core", "4"] * 2, rows
+    core, window = rows[:2]
+    assert core["window cells / cells"] == "1.000", core
+    assert 0 < float(window["window cells / cells"]) < 1, window
+    for error in ("RMS", "max", "Hausdorff"):
+        assert float(core[error + " %"]) > 0 and core[error + " / in core"] == "1.00", core
+        assert 0.2 < float(window[error + " / in core"]) < 5, window
+
+
+def check_compare(build, mesh):
+    row, mean = table(build, "compare.py", "--rows", mesh, "--samples", "2000", "--no-vtk-time")
+    assert row["topology"] == "kept" and row["mode"] == "default", row
+    assert 0 < float(row["RMS % (VTK)"].split()[0]) < 10, row
+    assert 0 <= float(row["below 10 degrees % (input, VTK)"].split()[0]) < 50, row
+    assert mean["mesh"] == "**geometric mean**" and mean["speed / VTK"] == "-", mean
 
 
 def check_arithmetic():
@@ -61,8 +119,17 @@ def main():
     build = parser.parse_args().build
     check_arithmetic()
     check_speed(build)
+    check_calibration(build)
     check_memory(build)
     check_memory_limit(build)
+    check_slope(build)
+    if not os.path.isdir(os.environ.get("TETSTREAM_JUDGE", "")):
+        return print("not run: what asks the judge")
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        mesh = fluid(build, folder)
+        check_windows(build, mesh)
+        check_compare(build, mesh)
+    return None
 
 
 if __name__ == "__main__":

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """Speed of `tetstream simplify`, .tets file to .tets file, on generated meshes of several sizes.
+`ns / cell` is of processor time, per cell of the input.
 
 With VTK's filter (built when VTK was found), its time for the same mesh and ratio beside ours:
 `Update()` alone of the run helped by scaling (see vtk_decimate.cpp), our whole process; both in
 turn, medians of --rounds. VTK is left out above --vtk-cells, since it holds the mesh in memory.
+With --calibrate two lines below the table say how fast the machine's memory was before and after.
 """
 import argparse
 import os
@@ -13,8 +15,8 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import harness  # noqa: E402
 
-HEAD = ("mesh", "cells", "got / asked", "s", "CPU s", "M cells/s", "peak MB", "VTK got / asked",
-        "VTK s", "VTK CPU s", "VTK peak MB", "speed / VTK")
+HEAD = ("mesh", "cells", "ratio", "got / asked", "s", "CPU s", "M cells/s", "ns / cell", "peak MB",
+        "VTK got / asked", "VTK s", "VTK CPU s", "VTK peak MB", "speed / VTK")
 
 
 def arguments():
@@ -25,9 +27,10 @@ def arguments():
     parser.add_argument("--cells", nargs="+", type=float, default=[1e5, 1e6, 1e7], metavar="N")
     parser.add_argument("--mesh", nargs="+", default=[], metavar="MESH:FIELD", help="real meshes, "
                         "too: a name in TETSTREAM_MESHES or a path")
-    parser.add_argument("--ratio", type=float, default=0.1)
+    parser.add_argument("--ratio", nargs="+", type=float, default=[0.1], metavar="R")
     parser.add_argument("--rounds", type=int, default=3, help="runs for the time; 5 is fair")
     parser.add_argument("--vtk-cells", type=float, default=4e6)
+    parser.add_argument("--calibrate", action="store_true", help="measure the memory, too")
     parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
@@ -37,20 +40,25 @@ class Speed:
         self.args = args
         self.tetstream, self.vtk = harness.bench_programs(args.build)
 
-    def line(self, name, stream, mesh, field):
+    def lines(self, name, stream, mesh, field):
+        for ratio in self.args.ratio:
+            self.line(name, stream, mesh, field, ratio)
+
+    def line(self, name, stream, mesh, field, ratio):
         """`mesh` is the .vtu of `stream`, or None: VTK is left out."""
-        words = [stream, self.tetstream.path("out.tets"), "--ratio", self.args.ratio, "--field",
-                 field, *self.args.options]
+        words = [stream, self.tetstream.path("out.tets"), "--ratio", ratio, "--field", field,
+                 *self.args.options]
         ours, theirs = [], []
         for _ in range(self.args.rounds):
             report = self.tetstream.simplify(*words)
             ours.append(report["measured"])
             if mesh:
-                theirs.append(self.vtk.decimate(mesh, field, self.args.ratio, "scaled"))
+                theirs.append(self.vtk.decimate(mesh, field, ratio, "scaled"))
         wall = statistics.median(t["wall"] for t in ours)
-        line = [name, report["cells_in"], f"{report['cells_out'] / report['target_cells']:.4f}",
-                f"{wall:.3f}", f"{statistics.median(t['user'] + t['system'] for t in ours):.3f}",
-                f"{report['cells_in'] / wall / 1e6:.3f}",
+        cpu = statistics.median(t["user"] + t["system"] for t in ours)
+        line = [name, report["cells_in"], f"{ratio:g}",
+                f"{report['cells_out'] / report['target_cells']:.4f}", f"{wall:.3f}", f"{cpu:.3f}",
+                f"{report['cells_in'] / wall / 1e6:.3f}", f"{1e9 * cpu / report['cells_in']:.0f}",
                 f"{harness.megabytes(max(t['peak_bytes'] for t in ours)):.1f}"]
         if theirs:
             vtk_wall = statistics.median(t["seconds"] for t in theirs)
@@ -67,23 +75,26 @@ class Speed:
         self.tetstream.run("generate", kind, "--cells", int(cells), stream, "--quiet")
         if self.vtk and cells <= self.args.vtk_cells:
             mesh = self.tetstream.convert(stream, self.tetstream.path("in.vtu"))
-        self.line(kind, stream, mesh, "density")
+        self.lines(kind, stream, mesh, "density")
 
     def real(self, name, field):
         mesh = harness.mesh_path(name)
         stream = self.tetstream.convert(mesh, self.tetstream.path("in.tets"))
-        self.line(f"{name} {field}", stream, mesh if self.vtk else None, field)
+        self.lines(f"{name} {field}", stream, mesh if self.vtk else None, field)
 
 
 def main():
     args = arguments()
     speed = Speed(args)
+    before = harness.calibration(args.build) if args.calibrate else ""
     harness.print_head(HEAD)
     for row in args.mesh:
         speed.real(*row.rsplit(":", 1))
     for kind in args.kinds:
         for cells in args.cells:
             speed.generated(kind, cells)
+    if args.calibrate:
+        print(f"\nBefore: {before}.\nAfter: {harness.calibration(args.build)}.")
 
 
 if __name__ == "__main__":

@@ -142,6 +142,23 @@ def bench_programs(build):
     return Tetstream(os.path.join(build, "bindings", "cli", "tetstream"), measured), vtk
 
 
+def bench_path(build, name):
+    """A program of tests/bench."""
+    path = os.path.join(build, "tests", "bench", name)
+    if not os.path.isfile(path):
+        sys.exit(f"there is no program {path}")
+    return path
+
+
+def calibration(build):
+    """What the machine's memory does now, as a sentence."""
+    found = json.loads(subprocess.run([bench_path(build, "calibrate")], check=True,
+                                      stdout=subprocess.PIPE, text=True).stdout)
+    loads = ", ".join(f"{time:.1f} in {int(size) / 1024:g} MB"
+                      for size, time in found["load_ns"].items())
+    return f"ns per dependent load: {loads}; memcpy {found['memcpy_gb_per_s']:.1f} GB/s"
+
+
 def print_row(cells):
     """A line of a Markdown table."""
     print("| " + " | ".join(map(str, cells)) + " |", flush=True)
