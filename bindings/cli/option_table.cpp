@@ -95,4 +95,10 @@ int64_t getInt64(const tetstream_options* options, int32_t id) {
   return value;
 }
 
+double getDouble(const tetstream_options* options, int32_t id) {
+  double value = 0;
+  check(tetstream_options_get_double(options, id, &value), options);
+  return value;
+}
+
 }  // namespace tetstream::cli

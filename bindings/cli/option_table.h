@@ -25,5 +25,6 @@ struct OptionWords {
 // Throws Failure with the library's sentence for the first that it refuses.
 Options makeOptions(const OptionWords& words);
 int64_t getInt64(const tetstream_options* options, int32_t id);
+double getDouble(const tetstream_options* options, int32_t id);
 
 }  // namespace tetstream::cli

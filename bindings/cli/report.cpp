@@ -32,24 +32,26 @@ static std::string rejectionText(const tetstream_report& r) {
          " other";
 }
 
-std::string reportText(const tetstream_report& r) {
+std::string reportText(const tetstream_report& r, bool counted) {
   std::string ratio;
   if (r.cells_in > 0)
     ratio =
         textOf(", ratio %.4g", static_cast<double>(r.cells_out) / static_cast<double>(r.cells_in));
-  std::string text = row("cells", reductionText(r.cells_in, r.cells_out) + ratio + ", target " +
-                                      countText(r.target_cells)) +
-                     row("vertices", reductionText(r.vertices_in, r.vertices_out)) +
-                     row("time", rateText(r.cells_in, r.seconds)) + row("memory", memoryText(r)) +
-                     row("window", countText(r.window_cells) + " cells at most") +
-                     row("front", frontText(r)) + row("collapses", countText(r.collapses)) +
-                     row("rejected", rejectionText(r)) +
-                     row("largest error", textOf("%.6g", r.largest_error)) +
-                     row("regions", oneLine(r.regions ? r.regions : ""));
+  const std::string target = counted ? ", target " + countText(r.target_cells) : "";
+  std::string text =
+      row("cells", reductionText(r.cells_in, r.cells_out) + ratio + target) +
+      row("vertices", reductionText(r.vertices_in, r.vertices_out)) +
+      row("time", rateText(r.cells_in, r.seconds)) + row("memory", memoryText(r)) +
+      row("window", countText(r.window_cells) + " cells at most") + row("front", frontText(r)) +
+      row("collapses", countText(r.collapses)) + row("rejected", rejectionText(r)) +
+      row("error", textOf("%.3g %% of the range (RMS, estimated)", r.estimated_error)) +
+      row("largest error", textOf("%.6g", r.largest_error)) +
+      row("regions", oneLine(r.regions ? r.regions : ""));
   if (r.locked_cells > 0)
     text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
   if (r.unused_vertices > 0)
     text += row("left out", countText(r.unused_vertices) + " vertices that are in no cell");
+  if (r.reached && *r.reached) text += row("reached", r.reached);
   if (r.limited_by && *r.limited_by) text += row("limited by", oneLine(r.limited_by));
   return text;
 }
@@ -77,10 +79,12 @@ std::string reportJson(const tetstream_report& r, tetstream_status status) {
   add("locked_cells", r.locked_cells);
   add("unused_vertices", r.unused_vertices);
   add("largest_error", r.largest_error);
+  add("estimated_error", r.estimated_error);
   add("seconds", r.seconds);
   add("peak_window_bytes", r.peak_window_bytes);
   add("peak_resident_bytes", r.peak_resident_bytes);
   add("regions", words(r.regions));
+  add("reached", words(r.reached));
   add("limited_by", words(r.limited_by));
   return json.close('}').take();
 }

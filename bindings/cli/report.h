@@ -7,7 +7,8 @@
 
 namespace tetstream::cli {
 
-std::string reportText(const tetstream_report& report);
+// `counted`: a number of cells was asked for, as a ratio or as such.
+std::string reportText(const tetstream_report& report, bool counted);
 // One object with every member of tetstream_report by its name, and the status.
 std::string reportJson(const tetstream_report& report, tetstream_status status);
 

@@ -4,21 +4,29 @@
 
 namespace tetstream::cli {
 
-// Somebody who forgot the target should not get the default one.
+// Somebody who forgot the target, or gave 0 for it, should not get the default one.
 static void needTarget(const Arguments& arguments, const tetstream_options* options) {
-  const bool ratio = arguments.options.has("ratio"), cells = arguments.options.has("cells");
-  if (!ratio && !cells)
-    throw Failure{kUsage, "simplify needs a target: --ratio R (cells out / cells in) or --cells N"};
-  if (ratio && cells) throw Failure{kUsage, "--ratio and --cells are two targets: give one"};
-  if (cells && getInt64(options, TETSTREAM_OPTION_CELLS) == 0)
-    throw Failure{kUsage, "--cells 0 is no target: at least one cell has to stay"};
+  const auto zero = [&](const char* name, bool is_zero) {
+    const bool given = arguments.options.has(name);
+    if (given && is_zero)
+      throw Failure{kUsage, textOf("--%s 0 is no target: give more than 0", name)};
+    return given;
+  };
+  const bool ratio = zero("ratio", getDouble(options, TETSTREAM_OPTION_RATIO) == 0);
+  const bool cells = zero("cells", getInt64(options, TETSTREAM_OPTION_CELLS) == 0);
+  const bool error = zero("error", getDouble(options, TETSTREAM_OPTION_ERROR) == 0);
+  if (!ratio && !cells && !error)
+    throw Failure{kUsage,
+                  "simplify needs a target: --ratio R (cells out / cells in), --cells N or "
+                  "--error E (percent of the fields' range)"};
 }
 
 static void printReport(const Arguments& arguments, const tetstream_report& report,
                         tetstream_status status) {
   if (arguments.quiet && arguments.report.empty()) return;
+  const bool counted = arguments.options.has("ratio") || arguments.options.has("cells");
   const std::string text =
-      arguments.report == "json" ? reportJson(report, status) : reportText(report);
+      arguments.report == "json" ? reportJson(report, status) : reportText(report, counted);
   if (isStandardOutput(arguments.out))
     printError(text);
   else

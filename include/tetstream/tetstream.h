@@ -95,14 +95,17 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 
 /* Options are numbered; numbers are never reused. The same table gives the flags of the command
  * line; tetstream_option_at lists it. */
-#define TETSTREAM_OPTION_RATIO 100           /* double, cells out / cells in, 0 < r <= 1 */
-#define TETSTREAM_OPTION_CELLS 101           /* int64, cells out; 0: the ratio decides */
+/* Targets: the first that is reached ends the run, and is named in the report. 0: not given. */
+#define TETSTREAM_OPTION_RATIO 100           /* double, cells out / cells in; 0.1 without any target */
+#define TETSTREAM_OPTION_CELLS 101           /* int64, cells out */
+#define TETSTREAM_OPTION_ERROR 102           /* double, RMS field error in percent of the range */
 #define TETSTREAM_OPTION_BOUNDARY_WEIGHT 110 /* double, dimensionless: boundary against field */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
-#define TETSTREAM_OPTION_MODE 130            /* text: "paper" */
-#define TETSTREAM_OPTION_SEED 131            /* int64 */
+#define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper" */
+#define TETSTREAM_OPTION_SEED 131            /* int64, for the random choices of "paper" */
 #define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */
-#define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges drawn for one collapse */
+#define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges "paper" draws for one collapse */
+#define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input twice; "none" */
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
@@ -343,7 +346,7 @@ typedef struct tetstream_progress {
   size_t struct_size;
   int64_t cells_read, cells_total, cells_written;
   double fraction; /* of the whole run, 0 to 1, or -1 */
-  const char *phase; /* "order", "simplify", "convert", ...; static */
+  const char *phase; /* "order", "pilot", "simplify", "convert", ...; static */
 } tetstream_progress;
 
 /* Called at least once per window, and often enough for a bar; non-zero cancels the run, which
@@ -372,6 +375,9 @@ typedef struct tetstream_report {
   uint64_t peak_resident_bytes; /* of the process, 0 where the system does not tell */
   const char *regions;          /* what was taken as region labels, in words */
   const char *limited_by;       /* what stopped the run short of its target, or "" */
+  double estimated_error;       /* RMS field error in percent of the range, from the quadrics; as a
+                                   rule not less than the true one. Since 0.1 */
+  const char *reached;          /* the target that ended the run: "ratio", "cells", "error", or "" */
 } tetstream_report;
 
 typedef struct tetstream_simplifier tetstream_simplifier;

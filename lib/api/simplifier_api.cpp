@@ -171,6 +171,8 @@ static tetstream_report publicReport(const Report& report) {
   out.peak_resident_bytes = peakResidentBytes();
   out.regions = report.regions.c_str();
   out.limited_by = report.limited_by.c_str();
+  out.estimated_error = report.estimated_error;
+  out.reached = report.reached.c_str();
   return out;
 }
 

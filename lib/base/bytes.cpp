@@ -113,6 +113,25 @@ class MemorySource final : public ByteSource {
   uint64_t size_, place_ = 0;
 };
 
+class SecondReading final : public ByteSource {
+ public:
+  explicit SecondReading(ByteSource& source) : ByteSource(source.name()), source_(source) {}
+  size_t read(void* out, size_t size) override {
+    const size_t got = source_.readAt(place_, out, size);
+    place_ += got;
+    return got;
+  }
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    return source_.readAt(offset, out, size);
+  }
+  bool seekable() const override { return true; }
+  uint64_t size() const override { return source_.size(); }
+
+ private:
+  ByteSource& source_;
+  uint64_t place_ = 0;
+};
+
 class SpooledSource final : public ByteSource {
  public:
   SpooledSource(ByteSource& from, const std::string& temp_dir)
@@ -151,6 +170,10 @@ std::unique_ptr<ByteSource> openDescriptor(int fd, const std::string& name) {
 
 std::unique_ptr<ByteSource> openMemory(const void* data, size_t size, const std::string& name) {
   return std::make_unique<MemorySource>(data, size, name);
+}
+
+std::unique_ptr<ByteSource> readAgain(ByteSource& source) {
+  return std::make_unique<SecondReading>(source);
 }
 
 std::unique_ptr<ByteSource> makeSeekable(std::unique_ptr<ByteSource> source,

@@ -35,6 +35,8 @@ std::unique_ptr<ByteSource> openFile(const std::string& path);
 std::unique_ptr<ByteSource> openDescriptor(int fd, const std::string& name);
 // Borrows the memory.
 std::unique_ptr<ByteSource> openMemory(const void* data, size_t size, const std::string& name);
+// Another reading of a seekable source, from its first byte on; borrows it.
+std::unique_ptr<ByteSource> readAgain(ByteSource& source);
 // A seekable source with the same bytes: itself, or a copy spooled to an unnamed temporary file.
 std::unique_ptr<ByteSource> makeSeekable(std::unique_ptr<ByteSource> source,
                                          const std::string& temp_dir);

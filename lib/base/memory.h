@@ -57,6 +57,11 @@ class Array {
         reallocateBytes(*account_, data_, size_ * sizeof(T), checkedMultiply(size, sizeof(T))));
     size_ = size;
   }
+  void swap(Array& other) noexcept {
+    std::swap(account_, other.account_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+  }
   size_t size() const noexcept { return size_; }
   T* data() noexcept { return data_; }
   const T* data() const noexcept { return data_; }

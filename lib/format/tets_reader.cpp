@@ -21,6 +21,9 @@ class Reader final : public Source {
   explicit Reader(std::unique_ptr<ByteSource> bytes);
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
+  std::unique_ptr<Source> again() override {
+    return in_.bytes().seekable() ? std::make_unique<Reader>(readAgain(in_.bytes())) : nullptr;
+  }
 
  private:
   bool nextChunk();

@@ -244,4 +244,20 @@ bool OrderedSource::next(BatchView& batch) {
   return true;
 }
 
+// The order is known and rows can be had as often as wanted: the places are put back at the end.
+class OrderedSource::SecondReading final : public Source {
+ public:
+  explicit SecondReading(OrderedSource& source) : source_(source) {}
+  ~SecondReading() override { source_.place_ = source_.introduced_ = 0; }
+  const Schema& schema() const override { return source_.schema(); }
+  bool next(BatchView& batch) override { return source_.next(batch); }
+
+ private:
+  OrderedSource& source_;
+};
+
+std::unique_ptr<Source> OrderedSource::again() {
+  return std::make_unique<SecondReading>(*this);
+}
+
 }  // namespace tetstream

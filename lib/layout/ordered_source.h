@@ -26,10 +26,13 @@ class OrderedSource : public Source {
   OrderedSource(IndexedSource& source, const OrderOptions& options);
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
+  std::unique_ptr<Source> again() override;
   int64_t unusedVertices() const { return unused_; }
   char axis() const { return static_cast<char>('x' + order_.axis); }
 
  private:
+  class SecondReading;
+
   void readCells();
   void readPoints();
   void readValues();

@@ -1,6 +1,7 @@
 #include "link.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tetstream {
 
@@ -15,38 +16,31 @@ static uint32_t highOf(uint64_t pair) {
   return static_cast<uint32_t>(pair);
 }
 
-size_t boundaryEdgesOfLink(const Star& star, Array<uint64_t>& edges, bool* repeated) {
-  if (edges.size() < 3 * star.size()) edges.resize(std::max<size_t>(3 * star.size(), 256));
-  size_t count = 0;
-  for (const StarCell& s : star)
-    for (int i = 0; i < 3; ++i) edges[count++] = pairOf(s.t[i], s.t[(i + 1) % 3]);
-  std::sort(edges.data(), edges.data() + count);
-  size_t kept = 0;
-  *repeated = false;
-  for (size_t i = 0; i < count;) {
-    size_t j = i + 1;
-    while (j < count && edges[j] == edges[i]) ++j;
-    if (j - i == 1) edges[kept++] = edges[i];
-    if (j - i > 2) *repeated = true;
-    i = j;
+LinkCondition::LinkCondition(Account& account) : marks_(account) {}
+
+// Marks stay as they are; a new edge has higher ones.
+void LinkCondition::mark(const Stars& stars) {
+  uint32_t last = 0;
+  for (const Star* star : {&stars.ring, &stars.u, &stars.v})
+    for (const StarCell& s : *star) last = std::max({last, s.t[0], s.t[1], s.t[2]});
+  const size_t before = marks_.size();
+  if (last >= before) {
+    marks_.resize(last + last / 4 + 1024);
+    std::fill(marks_.data() + before, marks_.data() + marks_.size(), 0u);
   }
-  return kept;
-}
-
-LinkCondition::LinkCondition(Account& account)
-    : neighbours_(account, 256), faces_u_(account, 256), faces_v_(account, 256) {}
-
-int LinkCondition::ringIndex(uint32_t vertex) const {
-  for (int i = 0; i < ring_size_; ++i)
-    if (ring_[i] == vertex) return i;
-  return -1;
+  mark_ += kLargestRing + 1;
+  if (mark_ > std::numeric_limits<uint32_t>::max() - 2 * kLargestRing) {
+    std::fill_n(marks_.data(), marks_.size(), 0u);
+    mark_ = kLargestRing + 1;
+  }
+  for (const StarCell& s : stars.u)
+    for (uint32_t t : s.t) marks_[t] = mark_;
 }
 
 // Collects the ring of uv and its edges from the cells that hold both; false if it is too large.
-bool LinkCondition::ringOf(uint32_t v, const Star& around_u) {
+bool LinkCondition::findRing(uint32_t v, const Star& ring) {
   ring_size_ = 0;
-  for (const StarCell& s : around_u) {
-    if (!s.has(v)) continue;
+  for (const StarCell& s : ring) {
     int index[2], found = 0;
     for (uint32_t t : s.t) {
       if (t == v) continue;
@@ -54,6 +48,7 @@ bool LinkCondition::ringOf(uint32_t v, const Star& around_u) {
       if (i < 0) {
         if (ring_size_ == kLargestRing) return false;
         i = ring_size_++;
+        marks_[t] = mark_ + 1 + static_cast<uint32_t>(i);
         ring_[i] = t;
         ring_edges_[i] = 0;
       }
@@ -65,35 +60,28 @@ bool LinkCondition::ringOf(uint32_t v, const Star& around_u) {
   return true;
 }
 
-bool LinkCondition::commonNeighboursInRing(uint32_t u, const Star& around_u, const Star& around_v) {
-  if (neighbours_.size() < 3 * around_u.size()) neighbours_.resize(3 * around_u.size());
-  size_t count = 0;
-  for (const StarCell& s : around_u)
-    for (uint32_t t : s.t) neighbours_[count++] = t;
-  uint32_t* const end = neighbours_.data() + count;
-  std::sort(neighbours_.data(), end);
-  for (const StarCell& s : around_v)
+bool LinkCondition::commonNeighboursInRing(const Stars& stars) const {
+  for (const StarCell& s : stars.v)
     for (uint32_t t : s.t)
-      if (t != u && ringIndex(t) < 0 && std::binary_search(neighbours_.data(), end, t))
-        return false;
+      if (marks_[t] == mark_) return false;
   return true;
 }
 
-bool LinkCondition::commonEdgesInRing(uint32_t u, uint32_t v, const Star& around_u,
-                                      const Star& around_v) {
-  uint64_t masks[2][kLargestRing] = {};
-  const Star* stars[2] = {&around_u, &around_v};
-  const uint32_t other[2] = {v, u};
+bool LinkCondition::commonEdgesInRing(const Stars& stars) const {
+  uint64_t masks[2][kLargestRing];
+  std::fill_n(masks[0], ring_size_, uint64_t{0});
+  std::fill_n(masks[1], ring_size_, uint64_t{0});
+  const Star* sides[2] = {&stars.u, &stars.v};
   for (int side = 0; side < 2; ++side)
-    for (const StarCell& s : *stars[side])
+    for (const StarCell& s : *sides[side]) {
+      const int r[3] = {ringIndex(s.t[0]), ringIndex(s.t[1]), ringIndex(s.t[2])};
       for (int i = 0; i < 3; ++i) {
-        const uint32_t a = s.t[i], b = s.t[(i + 1) % 3];
-        if (a == other[side] || b == other[side]) continue;
-        const int ia = ringIndex(a), ib = ringIndex(b);
-        if (ia < 0 || ib < 0) continue;
-        masks[side][ia] |= uint64_t{1} << ib;
-        masks[side][ib] |= uint64_t{1} << ia;
+        const int a = r[i], b = r[(i + 1) % 3];
+        if (a < 0 || b < 0) continue;
+        masks[side][a] |= uint64_t{1} << b;
+        masks[side][b] |= uint64_t{1} << a;
       }
+    }
   for (int i = 0; i < ring_size_; ++i)
     if (masks[0][i] & masks[1][i] & ~ring_edges_[i]) return false;
   return true;
@@ -103,60 +91,71 @@ static bool sameTriangle(const StarCell& a, const StarCell& b) {
   return b.has(a.t[0]) && b.has(a.t[1]) && b.has(a.t[2]);
 }
 
-bool LinkCondition::noCommonTriangle(uint32_t u, uint32_t v, const Star& around_u,
-                                     const Star& around_v) {
-  for (const StarCell& a : around_u) {
-    if (a.has(v) || ringIndex(a.t[0]) < 0 || ringIndex(a.t[1]) < 0 || ringIndex(a.t[2]) < 0)
-      continue;
-    for (const StarCell& b : around_v)
-      if (!b.has(u) && sameTriangle(a, b)) return false;
+bool LinkCondition::noCommonTriangle(const Stars& stars) const {
+  for (const StarCell& a : stars.u) {
+    if (ringIndex(a.t[0]) < 0 || ringIndex(a.t[1]) < 0 || ringIndex(a.t[2]) < 0) continue;
+    for (const StarCell& b : stars.v)
+      if (sameTriangle(a, b)) return false;
   }
   return true;
 }
 
-bool LinkCondition::boundaryLinksAgree(uint32_t v, const Star& around_u, const Star& around_v) {
-  bool repeated;
-  const size_t count_u = boundaryEdgesOfLink(around_u, faces_u_, &repeated);
-  const size_t count_v = boundaryEdgesOfLink(around_v, faces_v_, &repeated);
-  const uint64_t *fu = faces_u_.data(), *fv = faces_v_.data();
+// The boundary faces round an end, as edges of its link: those of one cell only. Both ends of such
+// an edge are on the boundary. Sorted.
+static void listBoundaryFaces(const Star& star, const Star& ring, const uint8_t* flags,
+                              std::vector<uint64_t>& edges) {
+  edges.clear();
+  for (const Star* part : {&star, &ring})
+    for (const StarCell& s : *part)
+      for (int i = 0; i < 3; ++i) {
+        const uint32_t a = s.t[i], b = s.t[(i + 1) % 3];
+        if (flags[a] & flags[b] & kBoundary) edges.push_back(pairOf(a, b));
+      }
+  std::sort(edges.begin(), edges.end());
+  size_t kept = 0;
+  for (size_t i = 0, j; i < edges.size(); i = j) {
+    for (j = i + 1; j < edges.size() && edges[j] == edges[i];) ++j;
+    if (j - i == 1) edges[kept++] = edges[i];
+  }
+  edges.resize(kept);
+}
+
+static bool holdsVertex(const std::vector<uint64_t>& edges, uint32_t v) {
+  for (uint64_t edge : edges)
+    if (lowOf(edge) == v || highOf(edge) == v) return true;
+  return false;
+}
+
+bool LinkCondition::boundaryLinksAgree(uint32_t v, const Stars& stars, const uint8_t* flags) {
+  listBoundaryFaces(stars.u, stars.ring, flags, faces_u_);
+  listBoundaryFaces(stars.v, stars.ring_from_v, flags, faces_v_);
   // The boundary faces that hold both u and v: v in the link of u.
   uint32_t shared[2];
   int shared_count = 0;
-  for (size_t i = 0; i < count_u; ++i) {
-    if (lowOf(fu[i]) != v && highOf(fu[i]) != v) continue;
+  for (uint64_t face : faces_u_) {
+    if (lowOf(face) != v && highOf(face) != v) continue;
     if (shared_count == 2) return false;
-    shared[shared_count++] = lowOf(fu[i]) == v ? highOf(fu[i]) : lowOf(fu[i]);
+    shared[shared_count++] = lowOf(face) == v ? highOf(face) : lowOf(face);
   }
   if (shared_count != 2) return false;  // not a boundary edge, or a non-manifold one
-  // No face uab beside vab.
-  for (size_t i = 0; i < count_u; ++i)
-    if (std::binary_search(fv, fv + count_v, fu[i])) return false;
-  // A boundary neighbour of both makes a boundary face with both.
-  if (neighbours_.size() < 2 * count_v) neighbours_.resize(2 * count_v);
-  uint32_t* const end = neighbours_.data() + 2 * count_v;
-  for (size_t j = 0; j < count_v; ++j) {
-    neighbours_[2 * j] = lowOf(fv[j]);
-    neighbours_[2 * j + 1] = highOf(fv[j]);
+  for (uint64_t face : faces_u_) {
+    // No face uab beside vab.
+    if (std::binary_search(faces_v_.begin(), faces_v_.end(), face)) return false;
+    // A boundary neighbour of both makes a boundary face with both.
+    for (uint32_t a : {lowOf(face), highOf(face)})
+      if (a != v && a != shared[0] && a != shared[1] && holdsVertex(faces_v_, a)) return false;
   }
-  std::sort(neighbours_.data(), end);
-  for (size_t i = 0; i < count_u; ++i)
-    for (uint32_t a : {lowOf(fu[i]), highOf(fu[i])}) {
-      if (a == v || a == shared[0] || a == shared[1]) continue;
-      if (std::binary_search(neighbours_.data(), end, a)) return false;
-    }
   return true;
 }
 
-bool LinkCondition::holds(const Topology& mesh, uint32_t u, uint32_t v, const Star& around_u,
-                          const Star& around_v) {
-  const bool u_outside = mesh.vertexFlags(u) & kBoundary,
-             v_outside = mesh.vertexFlags(v) & kBoundary;
-  if (!u_outside && !v_outside) return true;
-  if (!ringOf(v, around_u)) return false;
-  if (!commonNeighboursInRing(u, around_u, around_v)) return false;
-  if (!commonEdgesInRing(u, v, around_u, around_v)) return false;
-  if (!noCommonTriangle(u, v, around_u, around_v)) return false;
-  return !(u_outside && v_outside) || boundaryLinksAgree(v, around_u, around_v);
+bool LinkCondition::holds(End u, End v, const Stars& stars, const uint8_t* flags) {
+  if (!u.outside && !v.outside) return true;
+  mark(stars);
+  if (!findRing(v.vertex, stars.ring)) return false;
+  if (!commonNeighboursInRing(stars)) return false;
+  if (!commonEdgesInRing(stars)) return false;
+  if (!noCommonTriangle(stars)) return false;
+  return !(u.outside && v.outside) || boundaryLinksAgree(v.vertex, stars, flags);
 }
 
 }  // namespace tetstream

@@ -2,6 +2,8 @@
 // Depends on topology.h.
 #pragma once
 
+#include <vector>
+
 #include "topology.h"
 
 namespace tetstream {
@@ -24,32 +26,38 @@ class LinkCondition {
  public:
   explicit LinkCondition(Account& account);
 
-  // `around_u` and `around_v` as gathered. True if u and v may be merged. Allowed for any edge;
-  // for one inside the domain it answers without a test, as said above.
-  bool holds(const Topology& mesh, uint32_t u, uint32_t v, const Star& around_u,
-             const Star& around_v);
+  // An end and whether it is on the boundary of the domain.
+  struct End {
+    uint32_t vertex;
+    bool outside;
+  };
+  // True if the ends may be merged. Allowed for any edge; for one inside the domain it answers
+  // without a test, as said above. `flags` of all vertices of the stars: kBoundary is set at least
+  // for those of the boundary faces round u and v.
+  bool holds(End u, End v, const Stars& stars, const uint8_t* flags);
 
  private:
   static constexpr int kLargestRing = 64;  // bits of a mask; larger rings are refused
 
-  bool ringOf(uint32_t v, const Star& around_u);
-  int ringIndex(uint32_t vertex) const;
-  bool commonNeighboursInRing(uint32_t u, const Star& around_u, const Star& around_v);
-  bool commonEdgesInRing(uint32_t u, uint32_t v, const Star& around_u, const Star& around_v);
-  bool noCommonTriangle(uint32_t u, uint32_t v, const Star& around_u, const Star& around_v);
-  bool boundaryLinksAgree(uint32_t v, const Star& around_u, const Star& around_v);
+  void mark(const Stars& stars);
+  bool findRing(uint32_t v, const Star& ring);
+  int ringIndex(uint32_t vertex) const {
+    const uint32_t m = marks_[vertex];
+    return m > mark_ ? static_cast<int>(m - mark_ - 1) : -1;
+  }
+  bool commonNeighboursInRing(const Stars& stars) const;
+  bool commonEdgesInRing(const Stars& stars) const;
+  bool noCommonTriangle(const Stars& stars) const;
+  bool boundaryLinksAgree(uint32_t v, const Stars& stars, const uint8_t* flags);
 
+  // Per vertex: mark_ for a neighbour of u, mark_ + 1 + i for vertex i of the ring, less for
+  // others.
+  Array<uint32_t> marks_;
+  uint32_t mark_ = 0;
   uint32_t ring_[kLargestRing];
   uint64_t ring_edges_[kLargestRing];  // bit j of entry i: a cell u v ring[i] ring[j]
   int ring_size_ = 0;
-  Array<uint32_t> neighbours_;
-  Array<uint64_t> faces_u_, faces_v_;  // boundary faces as edges of the link
+  std::vector<uint64_t> faces_u_, faces_v_;  // boundary faces as edges of the link
 };
-
-// The boundary faces round a vertex whose star is complete, as edges of its link, each a pair of
-// vertices low * 2^32 + high, sorted: those that belong to one cell of the star only. Returns
-// their number; `edges` grows as needed. `repeated` tells whether any face belongs to more than
-// two cells.
-size_t boundaryEdgesOfLink(const Star& star, Array<uint64_t>& edges, bool* repeated);
 
 }  // namespace tetstream

@@ -1,34 +1,20 @@
 #include "orient.h"
 
 #include <cmath>
-
-#include "orient_lanes.inl"
+#include <initializer_list>
+#include <limits>
 
 namespace tetstream {
-
-#ifdef TETSTREAM_V3_KERNELS
-void orientationLanesV3(const double x[3], const TriangleLanes& triangles, signed char sign[kLanes],
-                        double shape[kLanes]);
-#endif
-
-void orientationLanes(const double x[3], const TriangleLanes& triangles, int count,
-                      signed char sign[kLanes], double shape[kLanes]) {
-#ifdef TETSTREAM_V3_KERNELS
-  static const bool has_v3 =
-      __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi2") != 0;
-  if (has_v3)
-    orientationLanesV3(x, triangles, sign, shape);
-  else
-#endif
-    lanes(x, triangles, sign, shape);
-  for (int k = count; k < kLanes; ++k) sign[k] = 1, shape[k] = 1;
-}
 
 // ------------------------------------------------------------------------- exact arithmetic
 // An expansion is a sum of doubles, none overlapping another, in increasing magnitude; its sign is
 // that of its last term. Zeros are left out, so that simple coordinates stay short.
 
 namespace {
+
+// Products that underflow are outside the filter's bound. Where the bound is above kLeastBound and
+// no coordinate difference above kLargestDifference, they change less than what it was raised by.
+constexpr double kLeastBound = 1e-250, kLargestDifference = 1e60;
 
 struct Sum {
   double value, error;
@@ -123,16 +109,24 @@ int orientation(const double a[3], const double b[3], const double c[3], const d
     const int j = (i + 1) % 3, k = (i + 2) % 3;
     const double p = e[1][j] * e[2][k], q = e[1][k] * e[2][j];
     det += e[0][i] * (p - q);
-    bound += magnitude(e[0][i]) * (magnitude(p) + magnitude(q));
-    size += magnitude(e[0][i]);
+    bound += std::fabs(e[0][i]) * (std::fabs(p) + std::fabs(q));
+    size += std::fabs(e[0][i]);
   }
-  bound *= kErrorBound;
+  bound *= kOrientationBound;
   if (bound > kLeastBound && size < kLargestDifference) {
     if (det > bound) return 1;
     if (det < -bound) return -1;
   }
   const double* const points[4] = {a, b, c, d};
   return exactOrientation(points);
+}
+
+double largestDifference(const double a[3], const double b[3], const double c[3],
+                         const double d[3]) {
+  double largest = std::numeric_limits<double>::min();
+  for (const double* p : {b, c, d})
+    for (int i = 0; i < 3; ++i) largest = std::fmax(largest, std::fabs(p[i] - a[i]));
+  return largest;
 }
 
 }  // namespace tetstream

@@ -1,13 +1,26 @@
-// mesh: orientationLanes for x86-64-v3 processors; this file alone is compiled for them.
+// mesh: the star kernels for x86-64-v3 processors; this file alone is compiled for them.
 #ifdef TETSTREAM_V3_KERNELS
-#include "orient_lanes.inl"
+#include "star_kernels_v3.h"
+#include "star_kernels.inl"
 
-namespace tetstream {
+namespace tetstream::v3 {
 
-void orientationLanesV3(const double x[3], const TriangleLanes& triangles, signed char sign[kLanes],
-                        double shape[kLanes]) {
-  lanes(x, triangles, sign, shape);
+StarShape starShape(const double x[3], const float* values, int stride, const StarCell* cells,
+                    size_t count, const ThinAngle& thin) {
+  return starShapeOf(x, values, stride, cells, count, thin);
+}
+StarShape starShape(const double x[3], const double* values, int stride, const StarCell* cells,
+                    size_t count, const ThinAngle& thin) {
+  return starShapeOf(x, values, stride, cells, count, thin);
+}
+StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
+                     uint16_t other, StarCell* star, StarCell* ring) {
+  return lookRoundOf(corners, cells, count, v, other, star, ring);
+}
+size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t count, uint32_t* seen,
+                    uint32_t mark, uint32_t* out) {
+  return listVerticesOf(corners, cells, count, seen, mark, out);
 }
 
-}  // namespace tetstream
+}  // namespace tetstream::v3
 #endif

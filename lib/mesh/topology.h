@@ -6,7 +6,9 @@
 // walks over them or the window is packed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include "memory.h"
 
@@ -16,11 +18,15 @@ constexpr uint32_t kNone = 0xffffffffu;
 
 enum VertexFlag : uint8_t {
   kFinal = 1,     // no later cell will use it
-  kBoundary = 2,  // on the boundary of the domain (known once final)
+  kBoundary = 2,  // on the boundary of the domain (known once it or a neighbour there is final)
   kLocked = 4,    // never moved: non-manifold boundary, interface, flat cell, or the caller's wish
   kWritten = 8,   // a cell that uses it has left: it is frozen
   kCollapsed = 16,  // merged into another vertex
 };
+
+constexpr bool isFreeVertex(uint8_t flags) {
+  return (flags & (kFinal | kLocked | kWritten | kCollapsed)) == kFinal;
+}
 
 enum CellFlag : uint8_t {
   kNegative = 1,  // stored with negative volume; the order is the user's and is kept
@@ -32,10 +38,14 @@ enum CellFlag : uint8_t {
 // One cell round a centre: the triangle opposite, ordered so that det(t0 - x, t1 - x, t2 - x) > 0
 // for a centre x that keeps the cell's orientation.
 struct StarCell {
-  uint32_t cell, corner;  // corner: the centre's, 4 * cell + j
+  uint32_t corner;  // the centre's, 4 * cell + j
   uint32_t t[3];
+  uint32_t cell() const { return corner / 4; }
   bool has(uint32_t v) const { return t[0] == v || t[1] == v || t[2] == v; }
 };
+
+// The face opposite corner j, so that (j, t0, t1, t2) is an even permutation of 0 1 2 3.
+constexpr uint8_t kOpposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 class Star {
  public:
@@ -45,6 +55,12 @@ class Star {
   const StarCell* begin() const { return cells_.data(); }
   const StarCell* end() const { return cells_.data() + size_; }
   void clear() { size_ = 0; }
+  // Room for `count` more, to be filled from end() on and counted by grow.
+  StarCell* room(size_t count) {
+    while (size_ + count > cells_.size()) cells_.resize(2 * cells_.size());
+    return cells_.data() + size_;
+  }
+  void grow(size_t count) { size_ += count; }
   StarCell& add() {
     if (size_ == cells_.size()) cells_.resize(2 * size_);
     return cells_[size_++];
@@ -55,12 +71,21 @@ class Star {
   size_t size_ = 0;
 };
 
+// The cells round the edge uv: those that hold both, and the others of each end.
+struct Stars {
+  explicit Stars(Account& account) : ring(account), ring_from_v(account), u(account), v(account) {}
+  Star ring, ring_from_v;  // from u, from v
+  Star u, v;
+};
+
 class Topology {
  public:
-  Topology(Account& account, size_t cell_capacity, size_t vertex_capacity);
+  // Without links (L), half the memory: no stars are gathered and nothing is merged here then, but
+  // in patches (patch.h).
+  Topology(Account& account, size_t cell_capacity, size_t vertex_capacity, bool linked = true);
 
   size_t cellCapacity() const { return cell_flags_.size(); }
-  size_t vertexCapacity() const { return first_corner_.size(); }
+  size_t vertexCapacity() const { return vertex_flags_.size(); }
   void growCells(size_t capacity);
   void growVertices(size_t capacity);
 
@@ -73,22 +98,27 @@ class Topology {
 
   const uint32_t* corners(uint32_t cell) const { return &vertex_of_[4 * size_t{cell}]; }
   uint8_t vertexFlags(uint32_t v) const { return vertex_flags_[v]; }
+  const uint8_t* allVertexFlags() const { return vertex_flags_.data(); }
   void flagVertex(uint32_t v, uint8_t flags) { vertex_flags_[v] |= flags; }
+  void unflagVertex(uint32_t v, uint8_t flags) { vertex_flags_[v] &= static_cast<uint8_t>(~flags); }
   uint8_t cellFlags(uint32_t c) const { return cell_flags_[c]; }
   void flagCell(uint32_t c, uint8_t flags) { cell_flags_[c] |= flags; }
   bool isLive(uint32_t c) const { return !(cell_flags_[c] & kDead); }
   // May be merged with another such vertex, as far as the vertex itself goes.
-  bool isFree(uint32_t v) const {
-    return (vertex_flags_[v] & (kFinal | kLocked | kWritten | kCollapsed)) == kFinal;
-  }
+  bool isFree(uint32_t v) const { return isFreeVertex(vertex_flags_[v]); }
 
-  // All live cells round v; takes dead corners out of v's circle on the way.
-  void gather(uint32_t v, Star& star);
+  // The live cells round v: those that hold `other` into `ring`, the rest into `star`. Takes dead
+  // corners out of v's circle on the way.
+  void gather(uint32_t v, uint32_t other, Star& star, Star& ring);
+
+  // One cell of v's star.
+  StarCell starCell(uint32_t corner) const;
 
   void kill(uint32_t cell);
-  // Cells of both stars that hold both vertices die, those of v's star get u in its place, v is
-  // gone. `around_u`, `around_v` as gathered.
-  void merge(uint32_t u, uint32_t v, const Star& around_u, const Star& around_v);
+  void setCorner(uint32_t corner, uint32_t v) { vertex_of_[corner] = v; }  // without links
+  // The cells of the ring, which hold both vertices, die, those of v's star get u in its place, v
+  // is gone. As gathered.
+  void merge(uint32_t u, uint32_t v, const Stars& stars);
 
   // Drops dead cells and the vertices for which keep[v] is kNone; keep[v] otherwise is v's new
   // slot, increasing with v. Cells keep their order; calls moved(old, new) for each that stays.
@@ -98,6 +128,7 @@ class Topology {
  private:
   void link(uint32_t corner, uint32_t v);
 
+  bool linked_;
   Array<uint32_t> vertex_of_, next_;  // per corner: V and L
   Array<uint8_t> cell_flags_;
   Array<uint32_t> first_corner_;  // per vertex
@@ -110,7 +141,7 @@ void Topology::pack(const uint32_t* keep, uint32_t kept_vertices, Moved moved) {
   for (uint32_t v = 0; v < vertex_end_; ++v)
     if (keep[v] != kNone) vertex_flags_[keep[v]] = vertex_flags_[v];
   vertex_end_ = kept_vertices;
-  for (uint32_t v = 0; v < vertex_end_; ++v) first_corner_[v] = kNone;
+  if (linked_) std::fill_n(first_corner_.data(), vertex_end_, kNone);
   uint32_t to = 0;
   for (uint32_t from = 0; from < cell_end_; ++from) {
     if (!isLive(from)) continue;
@@ -118,7 +149,7 @@ void Topology::pack(const uint32_t* keep, uint32_t kept_vertices, Moved moved) {
     for (uint32_t j = 0; j < 4; ++j) {
       const uint32_t v = keep[vertex_of_[4 * size_t{from} + j]];
       vertex_of_[4 * size_t{to} + j] = v;
-      link(4 * to + j, v);
+      if (linked_) link(4 * to + j, v);
     }
     moved(from, to);
     ++to;

@@ -7,7 +7,8 @@ namespace tetstream {
 template <class S>
 void Window<S>::sizeVertices() {
   const size_t n = mesh.vertexCapacity();
-  values_.resize(checkedMultiply(n, static_cast<size_t>(shape_.values)));
+  // note: one number more: positions are read four numbers at a time.
+  values_.resize(checkedMultiply(n, static_cast<size_t>(shape_.values)) + 1);
   quadrics_.resize(checkedMultiply(n, static_cast<size_t>(shape_.quadric)));
   picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.picks)));
   out_rank_.resize(n);
@@ -48,19 +49,13 @@ void Window<S>::growVertices(size_t capacity) {
 }
 
 template <class S>
-uint32_t Window<S>::chooseVertices(uint64_t* unused) {
-  const uint32_t end = mesh.vertexEnd();
-  std::fill(remap_.data(), remap_.data() + end, kNone);
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
-    if (mesh.isLive(c))
-      for (int j = 0; j < 4; ++j) remap_[mesh.corners(c)[j]] = 0;
+uint32_t Window<S>::chooseVertices(const uint32_t* uses, uint64_t* unused) {
   uint32_t kept = 0;
-  for (uint32_t v = 0; v < end; ++v) {
+  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     const uint8_t flags = mesh.vertexFlags(v);
-    if (remap_[v] == 0 || !(flags & kFinal))
-      remap_[v] = kept++;
-    else if (!(flags & (kCollapsed | kWritten)))
-      ++*unused;
+    const bool keep = uses[v] > 0 || !(flags & kFinal);
+    remap_[v] = keep ? kept++ : kNone;
+    *unused += !keep && !(flags & (kCollapsed | kWritten));
   }
   return kept;
 }
@@ -83,9 +78,9 @@ void Window<S>::moveVertices() {
 }
 
 template <class S>
-uint64_t Window<S>::pack(Front& front) {
+uint64_t Window<S>::pack(Front& front, const uint32_t* uses) {
   uint64_t unused = 0;
-  const uint32_t kept = chooseVertices(&unused);
+  const uint32_t kept = chooseVertices(uses, &unused);
   moveVertices();
   front.remap(remap_.data());
   mesh.pack(remap_.data(), kept, [this](uint32_t from, uint32_t to) {

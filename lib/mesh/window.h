@@ -22,8 +22,9 @@ struct WindowShape {
 template <class S>
 class Window {
  public:
-  Window(Account& account, const WindowShape& shape, size_t cells, size_t vertices)
-      : mesh(account, cells, vertices),
+  using Scalar = S;
+  Window(Account& account, const WindowShape& shape, size_t cells, size_t vertices, bool linked)
+      : mesh(account, cells, vertices, linked),
         shape_(shape),
         values_(account),
         quadrics_(account),
@@ -43,24 +44,44 @@ class Window {
   const S* values(uint32_t v) const { return &values_[size_t{v} * shape_.values]; }
   S* quadric(uint32_t v) { return &quadrics_[size_t{v} * shape_.quadric]; }
   int64_t* picks(uint32_t v) { return &picks_[size_t{v} * shape_.picks]; }
-  uint64_t& outRank(uint32_t v) { return out_rank_[v]; }  // of a vertex that is kWritten
+  // Of a vertex that is kWritten: its rank in the output. Until then free for other use.
+  uint64_t& outRank(uint32_t v) { return out_rank_[v]; }
   // Volume that the cell stands for, then the means over it.
   double* cellMeans(uint32_t c) { return &cell_means_[size_t{c} * meansStride()]; }
   int64_t* cellPicks(uint32_t c) { return &cell_picks_[size_t{c} * shape_.cell_picks]; }
+
+  // For steps that work on a window or on a patch of it alike.
+  uint32_t cellEnd() const { return mesh.cellEnd(); }
+  bool isLive(uint32_t c) const { return mesh.isLive(c); }
+  uint32_t vertexOf(uint32_t c, uint32_t j) const { return mesh.corners(c)[j]; }
+  int64_t liveCells() const { return mesh.liveCells(); }
+  bool isFree(uint32_t v) const { return mesh.isFree(v); }
+  bool isBoundary(uint32_t v) const { return mesh.vertexFlags(v) & kBoundary; }
+  const S* allValues() const { return values_.data(); }
+  const uint8_t* allFlags() const { return mesh.allVertexFlags(); }
+  int valueStride() const { return shape_.values; }
+  uint32_t slotOf(uint32_t v) const { return v; }
+  void gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
+    mesh.gather(v, other, star, ring);
+  }
+  void merge(uint32_t u, uint32_t v, const Stars& stars) { mesh.merge(u, v, stars); }
+
+  // 32 bits per vertex that no step owns: of use until the next step begins.
+  uint32_t* scratch() { return remap_.data(); }
 
   // When memory does not suffice they throw, and the window is as it was.
   void growCells(size_t capacity);
   void growVertices(size_t capacity);
 
-  // Drops dead cells, and the vertices that are final and in no cell; tells the front. Returns how
-  // many vertices were dropped that no cell ever used.
-  uint64_t pack(Front& front);
+  // Drops dead cells, and the vertices that are final and in no cell; tells the front. `uses`: per
+  // vertex, its live cells. Returns how many vertices were dropped that no cell ever used.
+  uint64_t pack(Front& front, const uint32_t* uses);
 
  private:
   int meansStride() const { return shape_.cell_means ? 1 + shape_.cell_means : 0; }
   void sizeVertices();
   void sizeCells();
-  uint32_t chooseVertices(uint64_t* unused);
+  uint32_t chooseVertices(const uint32_t* uses, uint64_t* unused);
   void moveVertices();
 
   WindowShape shape_;

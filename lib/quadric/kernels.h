@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace tetstream {
 
@@ -17,15 +18,34 @@ constexpr int quadricSize(int n) {
 }
 constexpr int kMaxDimension = 128;  // 3 + measured components: bounds the kernels' local arrays
 
-// Weight of the shape regulariser, 1/unit^0: each cell adds kShapeWeight V |x - p|^2 in space. It
-// keeps flat and linear fields from making every position equally good, which locks a run; above
-// 1e-3 it costs field error, below 1e-6 float32 loses it.
-constexpr double kShapeWeight = 1e-4;
+// Weights of the shape regulariser, 1/unit^0: each cell adds weight V |x - p|^2 in space. It keeps
+// flat and linear fields from making every position equally good, which locks a run. In smooth
+// fields 1e-4 already drowns the error of the field itself; conjugate gradients, which drop what
+// is below 1 / kMaxCondition, need it.
+constexpr double kShapeWeight = 1e-6, kShapeWeightPaper = 1e-4;
+
+// The direct solve adds this share of a quadric's trace in space to its diagonal there: what the
+// quadric does not determine stays near the midpoint, and rounding in float32 counts as nothing.
+constexpr double kSolveWeight = 1e-6;
 // CG drops directions whose curvature is below mean eigenvalue / kMaxCondition.
 constexpr double kMaxCondition = 1e4;
 // A cell is treated as if it had at least this volume, times 6, of the cube of its edges' norm:
 // gradients of near-flat cells mean nothing and would freeze their vertices.
 constexpr double kFlatVolume = 1e-5;
+
+// Edges that are minimized at once.
+constexpr int kEdgeLanes = 8;
+
+// Quadrics and values of many vertices, by slot. Three numbers beyond the last of each must be
+// readable: rows are read four numbers at a time.
+template <class S>
+struct VertexTable {
+  const S* quadrics;
+  const S* values;
+  int quadric_stride, value_stride;
+  const S* quadric(uint32_t v) const { return quadrics + size_t{v} * size_t(quadric_stride); }
+  const S* value(uint32_t v) const { return values + size_t{v} * size_t(value_stride); }
+};
 
 // One entry per dimension, chosen once per run.
 template <class S>
@@ -33,11 +53,12 @@ struct QuadricKernels {
   // Adds the quadric of a cell, a quarter of it to each of its vertices. Field form: the integral
   // of the squared field error, sum over components c of V (g_c, -1)(g_c, -1)^T with g_c the
   // cell's gradient: n n^T / V with n the determinant of the edges (section 3.4).
-  void (*addCellField)(const S* const x[4], const S* scale, int n, S* const q[4]);
+  // `shape`: kShapeWeight, or another weight of the regulariser.
+  void (*addCellField)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
   // The same with the squared distance to the cell's hyperplane: V (I - sum of e_i e_i^T) over an
   // orthonormal basis of the cell in R^n (Garland and Zhou 2005).
-  void (*addCellDistance)(const S* const x[4], const S* scale, int n, S* const q[4]);
-  // Adds a boundary face to its vertices: weight * area^(3/2) / 3 times the squared distance to
+  void (*addCellDistance)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
+  // Adds a boundary face to its vertices: weight * area / 3 times the squared distance to
   // its plane in space, or to its 2-flat in R^n.
   void (*addFacePlane)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
   void (*addFaceDistance)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
@@ -45,6 +66,13 @@ struct QuadricKernels {
   // error there, not less than e1 + e2; not finite if the arithmetic overflowed.
   S(*minimizeEdge)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, S* z);
+  // The same by elimination, fields first (their pivot is a volume, never small), regularised by
+  // kSolveWeight: without branches, so that many edges are solved side by side.
+  S(*solveEdge)
+  (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, S* z);
+  // The errors of solveEdge from vertex u to each of `count` others; the same numbers.
+  void (*edgeErrors)(const VertexTable<S>& table, uint32_t u, const uint32_t* others, int count,
+                     const S* scale, int n, S* errors);
   // The error of Q1 + Q2 at a given z.
   S(*errorAt)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, const S* z);

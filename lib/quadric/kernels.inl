@@ -58,7 +58,7 @@ inline void addToAll(const double* a, int size, S* const* q, int count) {
 }
 
 template <class S, int N>
-void addCellField(const S* const x[4], const S* scale, int n_given, S* const q[4]) {
+void addCellField(const S* const x[4], const S* scale, int n_given, double shape, S* const q[4]) {
   const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
   double e1[kRoom<N>], e2[kRoom<N>], e3[kRoom<N>], a[kRoom<N> * (kRoom<N> + 1) / 2];
   difference(x[0], x[1], scale, n, e1);
@@ -81,7 +81,7 @@ void addCellField(const S* const x[4], const S* scale, int n_given, S* const q[4
     }
     a[at(f, f)] = w * (det * det);
   }
-  for (int i = 0; i < 3; ++i) a[at(i, i)] += kShapeWeight * volume / 24.0;
+  for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
   addToAll(a, size, q, 4);
 }
 
@@ -106,7 +106,8 @@ inline void distanceForm(double (*edges)[Room], int count, int n, double weight,
 }
 
 template <class S, int N>
-void addCellDistance(const S* const x[4], const S* scale, int n_given, S* const q[4]) {
+void addCellDistance(const S* const x[4], const S* scale, int n_given, double shape,
+                     S* const q[4]) {
   const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
   double e[3][kRoom<N>], a[kRoom<N> * (kRoom<N> + 1) / 2];
   for (int k = 0; k < 3; ++k) difference(x[0], x[k + 1], scale, n, e[k]);
@@ -115,7 +116,7 @@ void addCellDistance(const S* const x[4], const S* scale, int n_given, S* const 
   const double det = dot(e[0], c, 3);
   const double volume = effectiveVolume(e[0], e[1], e[2], det);
   distanceForm<kRoom<N>>(e, 3, n, volume / 24.0, a);
-  for (int i = 0; i < 3; ++i) a[at(i, i)] += kShapeWeight * volume / 24.0;
+  for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
   addToAll(a, size, q, 4);
 }
 
@@ -129,7 +130,7 @@ void addFacePlane(const S* const x[3], const S* scale, int n_given, double weigh
   const double c2 = dot(c, c, 3);
   if (!(c2 > 0)) return;
   const double area = 0.5 * squareRoot(c2);
-  const double w = weight * (area * squareRoot(area)) / 3.0 / c2;
+  const double w = weight * area / 3.0 / c2;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j <= i; ++j) a[at(i, j)] = w * (c[i] * c[j]);
   addToAll(a, 6, q, 3);
@@ -144,7 +145,7 @@ void addFaceDistance(const S* const x[3], const S* scale, int n_given, double we
   difference(x[0], x[2], scale, n, e[1]);
   cross(e[0], e[1], c);
   const double area = 0.5 * squareRoot(dot(c, c, 3));
-  distanceForm<kRoom<N>>(e, 2, n, weight * (area * squareRoot(area)) / 3.0, a);
+  distanceForm<kRoom<N>>(e, 2, n, weight * area / 3.0, a);
   addToAll(a, size, q, 3);
 }
 
@@ -234,11 +235,159 @@ S minimizeEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scal
   return errorFrom<S, N>(q1, q2, h, n, z);
 }
 
-template <class S, int N>
-constexpr QuadricKernels<S> kKernels = {addCellField<S, N>, addCellDistance<S, N>,
-                                        addFacePlane<S, N>, addFaceDistance<S, N>,
-                                        minimizeEdge<S, N>, errorAt<S, N>};
+// ------------------------------------------------------------------ many edges side by side
+typedef float Float8 __attribute__((vector_size(32)));
+typedef float Float4 __attribute__((vector_size(16)));
+typedef double Double8 __attribute__((vector_size(64)));
+typedef double Double4 __attribute__((vector_size(32)));
 
+template <class S>
+struct Lanes;
+template <>
+struct Lanes<float> {
+  using Eight = Float8;
+  using Four = Float4;
+};
+template <>
+struct Lanes<double> {
+  using Eight = Double8;
+  using Four = Double4;
+};
+static_assert(kEdgeLanes == 8);
+
+// rows[k][at .. at + 4) of eight rows, as four columns.
+template <class S>
+inline void loadColumns(const S* const rows[8], int first, typename Lanes<S>::Eight* columns) {
+  typename Lanes<S>::Four r[8];
+  typename Lanes<S>::Eight a[4];
+  for (int k = 0; k < 8; ++k) __builtin_memcpy(&r[k], rows[k] + first, sizeof r[k]);
+  for (int k = 0; k < 4; ++k)
+    a[k] = __builtin_shufflevector(r[k], r[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+  const auto low01 = __builtin_shufflevector(a[0], a[1], 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto high01 = __builtin_shufflevector(a[0], a[1], 2, 10, 3, 11, 6, 14, 7, 15);
+  const auto low23 = __builtin_shufflevector(a[2], a[3], 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto high23 = __builtin_shufflevector(a[2], a[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  columns[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+  columns[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+  columns[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+// The direct solve, for one edge (V is S) or eight (V is a vector of S): the same operations in the
+// same order.
+template <class S, class V, int N>
+struct EdgeSolver {
+  static constexpr int kSize = (kRoom<N> * (kRoom<N> + 1) / 2 + 1 + 3) / 4 * 4;
+  V a1[kSize], a2[kSize];                    // the quadrics: A, then e
+  V h[(kRoom<N> + 3) / 4 * 4], z[kRoom<N>];  // half the edge, the minimizer
+
+  // (A1 + A2) z = (A2 - A1) h, the condition of a minimum written from the midpoint. The last
+  // variables go first. What is left in space may be rounding alone, of the size of what was
+  // there before: the ridge is measured by that.
+  void solve(int n) {
+    V r[kRoom<N>], m[kSize], inverse[kRoom<N>], ridge = V{};
+    for (int i = 0; i < n; ++i) r[i] = V{};
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j) {
+        m[at(i, j)] = a1[at(i, j)] + a2[at(i, j)];
+        const V b = a2[at(i, j)] - a1[at(i, j)];
+        r[i] += b * h[j];
+        if (j < i) r[j] += b * h[i];
+        if (j == i && i < 3) ridge += m[at(i, j)];
+      }
+    for (int p = n - 1; p >= 0; --p) {
+      const V pivot = p < 3 ? m[at(p, p)] + S(kSolveWeight) * ridge : m[at(p, p)];
+      inverse[p] = S(1) / (pivot + S(1e-30));  // never 1 / 0
+      for (int i = 0; i < p; ++i) {
+        const V factor = m[at(p, i)] * inverse[p];
+        for (int j = 0; j <= i; ++j) m[at(i, j)] -= factor * m[at(p, j)];
+        r[i] -= factor * r[p];
+      }
+    }
+    for (int p = 0; p < n; ++p) {
+      for (int i = 0; i < p; ++i) r[p] -= m[at(p, i)] * z[i];
+      z[p] = r[p] * inverse[p];
+    }
+  }
+
+  // As errorFrom.
+  void measure(int n, V* error) const {
+    const V none = V{};
+    V rise1 = none, rise2 = none;
+    for (int i = 0; i < n; ++i) {
+      V row1 = none, row2 = none;
+      for (int j = 0; j < i; ++j) {
+        row1 += a1[at(i, j)] * (z[j] + h[j]);
+        row2 += a2[at(i, j)] * (z[j] - h[j]);
+      }
+      const V d1 = z[i] + h[i], d2 = z[i] - h[i];
+      rise1 += d1 * (S(2) * row1 + a1[at(i, i)] * d1);
+      rise2 += d2 * (S(2) * row2 + a2[at(i, i)] * d2);
+    }
+    const int e = n * (n + 1) / 2;
+    *error = a1[e] + a2[e] + (rise1 < none ? none : rise1) + (rise2 < none ? none : rise2);
+  }
+};
+
+template <class S, int N>
+S solveEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n_given, S* z) {
+  const int n = dimension<N>(n_given);
+  EdgeSolver<S, S, N> edge;
+  for (int i = 0; i <= n * (n + 1) / 2; ++i) {
+    edge.a1[i] = q1[i];
+    edge.a2[i] = q2[i];
+  }
+  for (int i = 0; i < n; ++i) edge.h[i] = S(0.5) * ((x2[i] - x1[i]) * scale[i]);
+  edge.solve(n);
+  S error;
+  edge.measure(n, &error);
+  for (int i = 0; i < n; ++i) z[i] = edge.z[i];
+  return error;
+}
+
+template <class S, int N>
+inline void edgeErrorsByEight(const VertexTable<S>& table, uint32_t u, const uint32_t* others,
+                              int count, const S* scale, S* errors) {
+  using V = typename Lanes<S>::Eight;
+  constexpr int kSize = N * (N + 1) / 2 + 1;
+  const S *qu = table.quadric(u), *xu = table.value(u);
+  EdgeSolver<S, V, N> edges;
+  for (int i = 0; i < kSize; ++i) edges.a1[i] = V{} + qu[i];
+  for (int first = 0; first < count; first += 8) {
+    const int filled = count - first < 8 ? count - first : 8;
+    const S *q[8], *x[8];
+    for (int k = 0; k < 8; ++k) {  // the lanes left over repeat the last edge
+      const uint32_t v = others[first + (k < filled ? k : filled - 1)];
+      q[k] = table.quadric(v);
+      x[k] = table.value(v);
+    }
+    for (int i = 0; i < kSize; i += 4) loadColumns(q, i, edges.a2 + i);
+    for (int i = 0; i < N; i += 4) loadColumns(x, i, edges.h + i);
+    for (int i = 0; i < N; ++i) edges.h[i] = S(0.5) * ((edges.h[i] - xu[i]) * scale[i]);
+    edges.solve(N);
+    V error;
+    edges.measure(N, &error);
+    for (int k = 0; k < filled; ++k) errors[first + k] = error[k];
+  }
+}
+
+template <class S, int N>
+void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others, int count,
+                const S* scale, int n_given, S* errors) {
+  if constexpr (N == 0) {  // eight large ones would need a large stack
+    S z[kMaxDimension];
+    for (int i = 0; i < count; ++i)
+      errors[i] = solveEdge<S, N>(table.quadric(u), table.value(u), table.quadric(others[i]),
+                                  table.value(others[i]), scale, n_given, z);
+  } else {
+    edgeErrorsByEight<S, N>(table, u, others, count, scale, errors);
+  }
+}
+
+template <class S, int N>
+constexpr QuadricKernels<S> kKernels = {
+    addCellField<S, N>, addCellDistance<S, N>, addFacePlane<S, N>, addFaceDistance<S, N>,
+    minimizeEdge<S, N>, solveEdge<S, N>,       edgeErrors<S, N>,   errorAt<S, N>};
 template <class S>
 const QuadricKernels<S>& kernelsFor(int n) {
   switch (n) {

@@ -40,6 +40,17 @@ OrderOptions orderOptions(const RunOptions& options, const ProgressFunction& pro
   return order;
 }
 
+// A pilot takes this share of the time of the run that it serves. Larger meshes find their own way.
+constexpr double kPilotShare = 0.5;
+constexpr int64_t kPilotCells = 1 << 18;
+
+class Nowhere final : public Sink {
+ public:
+  void begin(const Schema&) override {}
+  void put(const BatchView&) override {}
+  void finish() override {}
+};
+
 // A source of an input, ordered if need be.
 struct Stream {
   Stream(Input& input, const RunOptions& options, const ProgressFunction& progress) {
@@ -74,6 +85,7 @@ struct SimplifyRun::State {
   // The simplifier's progress after the part that ordering took.
   void tell(Progress p) {
     if (!progress) return;
+    if (after_pilot && p.fraction >= 0) p.fraction = kPilotShare + (1 - kPilotShare) * p.fraction;
     if (after_ordering && p.fraction >= 0)
       p.fraction = kOrderShare + (1 - kOrderShare) * p.fraction;
     progress(p);
@@ -81,7 +93,7 @@ struct SimplifyRun::State {
 
   RunOptions options;
   ProgressFunction progress;
-  bool after_ordering = false;
+  bool after_ordering = false, after_pilot = false;
   Simplifier simplifier;
   std::unique_ptr<MeshCollector> collector;
   Clock::time_point start;
@@ -90,12 +102,36 @@ struct SimplifyRun::State {
   void simplify(Input& input) {
     Stream stream(input, options, progress);
     after_ordering = stream.ordered != nullptr;
+    if (std::unique_ptr<Source> first = pilotSource(*stream.source)) fly(*first);
     simplifier.begin(stream.source->schema());
     BatchView batch;
     while (stream.source->next(batch)) simplifier.put(batch);
     simplifier.finish();
     close();
     if (stream.ordered) report.unused_vertices += stream.ordered->unusedVertices();
+  }
+  // A first reading, where it is worth its time: a mesh larger than its window and small enough.
+  std::unique_ptr<Source> pilotSource(Source& source) const {
+    const SimplifyOptions& o = options.simplify;
+    const int64_t cells = source.schema().cell_count;
+    const bool wanted = o.mode != Mode::kPaper && o.pilot == PilotUse::kAuto &&
+                        o.memory_bytes == 0 && cells <= kPilotCells &&
+                        cells > Simplifier::windowCells(source.schema(), o);
+    return wanted ? source.again() : nullptr;
+  }
+  void fly(Source& source) {
+    SimplifyOptions whole = options.simplify;
+    whole.window_cells = source.schema().cell_count;
+    Nowhere nowhere;
+    Simplifier pilot(whole, nowhere, [this](Progress p) {
+      p.phase = "pilot";
+      p.cells_written = 0;
+      if (p.fraction >= 0) p.fraction *= kPilotShare;
+      tell(p);
+    });
+    copyStream(source, pilot);
+    simplifier.follow(pilot.pilot());
+    after_pilot = true;
   }
   void close() {
     report = simplifier.report();

@@ -1,45 +1,105 @@
-// simplify: how many cells a window may keep. Depends on options.h.
+// simplify: how many cells a window may keep, and up to which error it is simplified. Depends on
+// select.h.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 
+#include "pilot.h"
 #include "select.h"
 
 namespace tetstream {
 
 // What the loop knows when it sets a goal.
 struct Ledger {
-  int64_t read = 0;     // cells read so far
-  int64_t written = 0;  // cells written so far
-  int64_t front = 0;    // cells of the window that touch a vertex not yet final
+  int64_t read = 0;       // cells read so far
+  int64_t written = 0;    // cells written so far
+  int64_t front = 0;      // cells of the window that touch a vertex not yet final
+  int64_t live = 0;       // cells of the window
+  int64_t keep = 0;       // cells that may stay in it; what is more will be written
+  double rescaled = 1;    // times an error of the last window, normalised: that of this one
+  double error_unit = 1;  // times an error in normalised units: the report's
+  double error = 0, error_limit = 0;  // of all that was read, made and allowed
+  bool error_met = false;             // a collapse was refused for it
+};
+
+// When to stop; 0: not given. The first that is reached ends the run.
+struct Target {
+  double ratio = 0, error = 0;
+  int64_t cells = 0;
+  // Cells out when `read` have come in: never more than asked for, but one where there are any.
+  int64_t cellsOf(int64_t read) const {
+    return std::max({static_cast<int64_t>(ratio * static_cast<double>(read)), std::min(cells, read),
+                     std::min<int64_t>(read, 1)});
+  }
+};
+
+class Budget {
+ public:
+  // `total`: cells of the whole stream, negative when unknown.
+  Budget(const Target& target, int64_t total) : target_(target), total_(total) {}
+  virtual ~Budget() = default;
+
+  int64_t target(int64_t read) const { return target_.cellsOf(read); }
+  virtual Goal goalOf(const Ledger& ledger) = 0;
+  // At the end: not below the target by more than 0.2 % and 10 cells.
+  virtual Goal lastGoal(const Ledger& ledger) {
+    const int64_t all = target(ledger.read), slack = std::max<int64_t>(all / 500, 10);
+    return {all - ledger.written, all - slack - ledger.written, true};
+  }
+  // What came of a goal: the bound that was reached, the ledger before and after, and the cells
+  // that were written then.
+  virtual void learn(double bound, const Ledger& before, const Ledger& after, int64_t written) {
+    (void)bound, (void)before, (void)after, (void)written;
+  }
+
+ protected:
+  Target target_;
+  int64_t total_;
 };
 
 // The paper's: the same ratio all along the stream. Cells of the front cannot be simplified yet and
 // count in full; what an earlier window missed or saved is carried over.
-class UniformRatio {
+class UniformRatio final : public Budget {
  public:
-  UniformRatio(double ratio, int64_t cells) : ratio_(ratio), cells_(cells) {}
-
-  // Cells out when `read` have come in: never more than asked for, but one where there are any.
-  int64_t target(int64_t read) const {
-    if (cells_ > 0) return std::min(cells_, read);
-    return std::max(static_cast<int64_t>(ratio_ * static_cast<double>(read)),
-                    std::min<int64_t>(read, 1));
-  }
-  Goal goalOf(const Ledger& ledger) const {
-    const double done = ratio_ * static_cast<double>(ledger.read - ledger.front);
+  using Budget::Budget;
+  Goal goalOf(const Ledger& ledger) override {
+    const double part = total_ > 0 ? 1 / static_cast<double>(total_) : 0;
+    const double ratio = std::max(target_.ratio, static_cast<double>(target_.cells) * part);
+    const double done = std::min(ratio, 1.0) * static_cast<double>(ledger.read - ledger.front);
     return {static_cast<int64_t>(done) + ledger.front - ledger.written, 0, false};
   }
-  // At the end: not below the target by more than 0.2 % and 10 cells.
-  Goal lastGoal(const Ledger& ledger) const {
-    const int64_t all = target(ledger.read), slack = std::max<int64_t>(all / 500, 10);
-    return {all - ledger.written, all - slack - ledger.written, true};
-  }
+};
+
+// One bound for the whole stream, as a global order would have: where the field is simple few cells
+// are left, and many where it is not. The bound is steered towards the target, on the assumption
+// that what is to come resembles what has been.
+class CommonBound final : public Budget {
+ public:
+  CommonBound(const Target& target, int64_t total, const Pilot& pilot)
+      : Budget(target, total), pilot_(pilot) {}
+
+  Goal goalOf(const Ledger& ledger) override;
+  Goal lastGoal(const Ledger& ledger) override;
+  void learn(double bound, const Ledger& before, const Ledger& after, int64_t written) override;
 
  private:
-  double ratio_;
-  int64_t cells_;
+  double wanted(const Ledger& ledger) const;
+  double total(const Ledger& ledger) const;
+  double shareOf(double seen, const Ledger& ledger) const;
+  double boundForCells(const Ledger& ledger) const;
+  double nextBound(const Ledger& ledger) const;
+  int64_t leastOf(const Ledger& ledger) const;
+
+  Pilot pilot_;
+  double pilot_bound_ = 0;  // in normalised units
+  double error_room_ = 1;   // error allowed / error made, after the last window
+  bool limit_met_ = false;  // by the last window
+  double bound_ = 0;
+  double kept_ = 0;          // simplified cells in the window, at the bound
+  double seen_ = 0;          // cells read that they and the written ones stand for
+  double written_ = 0;       // cells
+  double written_at_1_ = 0;  // cells as they would be at a bound of 1
 };
 
 }  // namespace tetstream

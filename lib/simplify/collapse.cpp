@@ -4,22 +4,17 @@
 
 namespace tetstream {
 
-// Cells of less than this share of the regular cell's shape, a mean ratio of 0.01, are flat for all
-// purposes: rounding to float32 or another program's arithmetic may turn them over. Larger values
-// give better shapes at the price of field error.
-constexpr double kLeastShape = 1e-3;
-
-template <class S>
-Collapser<S>::Collapser(Core<S>& core, Account& account)
+template <class Mesh>
+Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
     : core_(core),
+      mesh_(mesh),
       link_(account),
-      around_u_(account),
-      around_v_(account),
+      stars_(account),
       merged_(static_cast<size_t>(core.plan.values)) {}
 
-template <class S>
-void Collapser<S>::endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
-  const S *a = core_.window.values(u), *b = core_.window.values(v);
+template <class Mesh>
+void Collapser<Mesh>::endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
+  const S *a = mesh_.values(u), *b = mesh_.values(v);
   for (size_t i = 0; i < core_.scale.size(); ++i) {
     const S half = S(0.5) * ((b[i] - a[i]) * core_.scale[i]);
     z[i] = at_v ? half : -half;
@@ -28,9 +23,9 @@ void Collapser<S>::endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
 
 // The new position is rounded to the type in which it is written: what is tested is what the file
 // will hold.
-template <class S>
-void Collapser<S>::placeAt(uint32_t u, uint32_t v, const S* z) {
-  const S *a = core_.window.values(u), *b = core_.window.values(v);
+template <class Mesh>
+void Collapser<Mesh>::placeAt(uint32_t u, uint32_t v, const S* z) {
+  const S *a = mesh_.values(u), *b = mesh_.values(v);
   const bool to_float = core_.plan.schema.position_type == ScalarType::kFloat32;
   for (size_t i = 0; i < core_.scale.size(); ++i) {
     merged_[i] = (a[i] + S(0.5) * (b[i] - a[i])) + z[i] * core_.inverse_scale[i];
@@ -38,98 +33,68 @@ void Collapser<S>::placeAt(uint32_t u, uint32_t v, const S* z) {
   }
 }
 
-template <class S>
-void Collapser<S>::gatherLanes(const StarCell* const cells[], int count,
-                               TriangleLanes& lanes) const {
-  for (int k = 0; k < kLanes; ++k) {
-    const StarCell& s = *cells[k < count ? k : 0];
-    for (int i = 0; i < 3; ++i) {
-      const S* p = core_.window.values(s.t[i]);
-      for (int j = 0; j < 3; ++j) lanes.xyz[3 * i + j][k] = static_cast<double>(p[j]);
-    }
-  }
+template <class Mesh>
+StarShape Collapser<Mesh>::shapeFrom(const S* place, const Star& star) const {
+  const double x[3] = {static_cast<double>(place[0]), static_cast<double>(place[1]),
+                       static_cast<double>(place[2])};
+  return starShape(x, mesh_.allValues(), mesh_.valueStride(), star.begin(), star.size(),
+                   core_.thin);
 }
 
-template <class S>
-bool Collapser<S>::lanesPositive(const StarCell* const cells[], int count, double* worst) {
-  TriangleLanes lanes;
-  gatherLanes(cells, count, lanes);
-  const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
-                       static_cast<double>(merged_[2])};
-  signed char sign[kLanes];
-  double shape[kLanes];
-  orientationLanes(x, lanes, count, sign, shape);
-  for (int k = 0; k < count; ++k) {
-    *worst = std::min(*worst, shape[k]);
-    if (sign[k] > 0) continue;
-    if (sign[k] < 0) return false;
-    double t[3][3];
-    for (int i = 0; i < 3; ++i) positionOf(core_.window, cells[k]->t[i], t[i]);
-    if (orientation(x, t[0], t[1], t[2]) <= 0) return false;
-  }
-  return true;
+// Whether the share of thin cells in the two stars would not grow, so that in the end it is no
+// larger than in the input.
+template <class Mesh>
+bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, size_t thin) const {
+  const size_t before = shapeFrom(mesh_.values(u), stars_.u).thin +
+                        shapeFrom(mesh_.values(u), stars_.ring).thin +
+                        shapeFrom(mesh_.values(v), stars_.v).thin;
+  const size_t left = stars_.u.size() + stars_.v.size();
+  return thin * (left + stars_.ring.size()) <= before * left;
 }
 
-// Of the cells of one star that outlive the collapse.
-template <class S>
-bool Collapser<S>::keepsOrientation(uint32_t other, const Star& star, double* worst) {
-  const StarCell* lane[kLanes];
-  int count = 0;
-  for (const StarCell& s : star) {
-    if (s.has(other)) continue;
-    lane[count++] = &s;
-    if (count < kLanes) continue;
-    if (!lanesPositive(lane, count, worst)) return false;
-    count = 0;
-  }
-  return count == 0 || lanesPositive(lane, count, worst);
-}
-
-// Of all cells of a star as it is.
-template <class S>
-double Collapser<S>::worstShape(uint32_t centre, const Star& star) {
-  double x[3], worst = 1;
-  positionOf(core_.window, centre, x);
-  for (size_t at = 0; at < star.size(); at += kLanes) {
-    const int count = static_cast<int>(std::min<size_t>(kLanes, star.size() - at));
-    const StarCell* cells[kLanes];
-    for (int k = 0; k < count; ++k) cells[k] = &star[at + static_cast<size_t>(k)];
-    TriangleLanes lanes;
-    gatherLanes(cells, count, lanes);
-    signed char sign[kLanes];
-    double shape[kLanes];
-    orientationLanes(x, lanes, count, sign, shape);
-    for (int k = 0; k < count; ++k) worst = std::min(worst, shape[k]);
-  }
-  return worst;
-}
-
-template <class S>
-Outcome Collapser<S>::test(uint32_t u, uint32_t v, int64_t least_cells) {
-  Topology& mesh = core_.window.mesh;
-  if (!mesh.isFree(u) || !mesh.isFree(v)) return Outcome::kLocked;
+// Half of all edges fail, most of them by the cells of one end.
+template <class Mesh>
+Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells) {
+  if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
-  mesh.gather(u, around_u_);
-  mesh.gather(v, around_v_);
-  int64_t dying = 0;
-  for (const StarCell& s : around_u_) dying += s.has(v);
+  mesh_.gather(u, v, stars_.u, stars_.ring);
+  const auto dying = static_cast<int64_t>(stars_.ring.size());
   if (dying == 0) return Outcome::kTopology;  // no edge any more
-  if (mesh.liveCells() - dying < least_cells) return Outcome::kTooMany;
-  double worst = 1;
-  if (!keepsOrientation(v, around_u_, &worst) || !keepsOrientation(u, around_v_, &worst))
-    return Outcome::kOrientation;
-  if (worst < kLeastShape && worst < std::min(worstShape(u, around_u_), worstShape(v, around_v_)))
-    return Outcome::kOrientation;
-  return link_.holds(mesh, u, v, around_u_, around_v_) ? Outcome::kDone : Outcome::kTopology;
+  if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
+  const StarShape a = shapeFrom(merged_.data(), stars_.u);
+  if (!a.positive) return Outcome::kOrientation;
+  mesh_.gather(v, u, stars_.v, stars_.ring_from_v);
+  const StarShape b = shapeFrom(merged_.data(), stars_.v);
+  if (!b.positive) return Outcome::kOrientation;
+  if (a.thin + b.thin > 0 && !thinsOut(u, v, a.thin + b.thin)) return Outcome::kOrientation;
+  return link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, mesh_.allFlags())
+             ? Outcome::kDone
+             : Outcome::kTopology;
 }
 
-template <class S>
-Outcome Collapser<S>::collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells) {
+// What merging two vertices adds to the error of the whole.
+template <class Mesh>
+double Collapser<Mesh>::growth(uint32_t u, uint32_t v, S error) {
+  const int last = core_.window.shape().quadric - 1;
+  return static_cast<double>(error) - static_cast<double>(mesh_.quadric(u)[last]) -
+         static_cast<double>(mesh_.quadric(v)[last]);
+}
+
+template <class Mesh>
+Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error,
+                                  int64_t least_cells) {
   placeAt(u, v, z);
-  std::copy_n(core_.window.values(u) + core_.plan.dimension,
-              core_.plan.values - core_.plan.dimension, merged_.data() + core_.plan.dimension);
-  const Outcome outcome = std::isfinite(error) ? test(u, v, least_cells) : Outcome::kNotFinite;
+  std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
+              merged_.data() + core_.plan.dimension);
+  Outcome outcome = Outcome::kNotFinite;
+  if (std::isfinite(error)) {
+    outcome = test(u, v, least_cells);
+    if (outcome == Outcome::kDone && core_.error + growth(u, v, error) > core_.error_limit) {
+      core_.error_reached = true;
+      outcome = Outcome::kTooFar;
+    }
+  }
   Report& report = core_.report;
   switch (outcome) {
     case Outcome::kDone:
@@ -145,6 +110,7 @@ Outcome Collapser<S>::collapse(uint32_t u, uint32_t v, const S* z, S error, int6
       ++report.rejected_orientation;
       break;
     case Outcome::kTooMany:
+    case Outcome::kTooFar:
     case Outcome::kNotFinite:
       ++report.rejected_other;
       break;
@@ -153,21 +119,21 @@ Outcome Collapser<S>::collapse(uint32_t u, uint32_t v, const S* z, S error, int6
   return outcome;
 }
 
-template <class S>
-void Collapser<S>::mergeInto(uint32_t u, uint32_t v, S error) {
-  Window<S>& window = core_.window;
+template <class Mesh>
+void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
+  core_.error += growth(u, v, error);
   if (core_.plan.values > core_.plan.dimension) interpolateCarried(u, v);
   if (core_.plan.picks > 0) pickNearest(u, v);
   if (core_.plan.cell_means > 0) handOverCellData(v);
-  window.mesh.merge(u, v, around_u_, around_v_);
-  std::copy(merged_.begin(), merged_.end(), window.values(u));
-  S *a = window.quadric(u), *b = window.quadric(v);
-  const int last = window.shape().quadric - 1;
+  mesh_.merge(u, v, stars_);
+  std::copy(merged_.begin(), merged_.end(), mesh_.values(u));
+  S *a = mesh_.quadric(u), *b = mesh_.quadric(v);
+  const int last = core_.window.shape().quadric - 1;
   for (int i = 0; i < last; ++i) a[i] += b[i];
   a[last] = error;
   const double in_users_terms = static_cast<double>(error) * core_.error_unit;
   core_.report.largest_error = std::max(core_.report.largest_error, in_users_terms);
-  if (observer_) observer_->collapsed(u, v, in_users_terms);
+  if (observer_) observer_->collapsed(mesh_.slotOf(u), mesh_.slotOf(v), in_users_terms);
 }
 
 // Barycentric coordinates of x in the cell (p0, t), clamped to the cell; returns the smallest of
@@ -196,17 +162,18 @@ static double barycentric(const double p[4][3], const double x[3], double out[4]
 }
 
 // Carried fields take the value that the old cells have at the new position.
-template <class S>
-void Collapser<S>::interpolateCarried(uint32_t u, uint32_t v) {
+template <class Mesh>
+void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
   double x[3], best = -1e301, weights[4] = {1, 0, 0, 0};
   uint32_t corners[4] = {u, u, u, u};
   for (int i = 0; i < 3; ++i) x[i] = static_cast<double>(merged_[static_cast<size_t>(i)]);
-  for (const Star* star : {&around_u_, &around_v_})
+  for (const Star* star : {&stars_.ring, &stars_.u, &stars_.v})
     for (const StarCell& s : *star) {
       if (best >= 0) break;  // x lies in that cell
-      const uint32_t c[4] = {star == &around_u_ ? u : v, s.t[0], s.t[1], s.t[2]};
+      const uint32_t c[4] = {star == &stars_.v ? v : u, s.t[0], s.t[1], s.t[2]};
       double p[4][3], w[4];
-      for (int k = 0; k < 4; ++k) positionOf(core_.window, c[k], p[k]);
+      for (int k = 0; k < 4; ++k)
+        for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(c[k])[i]);
       const double least = barycentric(p, x, w);
       if (!(least > best)) continue;
       best = least;
@@ -216,45 +183,41 @@ void Collapser<S>::interpolateCarried(uint32_t u, uint32_t v) {
   for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
     double sum = 0;
     for (int k = 0; k < 4; ++k)
-      sum += weights[k] * static_cast<double>(core_.window.values(corners[k])[i]);
+      sum += weights[k] * static_cast<double>(mesh_.values(corners[k])[i]);
     merged_[static_cast<size_t>(i)] = static_cast<S>(sum);
   }
 }
 
-template <class S>
-void Collapser<S>::pickNearest(uint32_t u, uint32_t v) {
+template <class Mesh>
+void Collapser<Mesh>::pickNearest(uint32_t u, uint32_t v) {
   double to_u = 0, to_v = 0;
   for (size_t i = 0; i < 3; ++i) {
     const double s = static_cast<double>(core_.scale[i]), x = static_cast<double>(merged_[i]);
-    const double a = (static_cast<double>(core_.window.values(u)[i]) - x) * s;
-    const double b = (static_cast<double>(core_.window.values(v)[i]) - x) * s;
+    const double a = (static_cast<double>(mesh_.values(u)[i]) - x) * s;
+    const double b = (static_cast<double>(mesh_.values(v)[i]) - x) * s;
     to_u += a * a;
     to_v += b * b;
   }
-  if (to_v < to_u) std::copy_n(core_.window.picks(v), core_.plan.picks, core_.window.picks(u));
+  if (to_v < to_u) std::copy_n(mesh_.picks(v), core_.plan.picks, mesh_.picks(u));
 }
 
 // A dying cell u v a b leaves its volume to the cells across u a b and v a b, half to each, or all
 // to the one that is there: float cell data stay the mean over what a cell stands for.
-template <class S>
-void Collapser<S>::handOverCellData(uint32_t v) {
+template <class Mesh>
+void Collapser<Mesh>::handOverCellData(uint32_t v) {
   const int n = core_.plan.cell_means;
-  for (const StarCell& dying : around_u_) {
-    if (!dying.has(v)) continue;
+  for (const StarCell& dying : stars_.ring) {
     uint32_t heirs[2];
     int count = 0;
-    for (const Star* star : {&around_u_, &around_v_})
+    for (const Star* star : {&stars_.u, &stars_.v})
       for (const StarCell& s : *star) {
-        if (s.cell == dying.cell) continue;
         int shared = 0;
         for (uint32_t t : dying.t) shared += t != v && s.has(t);
-        const uint32_t* c = core_.window.mesh.corners(dying.cell);
-        const uint32_t other = star == &around_u_ ? v : c[dying.corner % 4];
-        if (shared == 2 && !s.has(other) && count < 2) heirs[count++] = s.cell;
+        if (shared == 2 && count < 2) heirs[count++] = s.cell();
       }
-    const double* from = core_.window.cellMeans(dying.cell);
-    for (int k = 0; k < count; ++k) {
-      double* to = core_.window.cellMeans(heirs[k]);
+    const double* from = mesh_.cellMeans(dying.cell());
+    for (int h = 0; h < count; ++h) {
+      double* to = mesh_.cellMeans(heirs[h]);
       const double share = from[0] / count, sum = to[0] + share;
       for (int i = 1; i <= n && sum > 0; ++i) to[i] += (from[i] - to[i]) * (share / sum);
       to[0] = sum;
@@ -262,7 +225,9 @@ void Collapser<S>::handOverCellData(uint32_t v) {
   }
 }
 
-template class Collapser<float>;
-template class Collapser<double>;
+template class Collapser<Window<float>>;
+template class Collapser<Window<double>>;
+template class Collapser<Patch<float>>;
+template class Collapser<Patch<double>>;
 
 }  // namespace tetstream

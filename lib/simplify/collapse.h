@@ -1,9 +1,11 @@
-// simplify: whether an edge may be collapsed to a point, and doing it. Depends on core.h, mesh.
+// simplify: whether an edge may be collapsed to a point, and doing it, in the window or in a patch
+// of it. Depends on core.h, mesh.
 #pragma once
 
 #include "core.h"
 #include "link.h"
-#include "orient.h"
+#include "patch.h"
+#include "star_kernels.h"
 
 namespace tetstream {
 
@@ -15,40 +17,47 @@ class CollapseObserver {
   virtual void collapsed(uint32_t u, uint32_t v, double error) = 0;
 };
 
-enum class Outcome { kDone, kLocked, kTooMany, kTopology, kOrientation, kNotFinite };
+enum class Outcome { kDone, kLocked, kTooMany, kTooFar, kTopology, kOrientation, kNotFinite };
 
-template <class S>
+template <class Mesh>
 class Collapser {
  public:
-  Collapser(Core<S>& core, Account& account);
+  using S = typename Mesh::Scalar;
+
+  Collapser(Core<S>& core, Mesh& mesh, Account& account);
+
+  Mesh& mesh() { return mesh_; }
 
   void observe(CollapseObserver* observer) { observer_ = observer; }
 
   // Merges v into u at z, normalised and relative to the edge's midpoint, if the result is legal:
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
-  // before, decided exactly on the values as they will be written, and none so thin as kLeastShape
-  // unless one was as thin before; no fewer than `least_cells`
-  // cells left in the window. Counts what happened in the report.
+  // before, decided exactly on the values as they will be written, and the share of thin ones no
+  // larger; the whole error within its limit; no fewer than `least_cells` cells left in the window.
+  // Counts what happened in the report.
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells);
 
-  // z of the ends and of the midpoint, which minimizers are compared with.
+  // z of an end.
   void endOf(uint32_t u, uint32_t v, bool at_v, S* z) const;
+
+  // The last edge that was tried. After a collapse its ring is gone.
+  const Stars& stars() const { return stars_; }
 
  private:
   Outcome test(uint32_t u, uint32_t v, int64_t least_cells);
+  double growth(uint32_t u, uint32_t v, S error);
   void placeAt(uint32_t u, uint32_t v, const S* z);
-  bool keepsOrientation(uint32_t other, const Star& star, double* worst);
-  bool lanesPositive(const StarCell* const cells[], int count, double* worst);
-  double worstShape(uint32_t centre, const Star& star);
-  void gatherLanes(const StarCell* const cells[], int count, TriangleLanes& lanes) const;
+  StarShape shapeFrom(const S* place, const Star& star) const;
+  bool thinsOut(uint32_t u, uint32_t v, size_t thin) const;
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
 
   Core<S>& core_;
+  Mesh& mesh_;
   LinkCondition link_;
-  Star around_u_, around_v_;
+  Stars stars_;
   std::vector<S> merged_;  // values of the merged vertex
   CollapseObserver* observer_ = nullptr;
 };

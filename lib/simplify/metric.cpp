@@ -1,11 +1,20 @@
 #include "metric.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "orient.h"
 
 namespace tetstream {
+
+// Cells with a dihedral angle below the floor harm a solver: as few as the input has are made. The
+// floor is the largest of these, in degrees, that hardly any cell of the input is below: stretched
+// meshes would lose their field for angles that they never had. The paper's mode only avoids cells
+// that rounding or another program's arithmetic may turn over.
+constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, 0.05};
+constexpr double kShareBelow = 0.01;
+constexpr int64_t kCellsPerSample = 16;
 
 // Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
 constexpr double kRescaleStep = 1.25;
@@ -17,6 +26,11 @@ Metric<S>::Metric(Core<S>& core)
       low_(static_cast<size_t>(core.plan.dimension), std::numeric_limits<double>::infinity()),
       high_(low_.size(), -std::numeric_limits<double>::infinity()),
       used_range_(low_.size(), -1) {
+  for (double degrees : kFloors)
+    if (core.options.mode != Mode::kPaper || degrees == kFloors[std::size(kFloors) - 1])
+      floors_.emplace_back(degrees);
+  below_.assign(floors_.size(), 0);
+  core.thin = floors_.back();
   if (!box_known_) return;
   const Schema& schema = core.plan.schema;
   size_t in_box = 3;
@@ -120,18 +134,28 @@ void Metric<S>::updateScales() {
     core_.inverse_scale[i] = usable ? inverse : scale;
   }
   used_range_ = range;
+  core_.extent = extent() > 0 ? extent() / length_unit_ : 1;
   const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;
   core_.error_unit = unit_share * unit_share * unit_share * unit_share * unit_share;
   if (!first_time) rescaleQuadrics(factor);
 }
 
+// Old quadrics get the units of new ones, and the weight that they would have there: that of the
+// field whose scale grew most, so that no error made so far counts less than it should.
 template <class S>
 void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
+  double grown = 0;
+  for (size_t i = 3; i < factor.size(); ++i)
+    grown = std::max(grown, 1 / (static_cast<double>(factor[i]) * static_cast<double>(factor[i])));
+  const S weight = grown > 0 && std::isfinite(static_cast<S>(grown)) ? static_cast<S>(grown) : S(1);
   for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v) {
     S* a = core_.window.quadric(v);
     for (size_t i = 0; i < factor.size(); ++i)
-      for (size_t j = 0; j <= i; ++j) *a++ *= factor[i] * factor[j];
+      for (size_t j = 0; j <= i; ++j) *a++ *= weight * (factor[i] * factor[j]);
+    *a *= weight;
   }
+  core_.error *= static_cast<double>(weight);
+  core_.rescaled *= static_cast<double>(weight);
 }
 
 template <class S>
@@ -142,14 +166,15 @@ void Metric<S>::addCell(uint32_t cell) {
   for (int j = 0; j < 4; ++j) positionOf(window, v[j], p[j]);
   const int side = orientation(p[0], p[1], p[2], p[3]);
   if (side < 0) window.mesh.flagCell(cell, kNegative);
-  if (core_.plan.cell_means) {
-    double e[3][3];
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) e[k][i] = (p[k + 1][i] - p[0][i]) / length_unit_;
-    window.cellMeans(cell)[0] = std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                                          e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                                          e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]));
-  }
+  double e[3][3];
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) e[k][i] = (p[k + 1][i] - p[0][i]) / length_unit_;
+  const double volume = std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                                  e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+                        6;
+  core_.volume += volume;
+  if (core_.plan.cell_means) window.cellMeans(cell)[0] = volume;
   if (side == 0) {
     window.mesh.flagCell(cell, kFlat);
     for (int j = 0; j < 4; ++j) window.mesh.flagVertex(v[j], kLocked);
@@ -166,7 +191,32 @@ void Metric<S>::addCell(uint32_t cell) {
   const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
                        ? core_.kernels.addCellDistance
                        : core_.kernels.addCellField;
-  add(x, core_.scale.data(), core_.plan.dimension, q);
+  add(x, core_.scale.data(), core_.plan.dimension,
+      core_.options.mode == Mode::kPaper ? kShapeWeightPaper : kShapeWeight, q);
+}
+
+// Counts cells, not windows: the floor depends on what was read, not on how.
+template <class S>
+void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
+  const Topology& mesh = core_.window.mesh;
+  for (uint32_t c = first; c < end; ++c) {
+    if (seen_++ % kCellsPerSample != 0 || (mesh.cellFlags(c) & kFlat)) continue;
+    ++sampled_;
+    const StarCell cell = mesh.starCell(4 * c);
+    double x[3];
+    positionOf(core_.window, mesh.corners(c)[0], x);
+    for (size_t i = 0; i < floors_.size(); ++i) {
+      const StarShape shape =
+          starShape(x, core_.window.allValues(), core_.window.valueStride(), &cell, 1, floors_[i]);
+      if (shape.thin == 0) break;
+      ++below_[i];
+    }
+  }
+  size_t i = 0;
+  while (i + 1 < floors_.size() &&
+         static_cast<double>(below_[i]) > kShareBelow * static_cast<double>(sampled_))
+    ++i;
+  core_.thin = floors_[i];
 }
 
 template <class S>
@@ -176,6 +226,7 @@ void Metric<S>::addCells(uint32_t first, uint32_t end) {
   if (!unit_known_) chooseLengthUnit(first, end);
   updateScales();
   for (uint32_t c = first; c < end; ++c) addCell(c);
+  sampleAngles(first, end);
 }
 
 template <class S>
@@ -186,7 +237,8 @@ void Metric<S>::addBoundaryFace(uint32_t a, uint32_t b, uint32_t c) {
   const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
                        ? core_.kernels.addFaceDistance
                        : core_.kernels.addFacePlane;
-  add(x, core_.scale.data(), core_.plan.dimension, core_.options.boundary_weight, q);
+  add(x, core_.scale.data(), core_.plan.dimension,
+      core_.options.boundary_weight * extent() / length_unit_, q);
 }
 
 template class Metric<float>;

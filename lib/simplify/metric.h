@@ -30,8 +30,12 @@ class Metric {
   void updateScales();
   void rescaleQuadrics(const std::vector<S>& factor);
   void addCell(uint32_t cell);
+  void sampleAngles(uint32_t first, uint32_t end);
 
   Core<S>& core_;
+  std::vector<ThinAngle> floors_;   // falling
+  std::vector<int64_t> below_;      // of the cells sampled: those below each floor
+  int64_t sampled_ = 0, seen_ = 0;  // cells
   bool box_known_, unit_known_ = false;
   double length_unit_ = 1;
   std::vector<double> low_, high_;  // x y z, then measured components

@@ -12,16 +12,21 @@
 namespace tetstream {
 
 enum class QuadricForm { kDeterminant, kGarlandZhou };
-enum class Mode { kPaper };
+enum class Mode { kSweep, kPaper };
+enum class PilotUse { kAuto, kNever };
 
 struct SimplifyOptions {
-  double ratio = 0.1;                                  // cells out / cells in
-  int64_t cells = 0;                                   // cells out; 0: the ratio decides
+  // Targets, of which the first that is reached ends the run; 0: not given. Without any, a ratio of
+  // 0.1.
+  double ratio = 0;   // cells out / cells in
+  int64_t cells = 0;  // cells out
+  double error = 0;   // RMS error of the measured fields, percent of their range
   std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
-  double boundary_weight = 300;
+  double boundary_weight = 10;
   std::string regions = "auto";
-  Mode mode = Mode::kPaper;
+  Mode mode = Mode::kSweep;
   QuadricForm quadric = QuadricForm::kDeterminant;
+  PilotUse pilot = PilotUse::kAuto;
   int64_t seed = 1;
   int64_t candidates = 8;
   int64_t window_cells = 0;  // 0: from the front
@@ -36,9 +41,11 @@ struct Report {
   int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
   int64_t locked_cells = 0, unused_vertices = 0;
   double largest_error = 0;
+  double estimated_error = 0;  // RMS, percent of the range, not less than the true one as a rule
   double seconds = 0;
   uint64_t peak_window_bytes = 0;
   std::string regions;     // what was taken as region labels, a sentence
+  std::string reached;     // the target that ended the run: "ratio", "cells", "error"; or empty
   std::string limited_by;  // what stopped the run short of its target; empty: reached
 };
 

@@ -59,14 +59,10 @@ void Regions<S>::decide() {
 }
 
 template <class S>
-bool Regions<S>::differ(const Star& star) const {
-  if (picks_.empty() || star.size() == 0) return false;
-  const int64_t* first = core_.window.cellPicks(star[0].cell);
-  for (const StarCell& s : star) {
-    const int64_t* row = core_.window.cellPicks(s.cell);
-    for (int pick : picks_)
-      if (row[pick] != first[pick]) return true;
-  }
+bool Regions<S>::differ(uint32_t a, uint32_t b) const {
+  const int64_t *row = core_.window.cellPicks(a), *other = core_.window.cellPicks(b);
+  for (int pick : picks_)
+    if (row[pick] != other[pick]) return true;
   return false;
 }
 

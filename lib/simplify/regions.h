@@ -13,8 +13,9 @@ class Regions {
  public:
   explicit Regions(Core<S>& core);
   void decide();  // with the first cells in the window
-  // Whether the cells of a star lie in more than one region.
-  bool differ(const Star& star) const;
+  bool none() const { return picks_.empty(); }
+  // Whether two cells lie in different regions.
+  bool differ(uint32_t a, uint32_t b) const;
 
  private:
   bool looksLikeIds(int offset, int components) const;

@@ -40,9 +40,12 @@ void Release<S>::countUses() {
   const Topology& mesh = core_.window.mesh;
   if (uses_.size() < mesh.vertexCapacity()) uses_.resize(mesh.vertexCapacity());
   std::memset(uses_.data(), 0, mesh.vertexEnd() * sizeof(uint32_t));
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
-    if (mesh.isLive(c))
-      for (int j = 0; j < 4; ++j) ++uses_[mesh.corners(c)[j]];
+  front_ = 0;
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    for (int j = 0; j < 4; ++j) ++uses_[mesh.corners(c)[j]];
+    front_ += !mayGo(c);
+  }
 }
 
 template <class S>
@@ -108,7 +111,8 @@ void Release<S>::write(uint32_t keep) {
   countUses();
   for (uint32_t c = 0; c < mesh.cellEnd() && mesh.liveCells() > keep; ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
-  core_.report.unused_vertices += static_cast<int64_t>(core_.window.pack(core_.front));
+  core_.report.unused_vertices +=
+      static_cast<int64_t>(core_.window.pack(core_.front, uses_.data()));
 }
 
 template class Release<float>;

@@ -19,6 +19,8 @@ class Release {
   void write(uint32_t keep);
   void flush();
 
+  // Of the cells that were left at the last write, those that touched a vertex not yet final.
+  int64_t frontCells() const { return front_; }
   uint64_t cellsWritten() const { return cells_; }
   uint64_t verticesWritten() const { return vertices_; }
 
@@ -33,6 +35,7 @@ class Release {
   Sink& out_;
   Batch batch_;
   Array<uint32_t> uses_;  // per vertex: live cells
+  int64_t front_ = 0;
   uint64_t cells_ = 0, vertices_ = 0;
 };
 

@@ -10,33 +10,136 @@ static uint64_t mix(uint64_t x) {
   return x ^ (x >> 33);
 }
 
-// The link of an inner vertex is closed: each of its edges is there once in each direction. A sum
-// of hashes that change sign with the direction is zero then, and otherwise only by a chance of
-// 2^-64.
-static bool isClosed(const Star& star) {
-  uint64_t sum = 0;
-  for (const StarCell& s : star)
-    for (int i = 0; i < 3; ++i) {
-      const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
-      sum += a < b ? mix(a << 32 | b) : -mix(b << 32 | a);
-    }
-  return sum == 0;
+// The link of an inner vertex is closed: each of its edges is there once in each direction. With
+// two random numbers to each vertex, (x, y) and (x', y') of an edge, the sum of x y' - x' y over
+// all edges of all triangles is zero then, and otherwise only by a chance of about 2^-60.
+namespace {
+struct Numbers {
+  uint64_t x, y;
+};
+inline Numbers numbersOf(uint32_t v) {
+  const uint64_t x = mix(v + 0x9e3779b97f4a7c15ull);
+  return {x, (x ^ (x >> 29)) * 0xd1342543de82ef95ull};
 }
+inline uint64_t area(const Numbers& a, const Numbers& b, const Numbers& c) {
+  return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+}
+}  // namespace
 
 template <class S>
-void Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
-  for (size_t i = 0; i < count; ++i) resolve(vertices[i]);
-}
-
-template <class S>
-void Resolver<S>::resolve(uint32_t v) {
-  Topology& mesh = core_.window.mesh;
-  mesh.gather(v, star_);
-  if (!isClosed(star_)) resolveBoundary(v);
-  if (regions_.differ(star_)) {
-    mesh.flagVertex(v, kLocked);
-    ++core_.locked.interfaces;
+void Resolver<S>::addToLinks(uint32_t cell) {
+  const Topology& mesh = core_.window.mesh;
+  const uint32_t* v = mesh.corners(cell);
+  const Numbers n[4] = {numbersOf(v[0]), numbersOf(v[1]), numbersOf(v[2]), numbersOf(v[3])};
+  const bool negative = mesh.cellFlags(cell) & kNegative;
+  for (int j = 0; j < 4; ++j) {
+    if ((mesh.vertexFlags(v[j]) & (kFinal | kResolved)) != kFinal) continue;
+    const uint8_t* t = kOpposite[j];
+    const uint64_t sum = area(n[t[0]], n[t[1]], n[t[2]]);
+    core_.window.outRank(v[j]) += negative ? -sum : sum;
+    if (regions_.none()) continue;
+    uint32_t& first = core_.window.scratch()[v[j]];
+    if (first == kNone)
+      first = cell;
+    else if (regions_.differ(first, cell))
+      core_.window.mesh.flagVertex(v[j], kInterface);
   }
+}
+
+template <class S>
+int64_t Resolver<S>::sumLinks() {
+  const Topology& mesh = core_.window.mesh;
+  int64_t front = 0;
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    const uint32_t* v = mesh.corners(c);
+    const unsigned f[4] = {mesh.vertexFlags(v[0]), mesh.vertexFlags(v[1]), mesh.vertexFlags(v[2]),
+                           mesh.vertexFlags(v[3])};
+    const unsigned all_final = f[0] & f[1] & f[2] & f[3] & kFinal;
+    front += !all_final;
+    // note: some vertex is final and not resolved: kResolved is 32 times kFinal.
+    const auto is_new = [](unsigned flags) {
+      return flags & ~(flags / (kResolved / kFinal)) & kFinal;
+    };
+    if (is_new(f[0]) | is_new(f[1]) | is_new(f[2]) | is_new(f[3])) addToLinks(c);
+  }
+  return front;
+}
+
+// Stars are listed for as many vertices as fit this many corners: bounds the memory where all
+// vertices are on the boundary.
+constexpr size_t kCornersAtOnce = 1 << 16;
+
+// Lists the corners of the first vertices, as many as fit; scratch holds a vertex's place in the
+// list plus one, 0 for others. Returns their number.
+template <class S>
+size_t Resolver<S>::listStars(size_t count) {
+  const Topology& mesh = core_.window.mesh;
+  uint32_t* place = core_.window.scratch();
+  if (begins_.size() < count + 1) begins_.resize(count + 1);
+  std::fill_n(begins_.data(), count + 1, 0u);
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
+    if (mesh.isLive(c))
+      for (int j = 0; j < 4; ++j) begins_[place[mesh.corners(c)[j]]] += 1;
+  begins_[0] = 0;
+  size_t fitting = 0;
+  while (fitting < count &&
+         (fitting == 0 || begins_[fitting] + begins_[fitting + 1] <= kCornersAtOnce)) {
+    begins_[fitting + 1] += begins_[fitting];
+    ++fitting;
+  }
+  if (corners_.size() < begins_[fitting]) corners_.resize(begins_[fitting]);
+  for (uint32_t corner = 0; corner < 4 * mesh.cellEnd(); ++corner) {
+    if (!mesh.isLive(corner / 4)) continue;
+    const uint32_t p = place[mesh.corners(corner / 4)[corner % 4]];
+    if (p > 0 && p <= fitting) corners_[begins_[p - 1]++] = corner;
+  }
+  for (size_t i = fitting; i > 0; --i) begins_[i] = begins_[i - 1];
+  begins_[0] = 0;
+  return fitting;
+}
+
+template <class S>
+int64_t Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
+  Window<S>& window = core_.window;
+  Topology& mesh = window.mesh;
+  for (size_t i = 0; i < count; ++i) {
+    window.outRank(vertices[i]) = 0;
+    window.scratch()[vertices[i]] = kNone;
+  }
+  const int64_t front = sumLinks();
+  if (open_.size() < count) open_.resize(count);
+  size_t open = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const uint32_t v = vertices[i];
+    if (window.outRank(v) != 0) open_[open++] = v;
+    if (mesh.vertexFlags(v) & kInterface) {
+      mesh.unflagVertex(v, kInterface);
+      mesh.flagVertex(v, kLocked);
+      ++core_.locked.interfaces;
+    }
+    if (window.outRank(v) == 0) mesh.flagVertex(v, kResolved);
+  }
+  std::fill_n(window.scratch(), mesh.vertexEnd(), 0u);
+  for (size_t done = 0; done < open;) {
+    for (size_t i = done; i < open; ++i)
+      window.scratch()[open_[i]] = static_cast<uint32_t>(i - done + 1);
+    const size_t listed = listStars(open - done);
+    for (size_t i = 0; i < listed; ++i) {
+      resolveOpen(open_[done + i], corners_.data() + begins_[i], begins_[i + 1] - begins_[i]);
+      window.scratch()[open_[done + i]] = 0;
+    }
+    done += listed;
+  }
+  return front;
+}
+
+template <class S>
+void Resolver<S>::resolveOpen(uint32_t v, const uint32_t* corners, size_t count) {
+  Topology& mesh = core_.window.mesh;
+  star_.clear();
+  for (size_t i = 0; i < count; ++i) star_.add() = mesh.starCell(corners[i]);
+  resolveBoundary(v);
   mesh.flagVertex(v, kResolved);
 }
 
@@ -46,12 +149,12 @@ template <class S>
 void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
   Topology& mesh = core_.window.mesh;
   for (const StarCell& s : star_)
-    if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell) & kFlat)) return;
+    if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell()) & kFlat)) return;
   for (const StarCell& s : star_) {
     if (!s.has(a) || !s.has(b)) continue;
-    if (!(mesh.cellFlags(s.cell) & kFolded)) ++core_.report.locked_cells;
-    mesh.flagCell(s.cell, kFolded);
-    for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell)[j], kLocked);
+    if (!(mesh.cellFlags(s.cell()) & kFolded)) ++core_.report.locked_cells;
+    mesh.flagCell(s.cell(), kFolded);
+    for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell())[j], kLocked);
     ++core_.locked.bad_cells;
   }
 }
@@ -76,6 +179,8 @@ void Resolver<S>::resolveBoundary(uint32_t v) {
     const uint32_t a = static_cast<uint32_t>(pair >> 32), b = static_cast<uint32_t>(pair);
     if (j - i == 1) {
       boundary_.push_back(uint64_t{a} << 32 | b);
+      mesh.flagVertex(a, kBoundary);
+      mesh.flagVertex(b, kBoundary);
       const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
       if (!counted) metric_.addBoundaryFace(v, a, b);
     } else if (j - i == 2) {

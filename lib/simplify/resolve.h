@@ -9,18 +9,32 @@
 namespace tetstream {
 
 // A final vertex has its whole star in the window (paper, section 4: only then is it off the
-// stream boundary). Its boundary faces are found and counted once, by the first of their vertices
-// that becomes final; what must not move is locked.
+// stream boundary). Whether its link is closed, so that it lies inside the domain, is told by a sum
+// over its cells in one pass over the window; only the stars of the others are looked at. Their
+// boundary faces are found and counted once, by the first of their vertices that becomes final;
+// what must not move is locked.
 template <class S>
 class Resolver {
  public:
   Resolver(Core<S>& core, Metric<S>& metric, Regions<S>& regions, Account& account)
-      : core_(core), metric_(metric), regions_(regions), star_(account), edges_(account, 256) {}
+      : core_(core),
+        metric_(metric),
+        regions_(regions),
+        star_(account),
+        corners_(account, 256),
+        open_(account),
+        begins_(account, 256),
+        edges_(account, 256) {}
 
-  void resolve(const uint32_t* vertices, size_t count);
+  // All cells of these vertices are in the window. Returns the cells of the front: those that touch
+  // a vertex not yet final.
+  int64_t resolve(const uint32_t* vertices, size_t count);
 
  private:
-  void resolve(uint32_t v);
+  int64_t sumLinks();
+  void addToLinks(uint32_t cell);
+  size_t listStars(size_t count);
+  void resolveOpen(uint32_t v, const uint32_t* corners, size_t count);
   void resolveBoundary(uint32_t v);
   bool isDisk(const std::vector<uint64_t>& boundary);
   void lockFold(uint32_t a, uint32_t b);
@@ -30,7 +44,10 @@ class Resolver {
   Metric<S>& metric_;
   Regions<S>& regions_;
   Star star_;
-  Array<uint64_t> edges_;  // of the link, directed, as (low, high, direction)
+  Array<uint32_t> corners_;  // of the stars that are looked at
+  Array<uint32_t> open_;     // vertices whose link is not closed
+  Array<uint32_t> begins_;   // of each star among the corners
+  Array<uint64_t> edges_;    // of the link, directed, as (low, high, direction)
   std::vector<uint64_t> boundary_, ends_;
 };
 

@@ -21,9 +21,9 @@ constexpr size_t kTries = 3;
 constexpr int kSamples = 256;  // draws from which the first window's bound is taken
 
 template <class S>
-class RandomSelector final : public Selector<S> {
+class RandomSelector final : public Selector {
  public:
-  RandomSelector(Core<S>& core, Collapser<S>& collapser, Account& account)
+  RandomSelector(Core<S>& core, Collapser<Window<S>>& collapser, Account& account)
       : core_(core),
         collapser_(collapser),
         tiles_(core, account),
@@ -58,10 +58,10 @@ class RandomSelector final : public Selector<S> {
   S sampledBound();
 
   Core<S>& core_;
-  Collapser<S>& collapser_;
+  Collapser<Window<S>>& collapser_;
   Tiles<S> tiles_;
   Random random_;
-  std::unique_ptr<Selector<S>> exhaustive_;
+  std::unique_ptr<Selector> exhaustive_;
   std::array<Draw, kTries> best_;  // of the last draw, in order of error
   std::vector<S> z_;
   Goal goal_{};
@@ -191,14 +191,14 @@ void RandomSelector<S>::sweep(const std::function<void()>& tick) {
 }  // namespace
 
 template <class S>
-std::unique_ptr<Selector<S>> makeRandomSelector(Core<S>& core, Collapser<S>& collapser,
-                                                Account& account) {
+std::unique_ptr<Selector> makeRandomSelector(Core<S>& core, Collapser<Window<S>>& collapser,
+                                             Account& account) {
   return std::make_unique<RandomSelector<S>>(core, collapser, account);
 }
 
-template std::unique_ptr<Selector<float>> makeRandomSelector(Core<float>&, Collapser<float>&,
-                                                             Account&);
-template std::unique_ptr<Selector<double>> makeRandomSelector(Core<double>&, Collapser<double>&,
-                                                              Account&);
+template std::unique_ptr<Selector> makeRandomSelector(Core<float>&, Collapser<Window<float>>&,
+                                                      Account&);
+template std::unique_ptr<Selector> makeRandomSelector(Core<double>&, Collapser<Window<double>>&,
+                                                      Account&);
 
 }  // namespace tetstream

@@ -14,14 +14,14 @@ namespace tetstream {
 namespace {
 
 // A window holds at least this many cells, some tiles: smaller ones save no memory worth having.
-constexpr int64_t kLeastWindow = 16384;
+constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
 // A header that claims more is not believed: the window grows when such a front comes.
 constexpr int64_t kWidestFront = 1 << 23;
-// Of a memory budget, not for cells and vertices: stars, lists, the front's map.
-constexpr int64_t kFixedBytes = 256 << 10;
+// Of a memory budget, not for cells and vertices: stars, lists; a patch beside.
+constexpr int64_t kFixedBytes = 320 << 10;
 constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two of 8 bytes
 
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.
@@ -34,14 +34,16 @@ uint64_t expectedSpan(const Schema& schema) {
   return static_cast<uint64_t>(std::min(wide, most));
 }
 
-double ratioFor(const Schema& schema, const SimplifyOptions& options) {
-  if (options.cells <= 0) return options.ratio;
-  if (schema.cell_count < 0)
+Target targetOf(const Schema& schema, const SimplifyOptions& options) {
+  Target target{options.ratio, options.error, options.cells};
+  if (!(target.ratio > 0 || target.error > 0 || target.cells > 0)) target.ratio = 0.1;
+  if (target.cells > 0 && schema.cell_count < 0)
     fail(Status::kUnsupported,
          "a number of cells was asked for, but the stream does not say how many it has: give a "
          "ratio");
-  if (schema.cell_count == 0) return 1;
-  return std::min(1.0, static_cast<double>(options.cells) / static_cast<double>(schema.cell_count));
+  if (target.error > 0 && options.mode == Mode::kPaper)
+    fail(Status::kUnsupported, "mode \"paper\" knows no bound on the error");
+  return target;
 }
 
 // The window that a memory budget allows. A seventh is left for meshes with more vertices to a
@@ -49,20 +51,30 @@ double ratioFor(const Schema& schema, const SimplifyOptions& options) {
 int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
   if (options.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
   const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
-  const int64_t cells =
-      (options.memory_bytes - kFixedBytes - map) * 6 / 7 / static_cast<int64_t>(bytes_per_cell);
+  const int64_t patch = options.mode == Mode::kPaper ? 0 : tileVertices(options) * kTileVertexBytes;
+  const int64_t cells = (options.memory_bytes - kFixedBytes - patch - map) * 6 / 7 /
+                        static_cast<int64_t>(bytes_per_cell);
   return std::max<int64_t>(cells, 64);
 }
 
 // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
 int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
   const int64_t front = std::min(schema.front_cells, kWidestFront);
+  const int64_t least = options.mode == Mode::kPaper ? kLeastPaperWindow : kLeastWindow;
   int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
-                  : front >= 0             ? std::max(kFrontsPerWindow * front, kLeastWindow)
+                  : front >= 0             ? std::max(kFrontsPerWindow * front, least)
                                            : kFirstWindow;
   if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
   if (options.window_cells > 0) return cells;
   return std::min(cells, fittingCells(schema, options, bytes_per_cell));
+}
+
+std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
+                                   const Pilot& pilot) {
+  const Target target = targetOf(schema, options);
+  if (options.mode == Mode::kPaper)
+    return std::make_unique<UniformRatio>(target, schema.cell_count);
+  return std::make_unique<CommonBound>(target, schema.cell_count, pilot);
 }
 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
@@ -75,22 +87,23 @@ int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t b
 template <class S>
 class WindowedEngine final : public Simplifier::Engine {
  public:
-  WindowedEngine(Plan plan, const SimplifyOptions& options, Sink& out,
+  WindowedEngine(Plan plan, const SimplifyOptions& options, const Pilot& pilot, Sink& out,
                  const ProgressFunction& progress)
       : plan_(std::move(plan)),
         options_(options),
         progress_(progress),
         account_(static_cast<size_t>(options.memory_bytes)),
-        capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_))),
+        capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_, options.mode))),
         core_(plan_, options_, account_, static_cast<size_t>(capacity_),
               static_cast<size_t>(capacity_) / kCellsPerVertex + 64, expectedSpan(plan_.schema)),
-        budget_(ratioFor(plan_.schema, options), options.cells),
+        budget_(makeBudget(plan_.schema, options, pilot)),
         intake_(core_, account_),
         regions_(core_),
         metric_(core_),
         resolver_(core_, metric_, regions_, account_),
-        collapser_(core_, account_),
-        selector_(makeRandomSelector(core_, collapser_, account_)),
+        collapser_(core_, core_.window, account_),
+        selector_(options.mode == Mode::kPaper ? makeRandomSelector(core_, collapser_, account_)
+                                               : makeSweepSelector(core_, account_)),
         release_(core_, out, account_) {
     core_.report.window_cells = capacity_;
   }
@@ -112,13 +125,16 @@ class WindowedEngine final : public Simplifier::Engine {
     checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
     intake_.finalizeAll();
     resolveNew();
-    decimate(budget_.lastGoal(ledger()));
+    Ledger now = ledger();
+    decimate(budget_->lastGoal(now));
+    if (now.written == 0) survey(now.read);
     release_.write(0);
     release_.flush();
     closeReport();
   }
 
   const Report& report() const override { return core_.report; }
+  Pilot pilot() const override { return pilot_; }
 
  private:
   Topology& mesh() { return core_.window.mesh; }
@@ -132,12 +148,17 @@ class WindowedEngine final : public Simplifier::Engine {
   // The window is full: simplify it and make room.
   void turn() {
     resolveNew();
-    const Ledger now = ledger();
-    decimate(budget_.goalOf(now));
-    release_.write(static_cast<uint32_t>(capacity_ / 2));
+    const Ledger before = ledger();
+    decimate(budget_->goalOf(before));
+    Ledger after = ledger();
+    release_.write(static_cast<uint32_t>(before.keep));
+    after.front = release_.frontCells();
+    budget_->learn(selector_->bound(), before, after,
+                   static_cast<int64_t>(release_.cellsWritten()) - before.written);
+    core_.rescaled = 1;
     resolved_cells_ = mesh().cellEnd();
-    core_.report.front_cells = std::max(core_.report.front_cells, now.front);
-    makeRoom(now.front);
+    core_.report.front_cells = std::max(core_.report.front_cells, before.front);
+    makeRoom(before.front);
     tell(mesh().liveCells());
   }
 
@@ -149,8 +170,9 @@ class WindowedEngine final : public Simplifier::Engine {
   void resolveNew() {
     if (mesh().cellEnd() > resolved_cells_) regions_.decide();
     metric_.addCells(resolved_cells_, mesh().cellEnd());
+    if (options_.error > 0) core_.error_limit = errorOf(core_, options_.error);
     resolved_cells_ = mesh().cellEnd();
-    resolver_.resolve(intake_.finalized(), intake_.finalizedCount());
+    front_cells_ = resolver_.resolve(intake_.finalized(), intake_.finalizedCount());
     intake_.clearFinalized();
   }
 
@@ -158,13 +180,14 @@ class WindowedEngine final : public Simplifier::Engine {
     Ledger l;
     l.read = static_cast<int64_t>(intake_.cellsRead());
     l.written = static_cast<int64_t>(release_.cellsWritten());
-    for (uint32_t c = 0; c < mesh().cellEnd(); ++c) {
-      if (!mesh().isLive(c)) continue;
-      const uint32_t* v = mesh().corners(c);
-      const unsigned all = mesh().vertexFlags(v[0]) & mesh().vertexFlags(v[1]) &
-                           mesh().vertexFlags(v[2]) & mesh().vertexFlags(v[3]);
-      l.front += !(all & kFinal);
-    }
+    l.live = mesh().liveCells();
+    l.keep = capacity_ / 2;
+    l.rescaled = core_.rescaled;
+    l.error_unit = core_.error_unit;
+    l.error = core_.error;
+    l.error_limit = core_.error_limit;
+    l.error_met = core_.error_reached;
+    l.front = front_cells_;
     return l;
   }
 
@@ -193,9 +216,20 @@ class WindowedEngine final : public Simplifier::Engine {
   // The largest window that the budget allows; a stuck one may take half of what is left beyond.
   int64_t affordable(bool stuck) const {
     if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
-    const auto bytes = Core<S>::bytesPerCell(plan_);
+    const auto bytes = Core<S>::bytesPerCell(plan_, options_.mode);
     const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2 / bytes);
     return std::max(fittingCells(plan_.schema, options_, bytes), stuck ? capacity_ + left : 0);
+  }
+
+  // All cells are in the window, in the order in which they came: a pilot for a second reading.
+  void survey(int64_t read) {
+    static constexpr size_t kParts = 64;
+    std::vector<double> left(kParts + 1, 0);
+    for (uint32_t c = 0; c < mesh().cellEnd(); ++c)
+      if (mesh().isLive(c)) ++left[size_t{c} * kParts / static_cast<size_t>(read) + 1];
+    for (size_t k = 1; k <= kParts; ++k) left[k] += left[k - 1];
+    for (double& share : left) share /= std::max(left[kParts], 1.0);
+    pilot_ = {selector_->bound() * core_.error_unit, left};
   }
 
   // The window's cells beyond its goal are what is left to do of what was read.
@@ -220,13 +254,21 @@ class WindowedEngine final : public Simplifier::Engine {
     r.cells_in = static_cast<int64_t>(intake_.cellsRead());
     r.vertices_in = static_cast<int64_t>(core_.front.introduced());
     r.vertices_out = static_cast<int64_t>(release_.verticesWritten());
-    r.target_cells = budget_.target(r.cells_in);
     r.front_width = core_.front.width();
     r.front_span = core_.front.span();
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
     r.peak_window_bytes = account_.peak();
+    r.estimated_error = percentOf(core_, core_.error);
     tell(0);
-    if (r.cells_out > r.target_cells) explainMiss();
+    const Target target = targetOf(plan_.schema, options_);
+    const bool by_count = target.ratio > 0 || target.cells > 0;
+    r.target_cells = by_count ? target.cellsOf(r.cells_in) : 0;
+    if (core_.error_reached)
+      r.reached = "error";
+    else if (by_count && r.cells_out <= r.target_cells)
+      r.reached = std::min(target.cells, r.cells_in) == r.target_cells ? "cells" : "ratio";
+    else if (by_count)
+      explainMiss();
   }
 
   void explainMiss() {
@@ -260,15 +302,17 @@ class WindowedEngine final : public Simplifier::Engine {
   Account account_;
   int64_t capacity_;  // cells
   uint32_t resolved_cells_ = 0;
+  int64_t front_cells_ = 0;  // when resolved
+  Pilot pilot_;
   double told_ = 0;  // the last fraction of the progress
   Core<S> core_;
-  UniformRatio budget_;
+  std::unique_ptr<Budget> budget_;
   Intake<S> intake_;
   Regions<S> regions_;
   Metric<S> metric_;
   Resolver<S> resolver_;
-  Collapser<S> collapser_;
-  std::unique_ptr<Selector<S>> selector_;
+  Collapser<Window<S>> collapser_;
+  std::unique_ptr<Selector> selector_;
   Release<S> release_;
 };
 
@@ -283,9 +327,11 @@ void Simplifier::begin(const Schema& schema) {
   Plan plan = makePlan(schema, options_);
   const bool in_double = plan.double_window;
   if (in_double)
-    engine_ = std::make_unique<WindowedEngine<double>>(std::move(plan), options_, out_, progress_);
+    engine_ = std::make_unique<WindowedEngine<double>>(std::move(plan), options_, pilot_, out_,
+                                                       progress_);
   else
-    engine_ = std::make_unique<WindowedEngine<float>>(std::move(plan), options_, out_, progress_);
+    engine_ =
+        std::make_unique<WindowedEngine<float>>(std::move(plan), options_, pilot_, out_, progress_);
   Schema smaller = schema;
   smaller.vertex_count = smaller.cell_count = -1;
   smaller.front_width = smaller.front_span = smaller.front_cells = -1;
@@ -301,6 +347,17 @@ void Simplifier::put(const BatchView& batch) {
 void Simplifier::finish() {
   engine_->finish();
   out_.finish();
+}
+
+int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
+  const Plan plan = makePlan(schema, options);
+  return windowFor(schema, options,
+                   plan.double_window ? Core<double>::bytesPerCell(plan, options.mode)
+                                      : Core<float>::bytesPerCell(plan, options.mode));
+}
+
+Pilot Simplifier::pilot() const {
+  return engine_->pilot();
 }
 
 const Report& Simplifier::report() const {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "options.h"
+#include "pilot.h"
 #include "source.h"
 
 namespace tetstream {
@@ -20,6 +21,13 @@ class Simplifier : public Sink {
 
   const Report& report() const;
 
+  // Cells of the window that a stream would get.
+  static int64_t windowCells(const Schema& schema, const SimplifyOptions& options);
+  // Before begin: what is known of the stream from an earlier run.
+  void follow(Pilot pilot) { pilot_ = std::move(pilot); }
+  // After finish, of a run whose window held all cells.
+  Pilot pilot() const;
+
   // The loop for one scalar type. Internal.
   class Engine {
    public:
@@ -27,6 +35,7 @@ class Simplifier : public Sink {
     virtual void put(const BatchView& batch) = 0;
     virtual void finish() = 0;
     virtual const Report& report() const = 0;
+    virtual Pilot pilot() const = 0;
   };
 
  private:
@@ -34,6 +43,7 @@ class Simplifier : public Sink {
   Sink& out_;
   ProgressFunction progress_;
   Report no_report_;
+  Pilot pilot_;
   std::unique_ptr<Engine> engine_;
 };
 

@@ -36,8 +36,13 @@ class RoundingSource final : public Source {
   explicit RoundingSource(Source& in) : in_(in), rounding_(in.schema()) {}
   const Schema& schema() const override { return rounding_.schema(); }
   bool next(BatchView& batch) override;
+  std::unique_ptr<Source> again() override;
 
  private:
+  explicit RoundingSource(std::unique_ptr<Source> in)
+      : own_(std::move(in)), in_(*own_), rounding_(in_.schema()) {}
+
+  std::unique_ptr<Source> own_;  // of a second reading
   Source& in_;
   Rounding rounding_;
 };

@@ -21,6 +21,9 @@ class Source {
   // Fills the view with the next events and returns true, or returns false at the end of the
   // stream (and again at every later call). The arrays live until the next call.
   virtual bool next(BatchView& batch) = 0;
+  // Another reading of the same stream, from its first event on, while this one has not begun and
+  // as long as it lives; null where the input cannot be read twice.
+  virtual std::unique_ptr<Source> again() { return nullptr; }
 };
 
 // A mesh whose points and cells can be read by range, as often as wanted; sequential ranges are

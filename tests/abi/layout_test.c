@@ -67,7 +67,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_progress, cells_written, 24);
   MEMBER(tetstream_progress, fraction, 32);
   MEMBER(tetstream_progress, phase, 40);
-  CHECK_EQUAL(sizeof(tetstream_report), 184);
+  CHECK_EQUAL(sizeof(tetstream_report), 200);
   MEMBER(tetstream_report, struct_size, 0);
   MEMBER(tetstream_report, cells_in, 8);
   MEMBER(tetstream_report, vertices_in, 16);
@@ -91,6 +91,8 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_report, peak_resident_bytes, 160);
   MEMBER(tetstream_report, regions, 168);
   MEMBER(tetstream_report, limited_by, 176);
+  MEMBER(tetstream_report, estimated_error, 184);
+  MEMBER(tetstream_report, reached, 192);
 }
 
 static void numbers_keep_their_values(void) {
@@ -116,12 +118,14 @@ static void numbers_keep_their_values(void) {
   CHECK_EQUAL(TETSTREAM_STREAM_INDEXED, 1);
   CHECK_EQUAL(TETSTREAM_OPTION_RATIO, 100);
   CHECK_EQUAL(TETSTREAM_OPTION_CELLS, 101);
+  CHECK_EQUAL(TETSTREAM_OPTION_ERROR, 102);
   CHECK_EQUAL(TETSTREAM_OPTION_BOUNDARY_WEIGHT, 110);
   CHECK_EQUAL(TETSTREAM_OPTION_REGIONS, 120);
   CHECK_EQUAL(TETSTREAM_OPTION_MODE, 130);
   CHECK_EQUAL(TETSTREAM_OPTION_SEED, 131);
   CHECK_EQUAL(TETSTREAM_OPTION_QUADRIC, 132);
   CHECK_EQUAL(TETSTREAM_OPTION_CANDIDATES, 133);
+  CHECK_EQUAL(TETSTREAM_OPTION_PILOT, 134);
   CHECK_EQUAL(TETSTREAM_OPTION_WINDOW, 200);
   CHECK_EQUAL(TETSTREAM_OPTION_MEMORY, 201);
   CHECK_EQUAL(TETSTREAM_OPTION_TMPDIR, 202);

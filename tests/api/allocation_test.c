@@ -114,6 +114,10 @@ static tetstream_status configure(void) {
   return status;
 }
 
+/* A window of 64 cells is filled more than once; 0: by the front. */
+static int64_t window_cells;
+static const char* mode = "sweep";
+
 static tetstream_status simplify(tetstream_reader* reader, const char* format) {
   tetstream_options* options = NULL;
   tetstream_writer* writer = NULL;
@@ -122,6 +126,9 @@ static tetstream_status simplify(tetstream_reader* reader, const char* format) {
   report.struct_size = sizeof report;
   tetstream_status status = tetstream_options_create(&options);
   if (status >= 0) status = tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, 0.5);
+  if (status >= 0)
+    status = tetstream_options_set_int64(options, TETSTREAM_OPTION_WINDOW, window_cells);
+  if (status >= 0) status = tetstream_options_set_text(options, TETSTREAM_OPTION_MODE, mode);
   if (status >= 0) status = tetstream_writer_create_memory(format, &writer);
   if (status >= 0) status = tetstream_simplifier_create(options, writer, &simplifier);
   if (status >= 0) status = tetstream_simplifier_run(simplifier, reader);
@@ -217,6 +224,16 @@ static tetstream_status inspect_file(void) {
   return status;
 }
 
+/* Bytes that can be read twice: a pilot may come first. */
+static tetstream_status simplify_file(void) {
+  tetstream_reader* reader = NULL;
+  tetstream_status status =
+      tetstream_reader_open_memory(bytes[kind], sizes[kind], names[kind], &reader);
+  if (status >= 0) status = simplify(reader, "tets");
+  tetstream_reader_destroy(reader);
+  return status;
+}
+
 /* ---------------------------------------------------------------------------- one after another */
 
 static void fails_cleanly_wherever_memory_ends(const char* name, small_run run) {
@@ -277,6 +294,13 @@ int main(void) {
   for (kind = 0; kind < 4; ++kind) {
     make_bytes(kind, &writers[kind]);
     fails_cleanly_wherever_memory_ends(names[kind], inspect_file);
+    if (kind == 0) {
+      window_cells = 64;
+      fails_cleanly_wherever_memory_ends(".tets through a small window", simplify_file);
+      fails_cleanly_wherever_memory_ends("stream through a small window", simplify_stream_to_tets);
+      mode = "paper";
+      fails_cleanly_wherever_memory_ends("the same in the paper's mode", simplify_stream_to_tets);
+    }
     tetstream_writer_destroy(writers[kind]);
   }
   hostile_mesh_destroy(mesh);

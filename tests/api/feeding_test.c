@@ -121,11 +121,50 @@ static void an_indexed_mesh_gives_the_same_bytes_however_it_is_cut_and_fed(void)
   forget();
 }
 
+static int32_t sees_pilot(void* user, const tetstream_progress* progress) {
+  if (strcmp(progress->phase, "pilot") == 0) *(int*)user = 1;
+  return 0;
+}
+
+/* What can be read twice is, where that is allowed; the bytes hang on nothing else. */
+static void pull_twice_from(tetstream_reader* reader, int pilot, const char* way) {
+  rig r = rig_create_with_pilot("tets", "auto");
+  int flown = 0;
+  CHECK_EQUAL(tetstream_simplifier_set_progress(r.simplifier, sees_pilot, &flown), TETSTREAM_OK);
+  CHECK(tetstream_simplifier_run(r.simplifier, reader) >= 0);
+  CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "");
+  if (!CHECK_EQUAL(flown, pilot)) printf("    %s\n", way);
+  compare(r, way);
+  tetstream_reader_destroy(reader);
+  rig_destroy(r);
+}
+
+static void input_that_is_read_twice_gives_the_same_bytes_again(void) {
+  tetstream_writer* writer = NULL;
+  for (int run = 0; run < 2; ++run) {
+    pull_twice_from(file("tets", 0, &writer), 1, "file");
+    tetstream_writer_destroy(writer);
+  }
+  forget();
+  for (int run = 0; run < 2; ++run) pull_twice_from(arrays_of(mesh), 1, "arrays");
+  forget();
+  /* Callbacks come once: as with no pilot. */
+  pull(HOSTILE_WHOLE, 0, "pull without a pilot");
+  hostile_reader hostile = {0};
+  tetstream_reader* reader = NULL;
+  hostile.mesh = mesh;
+  const tetstream_reader_callbacks reads = hostile_reader_callbacks(&hostile);
+  CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
+  pull_twice_from(reader, 0, "callbacks");
+  forget();
+}
+
 int main(void) {
   mesh = hostile_mesh_create(5, 5, 7);
   CHECK(mesh != NULL);
   RUN_CASE(a_stream_gives_the_same_bytes_however_it_is_cut_and_fed);
   RUN_CASE(an_indexed_mesh_gives_the_same_bytes_however_it_is_cut_and_fed);
+  RUN_CASE(input_that_is_read_twice_gives_the_same_bytes_again);
   hostile_mesh_destroy(mesh);
   return check_end();
 }

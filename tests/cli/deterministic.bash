@@ -1,4 +1,4 @@
-# The same seed gives the same bytes; another seed another mesh of the same size.
+# The same seed gives the same bytes; where choices are random, another seed gives another mesh.
 source "${BASH_SOURCE%/*}/common.bash"
 
 tetstream generate ball --cells 5000 a.tets --seed 3
@@ -14,4 +14,8 @@ simplified() {
 first=$(simplified)
 [[ $first == "$(simplified)" ]] || fail "simplify: two runs, different bytes"
 [[ $first == "$(simplified --seed 1)" ]] || fail "simplify: the default seed is not 1"
-[[ $first != "$(simplified --seed -77)" ]] || fail "simplify: other seed, same bytes"
+paper=$(simplified --mode paper)
+[[ $first != "$paper" ]] || fail "simplify: both modes give the same bytes"
+[[ $paper == "$(simplified --mode paper)" ]] || fail "simplify: two runs, different bytes"
+[[ $paper == "$(simplified --mode paper --seed 1)" ]] || fail "simplify: the default seed is not 1"
+[[ $paper != "$(simplified --mode paper --seed -77)" ]] || fail "simplify: other seed, same bytes"

@@ -15,11 +15,16 @@ refuses() {
 
 # 1: usage
 refuses 1 "--ratio R" simplify in.tets old.tets
-refuses 1 "two targets" simplify in.tets old.tets --ratio 0.5 --cells 100
 refuses 1 "--cells 0" simplify in.tets old.tets --cells 0
+refuses 1 "--ratio 0" simplify in.tets old.tets --ratio 0 --error 1
+refuses 1 "--error 0" simplify in.tets old.tets --error 0
 refuses 1 "OUT" simplify in.tets --ratio 0.5
 refuses 1 "ratio" simplify in.tets old.tets --ratio 1.5
 refuses 1 "ratio" simplify in.tets old.tets --ratio nan
+refuses 1 "error" simplify in.tets old.tets --error 101
+refuses 1 "error" simplify in.tets old.tets --error -1
+refuses 1 "error" simplify in.tets old.tets --error nan
+refuses 1 "1%" simplify in.tets old.tets --error 1%
 refuses 1 "abc" simplify in.tets old.tets --ratio abc
 refuses 1 "seed" simplify in.tets old.tets --ratio 0.5 --seed 1.5
 refuses 1 "mode" simplify in.tets old.tets --ratio 0.5 --mode nonsense
@@ -54,10 +59,16 @@ fi
 # 4: memory
 refuses 4 "memory" simplify in.tets old.tets --ratio 0.5 --memory 4k
 
-# 6: formats
+# 6: what cannot be done
 refuses 6 "tets" simplify in.tets out.unknown --ratio 0.5
 refuses 6 "nonsense" simplify in.tets old.tets --format-in nonsense --ratio 0.5
 refuses 6 "nonsense" convert in.tets old.tets --format nonsense
+refuses 6 "paper" simplify in.tets old.tets --error 1 --mode paper
+refuses 6 "paper" simplify in.tets old.tets --error 1 --ratio 0.5 --mode paper
+
+# 0: targets can be combined.
+expect 0 simplify in.tets out.tets --ratio 0.5 --cells 100 --error 50 --quiet
+rm out.tets
 
 # 5: the target is out of reach, and the output is complete: two cells apart from each other cannot
 # become one.

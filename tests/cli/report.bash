@@ -4,10 +4,12 @@ source "${BASH_SOURCE%/*}/common.bash"
 tetstream generate fluid --cells 6000 in.tets
 
 expect 0 simplify in.tets out.tets --ratio 0.5
-for row in cells vertices time memory window front collapses rejected "largest error" regions; do
+for row in cells vertices time memory window front collapses rejected error "largest error" \
+  regions reached; do
   contains $'\n'"$out" $'\n'"$row"
 done
 contains "$out" " -> $(cells_in out.tets), ratio 0."
+[[ $out == *$'\nreached       ratio' ]] || fail "the last row is not the target: $out"
 [[ -z $err ]] || fail "a report on standard output is enough: $err"
 
 # To standard error if the mesh goes to standard output, by whatever name.
@@ -29,7 +31,22 @@ json=$out
 [[ $(member "$json" cells_in) == "$(cells_in in.tets)" ]] || fail "wrong cells_in"
 [[ $(member "$json" cells_out) == "$(cells_in out.tets)" ]] || fail "wrong cells_out"
 (($(member "$json" collapses) > 0)) || fail "no collapses"
+[[ $(member "$json" estimated_error) =~ ^[0-9]\.[0-9]+$ ]] || fail "wrong estimated_error"
+[[ $(member "$json" reached) == '"ratio"' ]] || fail "wrong reached"
 (($(member "$json" peak_resident_bytes) > 0)) || fail "no peak memory"
+
+# The target that was reached first is named.
+expect 0 simplify in.tets out.tets --ratio 0.5 --cells 1000 --quiet --report json
+[[ $(member "$out" reached) == '"ratio"' ]] || fail "the ratio was reached first: $out"
+expect 0 simplify in.tets out.tets --ratio 0.1 --cells 4000 --quiet --report json
+[[ $(member "$out" reached) == '"cells"' ]] || fail "the cells were reached first: $out"
+expect 0 simplify in.tets out.tets --ratio 0.1 --error 0.1 --quiet --report json
+[[ $(member "$out" reached) == '"error"' ]] || fail "the error was reached first: $out"
+(($(cells_in out.tets) > 600)) || fail "the error bound has no effect"
+# An error alone is no number of cells.
+expect 0 simplify in.tets out.tets --error 1
+contains_not "$out" ", target"
+[[ $out == *$'\nreached       error' ]] || fail "the last row is not the target: $out"
 
 # Every member of the public struct is in it.
 header=$(<"$TETSTREAM_SOURCE/include/tetstream/tetstream.h")
@@ -43,7 +60,7 @@ while [[ $struct =~ (int64_t|uint64_t|double|char)\ \*?([a-z_0-9,\ ]+)\; ]]; do
     count=$((count + 1))
   done
 done
-((count >= 22)) || fail "found only $count members in the header"
+((count >= 24)) || fail "found only $count members in the header"
 
 # A name that needs escapes, in both kinds of JSON: quote, backslash, tabulator, a byte that is no
 # UTF-8.

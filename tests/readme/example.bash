@@ -42,9 +42,12 @@ small=$(cells_of small.vtu)
 
 block sh >commands
 [[ -s commands ]] || fail "README.md has no example in shell"
-bash -e -o pipefail commands
+bash -e -o pipefail commands >told
 [[ $(cells_of bracket-10.vtu) -le $((whole / 10)) && -s fluid-1.tets ]] ||
   fail "the commands did not do what README.md says"
+close=$(cells_of bracket-close.vtu)
+((close < whole / 2)) && grep -q '^reached  *error$' told ||
+  fail "with a bound on the error $whole cells became $close: $(<told)"
 
 # The two commands that it promises are there.
 sed -n 's/^    bash \(tests\/[a-z.]*\)$/\1/p' "$TETSTREAM_SOURCE/README.md" >scripts

@@ -18,13 +18,19 @@ static inline tetstream_options* options_of(double ratio) {
   return options;
 }
 
-static inline rig rig_create(const char* format) {
+static inline rig rig_create_with_pilot(const char* format, const char* pilot) {
   rig r = {options_of(0.4), NULL, NULL};
+  CHECK_EQUAL(tetstream_options_set_text(r.options, TETSTREAM_OPTION_PILOT, pilot), TETSTREAM_OK);
   /* So that a small mesh fills the window several times. */
   CHECK_EQUAL(tetstream_options_set_int64(r.options, TETSTREAM_OPTION_WINDOW, 400), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_writer_create_memory(format, &r.writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_simplifier_create(r.options, r.writer, &r.simplifier), TETSTREAM_OK);
   return r;
+}
+
+/* The same bytes wherever the input comes from. */
+static inline rig rig_create(const char* format) {
+  return rig_create_with_pilot(format, "none");
 }
 
 static inline void rig_destroy(rig r) {

@@ -327,5 +327,29 @@ TEST(CreateFile, WritesThroughALink) {
   EXPECT_TRUE(S_ISLNK(info.st_mode));
 }
 
+// ----------------------------------------------------------------------------- read again
+
+TEST(ReadAgain, StartsAtTheFirstByteAndMovesNothing) {
+  Folder folder;
+  const std::string text = "twenty-six letters and so on";
+  writeFile(folder.file("in"), text);
+  for (const bool from_file : {false, true}) {
+    const auto source =
+        from_file ? openFile(folder.file("in")) : openMemory(text.data(), text.size(), "memory");
+    char start[5] = {};
+    ASSERT_EQ(source->read(start, 4), 4u);
+    const auto again = readAgain(*source);
+    EXPECT_TRUE(again->seekable());
+    EXPECT_EQ(again->size(), text.size());
+    EXPECT_EQ(again->name(), source->name());
+    EXPECT_EQ(contents(*again), text);
+    EXPECT_EQ(again->readAt(7, start, 3), 3u);
+    EXPECT_EQ(std::string(start, 3), text.substr(7, 3));
+    EXPECT_EQ(again->read(start, 1), 0u);
+    EXPECT_EQ(contents(*source), text.substr(4));
+    EXPECT_EQ(contents(*readAgain(*readAgain(*source))), text);
+  }
+}
+
 }  // namespace
 }  // namespace tetstream::test

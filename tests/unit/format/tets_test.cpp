@@ -408,5 +408,50 @@ TEST(Tets, WritesAnIndexAfterEvery1024Chunks) {
   EXPECT_EQ(seen, rows * batches);
 }
 
+// ----------------------------------------------------------------------------- read again
+
+// Read to the end, or half, or not at all: the first reading does not notice.
+void expectReadAgain(std::unique_ptr<ByteSource> bytes, const Events& events) {
+  const Input input = openTets(std::move(bytes), {});
+  for (const int batches : {0, 1, 1 << 20}) {
+    const std::unique_ptr<Source> second = input.stream->again();
+    ASSERT_NE(second, nullptr);
+    EXPECT_EQ(second->schema().cell_count, input.schema().cell_count);
+    Events again;
+    BatchView batch;
+    for (int k = 0; k < batches && second->next(batch); ++k) again.add(second->schema(), batch);
+    if (batches > 1) {
+      EXPECT_TRUE(again == events);
+      EXPECT_FALSE(second->next(batch));
+    }
+  }
+  Events first;
+  BatchView batch;
+  while (input.stream->next(batch)) first.add(input.schema(), batch);
+  EXPECT_TRUE(first == events);
+}
+
+TEST(Tets, CanBeReadAgainWhereBytesCan) {
+  Wanted wanted;
+  wanted.fields = kManyFields;
+  wanted.cell_data = {{"region", 1, ScalarType::kInt32}};
+  wanted.locked = true;
+  Stream s = streamOf(gridMesh(4, 4, 5), wanted);
+  const Events events = s.events();
+  for (const bool compress : {false, true}) {
+    const Bytes bytes = write(s, compress);
+    expectReadAgain(openMemory(bytes.data(), bytes.size(), "memory"), events);
+    std::FILE* file = std::tmpfile();
+    ASSERT_NE(file, nullptr);
+    ASSERT_EQ(std::fwrite(bytes.data(), 1, bytes.size(), file), bytes.size());
+    std::fflush(file);
+    ASSERT_EQ(::lseek(::fileno(file), 0, SEEK_SET), 0);
+    expectReadAgain(openDescriptor(::fileno(file), "file"), events);
+    std::fclose(file);
+    const Input piped = openTets(std::make_unique<PipeSource>(bytes), {});
+    EXPECT_EQ(piped.stream->again(), nullptr);
+  }
+}
+
 }  // namespace
 }  // namespace tetstream::test

@@ -192,6 +192,42 @@ TEST(OrderedSource, GivesTheSameMeshWithoutAnyColumns) {
   }
 }
 
+Recorder recorded(Source& source) {
+  Recorder out;
+  out.begin(source.schema());
+  BatchView batch;
+  while (source.next(batch)) out.put(batch);
+  EXPECT_FALSE(source.next(batch));
+  out.finish();
+  return out;
+}
+
+// To its end, or a batch only; the same events then as without.
+TEST(OrderedSource, CanBeReadAgain) {
+  const int n = slowRun() ? 4 : 12;  // several batches
+  TestMesh mesh = withColumns(shuffled(fullGrid(n, n, n, 0.1), 7));
+  for (bool spooled : {false, true}) {
+    const Ordered once = ordered(mesh, "auto", spooled);
+    MemorySource memory(mesh.schema, mesh.view());
+    SequentialSource sequential(memory);
+    OrderedSource source(spooled ? static_cast<IndexedSource&>(sequential) : memory, {});
+    {
+      const std::unique_ptr<Source> second = source.again();
+      ASSERT_NE(second, nullptr);
+      EXPECT_EQ(second->schema().front_cells, source.schema().front_cells);
+      EXPECT_TRUE(recorded(*second).allBytes() == once.out.allBytes());
+    }
+    {
+      const std::unique_ptr<Source> second = source.again();
+      BatchView batch;
+      EXPECT_TRUE(second->next(batch));
+    }
+    const Recorder first = recorded(source);
+    EXPECT_EQ(first.problem, "");
+    EXPECT_TRUE(first.allBytes() == once.out.allBytes());
+  }
+}
+
 // Larger than what is read and spooled at once.
 TEST(OrderedSource, GivesTheSameLargeMesh) {
   if (slowRun()) return;

@@ -78,8 +78,7 @@ struct Complex {
       : mesh(the_mesh),
         topology(account, mesh.cellCount() + 1, mesh.vertexCount() + 1),
         condition(account),
-        around_u(account),
-        around_v(account) {
+        stars(account) {
     const Simplices all = coned(mesh.cells);
     for (size_t v = 0; v < mesh.vertexCount(); ++v)
       topology.addVertex(all.count({kCone, static_cast<int64_t>(v)}) ? kFinal | kBoundary : kFinal);
@@ -90,10 +89,12 @@ struct Complex {
     }
   }
   bool holds(int64_t u, int64_t v) {
-    topology.gather(static_cast<uint32_t>(u), around_u);
-    topology.gather(static_cast<uint32_t>(v), around_v);
-    return condition.holds(topology, static_cast<uint32_t>(u), static_cast<uint32_t>(v), around_u,
-                           around_v);
+    const auto a = static_cast<uint32_t>(u), b = static_cast<uint32_t>(v);
+    topology.gather(a, b, stars.u, stars.ring);
+    topology.gather(b, a, stars.v, stars.ring_from_v);
+    std::vector<uint8_t> flags;
+    for (uint32_t w = 0; w < topology.vertexEnd(); ++w) flags.push_back(topology.vertexFlags(w));
+    return condition.holds({a, outside(u)}, {b, outside(v)}, stars, flags.data());
   }
   bool outside(int64_t v) { return topology.vertexFlags(static_cast<uint32_t>(v)) & kBoundary; }
 
@@ -101,7 +102,7 @@ struct Complex {
   Account account;
   Topology topology;
   LinkCondition condition;
-  Star around_u, around_v;
+  Stars stars;
 };
 
 std::set<std::pair<int64_t, int64_t>> edgesOf(const TestMesh& mesh) {
@@ -317,18 +318,24 @@ TEST(LinkCondition, KeepsTheTopologyThroughAnyNumberOfCollapses) {
   }
 }
 
-TEST(BoundaryEdgesOfLink, AreTheFacesOfOneCell) {
-  Complex k(makeMesh(ScalarType::kFloat64, {0, 0, -1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1},
-                     {1, 2, 3, 0, 1, 3, 2, 4}));
-  Array<uint64_t> edges(k.account);
-  bool repeated = true;
-  k.topology.gather(1, k.around_u);
-  const size_t count = boundaryEdgesOfLink(k.around_u, edges, &repeated);
-  EXPECT_FALSE(repeated);
-  ASSERT_EQ(count, 4u);  // 02, 03, 24, 34, but not 23, which is inside
-  const uint64_t wanted[4] = {uint64_t{0} << 32 | 2, uint64_t{0} << 32 | 3, uint64_t{2} << 32 | 4,
-                              uint64_t{3} << 32 | 4};
-  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(edges[i], wanted[i]);
+// More vertices round an edge than a mask has bits: refused, whatever the answer would be.
+TEST(LinkCondition, RefusesARingThatIsTooLarge) {
+  for (int n : {40, 80}) {  // an edge on the boundary with n + 1 vertices round it, n cells
+    std::vector<double> positions = {0, 0, 0, 0, 0, 1};
+    std::vector<int64_t> cells;
+    for (int k = 0; k <= n; ++k) {
+      const double angle = 3.0 * k / n;
+      positions.insert(positions.end(), {std::cos(angle), std::sin(angle), 0.5});
+      if (k > 0) cells.insert(cells.end(), {0, 1, k + 1, k + 2});
+    }
+    // A layer of cells outside keeps the edge from being all there is.
+    const auto apex = static_cast<int64_t>(positions.size() / 3);
+    positions.insert(positions.end(), {0, 0, 3});
+    for (int k = 1; k <= n; ++k) cells.insert(cells.end(), {1, k + 1, k + 2, apex});
+    Complex k(makeMesh(ScalarType::kFloat64, positions, cells));
+    EXPECT_TRUE(conditionHolds(coned(cells), 0, 1));
+    EXPECT_EQ(k.holds(0, 1), n == 40);
+  }
 }
 
 }  // namespace

@@ -1,14 +1,12 @@
-// orientation() against integers of any length, orientationLanes against orientation().
+// orientation() against integers of any length.
 #include "orient.h"
 
 #include <gtest/gtest.h>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "exact_reference.h"
-#include "orient_lanes.inl"
 #include "random.h"
 #include "test_mesh.h"
 
@@ -152,130 +150,12 @@ TEST(Orientation, IsExactForCoordinatesOfVeryDifferentSize) {
     }
 }
 
-// ------------------------------------------------------------------------------------- lanes
-
-TriangleLanes lanesOf(const std::vector<Points>& cells, double x[3]) {
-  TriangleLanes triangles;
-  for (size_t k = 0; k < static_cast<size_t>(kLanes); ++k) {
-    const Points& p = cells[std::min(k, cells.size() - 1)];
-    for (size_t i = 0; i < 3; ++i) {
-      x[i] = p[0][i];
-      for (size_t j = 0; j < 3; ++j) triangles.xyz[3 * j + i][k] = p[j + 1][i];
-    }
-  }
-  return triangles;
-}
-
-// Sometimes regular numbers, sometimes nearly flat cells, round one centre.
-std::vector<Points> cellsRoundAPoint(Random& r, double offset) {
-  std::vector<Points> cells(8);
-  for (Points& p : cells) {
-    p[0] = {offset, offset / 2, -offset};
-    for (size_t j = 1; j < 4; ++j)
-      for (size_t i = 0; i < 3; ++i) p[j][i] = p[0][i] + random(r, 1);
-    if (r.below(2)) continue;
-    const double s = random(r, 1), t = random(r, 1);
-    for (size_t i = 0; i < 3; ++i)
-      p[3][i] = p[0][i] + s * (p[1][i] - p[0][i]) + t * (p[2][i] - p[0][i]);
-  }
-  return cells;
-}
-
-TEST(OrientationLanes, AgreeWithOrientationWhereTheyDecide) {
-  Random r(6);
-  int decided = 0, left = 0;
-  for (int k = 0; k < rounds(); ++k)
-    for (double scale : {1.0, 0x1p150, 0x1p-150}) {
-      std::vector<Points> cells = cellsRoundAPoint(r, k % 2 ? 0.0 : 1e5);
-      for (Points& p : cells)
-        for (auto& x : p)
-          for (double& c : x) c *= scale;
-      double x[3], shape[kLanes];
-      signed char sign[kLanes];
-      const TriangleLanes triangles = lanesOf(cells, x);
-      orientationLanes(x, triangles, kLanes, sign, shape);
-      for (size_t i = 0; i < cells.size(); ++i) {
-        sign[i] != 0 ? ++decided : ++left;
-        if (sign[i] != 0) {
-          EXPECT_EQ(sign[i], trueSignOf(cells[i]));
-        }
-      }
-    }
-  EXPECT_GT(decided, 8 * rounds());
-  EXPECT_GT(left, rounds());
-}
-
-TEST(OrientationLanes, AreNeverWrongWhereProductsUnderflow) {
-  Random r(7);
-  for (int k = 0; k < rounds(); ++k)
-    for (int exponent : {-360, -355, -350, -345}) {
-      std::vector<Points> cells = cellsRoundAPoint(r, 0);
-      for (Points& p : cells)
-        for (auto& x : p)
-          for (double& c : x) c = std::ldexp(c, exponent);
-      double x[3], shape[kLanes];
-      signed char sign[kLanes];
-      const TriangleLanes triangles = lanesOf(cells, x);
-      orientationLanes(x, triangles, kLanes, sign, shape);
-      for (size_t i = 0; i < cells.size(); ++i)
-        if (sign[i] != 0) {
-          EXPECT_EQ(sign[i], trueSignOf(cells[i])) << "times 2^" << exponent;
-        }
-    }
-}
-
-// Of the regular cell: 1; of a flat one: 0; of a mirrored one: negative.
-TEST(OrientationLanes, GiveShapes) {
-  const Points regular = {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
-  const int side = trueSignOf(regular);
-  Points flat = regular, mirrored = regular;
-  flat[3] = {1, 0, 0};  // half way between the two before
-  flat[2] = {1, 1, -1};
-  flat[1] = {1, -1, 1};
-  std::swap(mirrored[1], mirrored[2]);
-  double x[3], shape[kLanes];
-  signed char sign[kLanes];
-  const TriangleLanes triangles = lanesOf({regular, mirrored, flat}, x);
-  orientationLanes(x, triangles, 3, sign, shape);
-  EXPECT_NEAR(shape[0], side, 1e-14);
-  EXPECT_NEAR(shape[1], -side, 1e-14);
-  EXPECT_EQ(shape[2], 0);
-  EXPECT_EQ(sign[0], side);
-  EXPECT_EQ(sign[1], -side);
-  EXPECT_EQ(sign[2], 0);
-  for (int k = 3; k < kLanes; ++k) {
-    EXPECT_EQ(sign[k], 1);
-    EXPECT_EQ(shape[k], 1);
-  }
-}
-
-// Of the corner of a cube: 6V = 1, squared edges 3 * 1 + 3 * 2 = 9, so 20.785 / 27 = 0.7698.
-TEST(OrientationLanes, GiveTheShapeOfACubesCorner) {
-  const Points corner = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  double x[3], shape[kLanes];
-  signed char sign[kLanes];
-  const TriangleLanes triangles = lanesOf({corner}, x);
-  orientationLanes(x, triangles, 1, sign, shape);
-  EXPECT_NEAR(shape[0], std::pow(12, 1.5) / 2 / 27, 1e-14);
-}
-
-// orientationLanes takes the build for this processor; `lanes` is the plain one, built here.
-TEST(OrientationLanes, GiveTheSameBitsFromEveryBuild) {
-  Random r(8);
-  for (int k = 0; k < rounds(); ++k)
-    for (double scale : {1.0, 1e-3, 0x1p200, 0x1p-340}) {
-      std::vector<Points> cells = cellsRoundAPoint(r, 10);
-      for (Points& p : cells)
-        for (auto& x : p)
-          for (double& c : x) c *= scale;
-      double x[3], shape[kLanes], plain_shape[kLanes];
-      signed char sign[kLanes], plain_sign[kLanes];
-      const TriangleLanes triangles = lanesOf(cells, x);
-      orientationLanes(x, triangles, kLanes, sign, shape);
-      lanes(x, triangles, plain_sign, plain_shape);
-      EXPECT_EQ(0, std::memcmp(sign, plain_sign, sizeof sign));
-      EXPECT_EQ(0, std::memcmp(shape, plain_shape, sizeof shape));
-    }
+TEST(LargestDifference, IsThatOfTheCoordinatesAndNeverZero) {
+  const double a[3] = {1, 2, 3}, b[3] = {1, 2, 4}, c[3] = {-1.5, 2, 3}, d[3] = {1, 3, 3};
+  EXPECT_EQ(largestDifference(a, b, c, d), 2.5);
+  EXPECT_EQ(largestDifference(b, a, c, d), 2.5);
+  EXPECT_GT(largestDifference(a, a, a, a), 0);
+  EXPECT_LT(largestDifference(a, a, a, a), 1e-300);
 }
 
 }  // namespace

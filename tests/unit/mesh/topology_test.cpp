@@ -20,8 +20,9 @@ using Model = std::map<uint32_t, std::array<uint32_t, 4>>;
 struct Table {
   Table(const TestMesh& mesh, bool mixed)
       : topology(account, mesh.cellCount(), mesh.vertexCount()),
-        around_u(account),
-        around_v(account) {
+        star(account),
+        ring(account),
+        stars(account) {
     for (size_t v = 0; v < mesh.vertexCount(); ++v) topology.addVertex(kFinal);
     for (size_t c = 0; c < mesh.cellCount(); ++c) {
       std::array<uint32_t, 4> corners;
@@ -33,7 +34,8 @@ struct Table {
   }
   Account account;
   Topology topology;
-  Star around_u, around_v;
+  Star star, ring;
+  Stars stars;
   Model model;
 };
 
@@ -49,21 +51,38 @@ int relativeParity(std::array<uint32_t, 4> a, const std::array<uint32_t, 4>& b) 
   return a == b ? sign : 0;
 }
 
-void expectStar(Table& t, uint32_t v) {
-  t.topology.gather(v, t.around_u);
+// A live cell round v as the model has it, seen from v.
+void expectStarCell(const Table& t, uint32_t v, const StarCell& s) {
+  const auto found = t.model.find(s.cell());
+  ASSERT_TRUE(found != t.model.end());
+  EXPECT_EQ(t.topology.corners(s.cell())[s.corner % 4], v);
+  // The centre and its triangle are an even permutation of a positive cell, odd of a negative.
+  const bool negative = t.topology.cellFlags(s.cell()) & kNegative;
+  EXPECT_EQ(relativeParity({v, s.t[0], s.t[1], s.t[2]}, found->second), negative ? -1 : 1);
+}
+
+// The cells with `other` are in the ring, the others in the star.
+void expectStar(Table& t, uint32_t v, uint32_t other) {
+  t.topology.gather(v, other, t.star, t.ring);
   std::set<uint32_t> wanted, got;
   for (const auto& [cell, corners] : t.model)
     if (std::count(corners.begin(), corners.end(), v)) wanted.insert(cell);
-  for (const StarCell& s : t.around_u) {
-    EXPECT_TRUE(got.insert(s.cell).second) << "a cell twice in a star";
-    ASSERT_TRUE(t.model.count(s.cell));
-    EXPECT_EQ(s.corner / 4, s.cell);
-    EXPECT_EQ(t.topology.corners(s.cell)[s.corner % 4], v);
-    // The centre and its triangle are an even permutation of a positive cell, odd of a negative.
-    const bool negative = t.topology.cellFlags(s.cell) & kNegative;
-    EXPECT_EQ(relativeParity({v, s.t[0], s.t[1], s.t[2]}, t.model[s.cell]), negative ? -1 : 1);
-  }
+  for (const Star* part : {&t.star, &t.ring})
+    for (const StarCell& s : *part) {
+      EXPECT_TRUE(got.insert(s.cell()).second) << "a cell twice in a star";
+      EXPECT_EQ(s.has(other), part == &t.ring);
+      expectStarCell(t, v, s);
+    }
   EXPECT_EQ(wanted, got);
+}
+
+void expectStar(Table& t, uint32_t v) {
+  expectStar(t, v, kNone);
+  EXPECT_EQ(t.ring.size(), 0u);
+  const size_t all = t.star.size();
+  if (all == 0) return;
+  expectStar(t, v, t.star[all / 2].t[1]);
+  EXPECT_EQ(t.star.size() + t.ring.size(), all);
 }
 
 void expectSame(Table& t) {
@@ -79,9 +98,10 @@ void expectSame(Table& t) {
 }
 
 void merge(Table& t, uint32_t u, uint32_t v) {
-  t.topology.gather(u, t.around_u);
-  t.topology.gather(v, t.around_v);
-  t.topology.merge(u, v, t.around_u, t.around_v);
+  t.topology.gather(u, v, t.stars.u, t.stars.ring);
+  t.topology.gather(v, u, t.stars.v, t.stars.ring_from_v);
+  EXPECT_EQ(t.stars.ring.size(), t.stars.ring_from_v.size());
+  t.topology.merge(u, v, t.stars);
   for (auto it = t.model.begin(); it != t.model.end();) {
     auto& corners = it->second;
     const bool has_u = std::count(corners.begin(), corners.end(), u);
@@ -163,7 +183,7 @@ TEST(Topology, GivesAnEmptyStarOfAVertexWithoutCells) {
   kill(t, 0);
   for (uint32_t v = 0; v < 4; ++v) expectStar(t, v);
   for (uint32_t v = 0; v < 4; ++v) expectStar(t, v);  // and again, when the circle is gone
-  EXPECT_EQ(t.around_u.size(), 0u);
+  EXPECT_EQ(t.star.size(), 0u);
 }
 
 TEST(Topology, KeepsFlags) {
@@ -190,6 +210,31 @@ TEST(Topology, KeepsTheBoundaryFlagOfEither) {
     EXPECT_TRUE(t.topology.vertexFlags(v) & kCollapsed);
     EXPECT_FALSE(t.topology.isFree(v));
   }
+}
+
+// Without links it takes and packs cells all the same.
+TEST(Topology, WithoutLinksIsAListOfCells) {
+  const TestMesh mesh = fullGrid(2, 2, 1);
+  Account account;
+  Topology t(account, mesh.cellCount(), mesh.vertexCount(), false);
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) t.addVertex(kFinal);
+  for (size_t c = 0; c < mesh.cellCount(); ++c) {
+    uint32_t corners[4];
+    for (size_t j = 0; j < 4; ++j) corners[j] = static_cast<uint32_t>(mesh.cells[4 * c + j]);
+    t.addCell(corners, 0);
+  }
+  t.kill(0);
+  std::vector<uint32_t> keep(mesh.vertexCount());
+  for (uint32_t v = 0; v < keep.size(); ++v) keep[v] = v;
+  t.pack(keep.data(), t.vertexEnd(), [](uint32_t from, uint32_t to) { EXPECT_EQ(from, to + 1); });
+  EXPECT_EQ(t.liveCells(), mesh.cellCount() - 1);
+  for (uint32_t c = 0; c < t.cellEnd(); ++c)
+    for (size_t j = 0; j < 4; ++j)
+      EXPECT_EQ(t.corners(c)[j], static_cast<uint32_t>(mesh.cells[4 * c + 4 + j]));
+  Topology linked(account, 1000, 1000);
+  const size_t with = account.used();
+  Topology unlinked(account, 1000, 1000, false);
+  EXPECT_LT(account.used() - with, 1000 * (16 + 1 + 1) + 1000u);
 }
 
 TEST(Topology, RefusesMoreCellsThanCornersCanBeNumbered) {

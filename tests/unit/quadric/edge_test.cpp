@@ -36,6 +36,10 @@ struct Edge {
     return quadricKernels<S>(n()).minimizeEdge(q1.data(), x1.data(), q2.data(), x2.data(),
                                                scale.data(), n(), z.data());
   }
+  S solveDirectly() {
+    return quadricKernels<S>(n()).solveEdge(q1.data(), x1.data(), q2.data(), x2.data(),
+                                            scale.data(), n(), z.data());
+  }
   S errorAt(const std::vector<S>& at) const {
     return quadricKernels<S>(n()).errorAt(q1.data(), x1.data(), q2.data(), x2.data(), scale.data(),
                                           n(), at.data());
@@ -181,6 +185,178 @@ TEST(MinimumOfAnEdge, IsNotFiniteWhereTheArithmeticOverflows) {
   EXPECT_FALSE(std::isfinite(error));
 }
 
+// ---------------------------------------------------------------------------------- solveEdge
+
+// Off the minimum by the ridge alone: less than a share of 1e-4 in the error where the quadrics
+// determine all.
+template <class S>
+void expectSolved(double tolerance) {
+  Random r(15);
+  for (int n : {3, 4, 5, 6, 7, 8, 9, 20})
+    for (int round = 0; round < (slowRun() ? 3 : 50); ++round) {
+      Edge<S> e(r, static_cast<size_t>(n), 0.2, static_cast<size_t>(n));
+      const auto least = static_cast<double>(e.minimize());
+      const auto error = static_cast<double>(e.solveDirectly());
+      EXPECT_NEAR(error, least, 1e-4 * least) << "n = " << n;
+      EXPECT_GE(error, least * (1 - tolerance)) << "n = " << n;
+      EXPECT_NEAR(error, static_cast<double>(e.errorAt(e.z)), tolerance * error);
+      const Vector wanted = e.denseMinimum(static_cast<size_t>(n));
+      const double size = std::sqrt(dotOf(e.half(), e.half()));
+      for (size_t i = 0; i < wanted.size(); ++i)
+        EXPECT_NEAR(static_cast<double>(e.z[i]), wanted[i], 2e-3 * size) << "n = " << n;
+    }
+}
+TEST(SolvedEdge, HasTheErrorOfTheMinimum) {
+  expectSolved<double>(1e-12);
+  expectSolved<float>(3e-5);
+}
+
+// No place nearby is better by more than the ridge would cost there.
+TEST(SolvedEdge, IsNotBeatenNearby) {
+  Random r(16);
+  for (int n : {3, 4, 6, 8})
+    for (int round = 0; round < (slowRun() ? 3 : 50); ++round) {
+      Edge<double> e(r, static_cast<size_t>(n), 0.1, static_cast<size_t>(n));
+      const double error = e.solveDirectly();
+      const Vector at = e.z;
+      const double size = std::sqrt(dotOf(e.half(), e.half()));
+      for (int k = 0; k < 40; ++k) {
+        const Vector step = randomVector(r, static_cast<size_t>(n), size * std::exp2(-k / 4.0));
+        for (size_t i = 0; i < at.size(); ++i) e.z[i] = at[i] + step[i];
+        EXPECT_GE(e.errorAt(e.z), error * (1 - 1e-4)) << "n = " << n;
+      }
+    }
+}
+
+// What no quadric determines stays at the midpoint; equal quadrics, or none, give it too.
+TEST(SolvedEdge, StaysAtTheMidpointWhereNothingDeterminesIt) {
+  Random r(17);
+  for (int n : {3, 4, 6, 9})
+    for (size_t rank = 0; rank < static_cast<size_t>(n); ++rank) {
+      Edge<float> e(r, static_cast<size_t>(n), 0.2, rank);
+      const float error = e.solveDirectly();
+      EXPECT_TRUE(std::isfinite(error));
+      for (size_t i = rank; i < e.z.size(); ++i) EXPECT_EQ(e.z[i], 0) << "n = " << n;
+      e.q2 = e.q1;
+      e.solveDirectly();
+      for (float z : e.z) EXPECT_EQ(z, 0);
+    }
+  Edge<double> none(r, 4, 0, 0);
+  none.q1.assign(none.q1.size(), 0.0);
+  none.q2 = none.q1;
+  EXPECT_EQ(none.solveDirectly(), 0);
+}
+
+// A field that is the same linear one on both sides: its cells' quadrics meet at the line between.
+TEST(SolvedEdge, KeepsALinearField) {
+  Random r(18);
+  for (int round = 0; round < (slowRun() ? 5 : 100); ++round) {
+    Corners<double> c(r, 4, 5, true);
+    const Vector g = randomVector(r, 3), h = randomVector(r, 3);
+    const auto set = [&](std::vector<double>& p) {
+      p[3] = g[0] * p[0] + g[1] * p[1] + g[2] * p[2] + 3;
+      p[4] = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] - 1;
+    };
+    for (auto& p : c.points) set(p);
+    c.addWith<4>([&](const double* const* x, double* const* q) {
+      quadricKernels<double>(5).addCellField(x, c.scale.data(), 5, kShapeWeight, q);
+    });
+    double z[5];
+    quadricKernels<double>(5).solveEdge(c.quadrics[0].data(), c.points[0].data(),
+                                        c.quadrics[1].data(), c.points[1].data(), c.scale.data(), 5,
+                                        z);
+    std::vector<double> merged(5), wanted;
+    for (size_t i = 0; i < 5; ++i) merged[i] = 0.5 * (c.points[0][i] + c.points[1][i]) + z[i];
+    wanted = merged;
+    set(wanted);
+    for (size_t i = 3; i < 5; ++i) EXPECT_NEAR(merged[i], wanted[i], 1e-9);
+  }
+}
+
+TEST(SolvedEdge, DoesNotDependOnUnits) {
+  Random r(19);
+  for (int n : {4, 9})
+    for (double unit : {0x1p20, 0x1p-20, 0x1p60}) {
+      Edge<float> e(r, static_cast<size_t>(n), 0.1, static_cast<size_t>(n));
+      const float error = e.solveDirectly();
+      const std::vector<float> z = e.z;
+      for (size_t i = 0; i < e.scale.size(); ++i) {
+        e.x1[i] *= static_cast<float>(unit);
+        e.x2[i] *= static_cast<float>(unit);
+        e.scale[i] /= static_cast<float>(unit);
+      }
+      EXPECT_EQ(e.solveDirectly(), error);
+      EXPECT_TRUE(e.z == z);
+    }
+}
+
+TEST(SolvedEdge, IsNeverBelowTheErrorsItStartsFromAndNotFiniteIfItOverflows) {
+  Random r(20);
+  for (int round = 0; round < (slowRun() ? 50 : 2000); ++round) {
+    const size_t n = 3 + r.below(6);
+    Edge<float> e(r, n, -0.05, n);  // what rounding may leave of a sum of quadrics
+    EXPECT_FALSE(e.solveDirectly() < e.q1.back() + e.q2.back());
+  }
+  Edge<float> e(r, 4, 0.2, 4);
+  for (float& q : e.q1) q *= 1e38f;
+  for (float& x : e.x1) x *= 1e19f;
+  EXPECT_FALSE(std::isfinite(e.solveDirectly()));
+}
+
+// ---------------------------------------------------------------------------------- edgeErrors
+
+// Vertices with quadrics, in rows that are wider than they must be.
+template <class S>
+struct Table {
+  Table(Random& r, int n, uint32_t count)
+      : quadric_stride(quadricSize(n) + 1), value_stride(n + 2), scale(static_cast<size_t>(n)) {
+    for (uint32_t v = 0; v < count; ++v) {
+      const Edge<S> e(r, static_cast<size_t>(n), v % 3 ? 0.1 : 0, static_cast<size_t>(n));
+      quadrics.insert(quadrics.end(), e.q1.begin(), e.q1.end());
+      values.insert(values.end(), e.x1.begin(), e.x1.end());
+      quadrics.resize((v + 1) * static_cast<size_t>(quadric_stride), S(1e30));
+      values.resize((v + 1) * static_cast<size_t>(value_stride), S(1e30));
+      scale = e.scale;
+    }
+    quadrics.resize(quadrics.size() + 3);  // rows are read four numbers at a time
+    values.resize(values.size() + 3);
+  }
+  VertexTable<S> view() const {
+    return {quadrics.data(), values.data(), quadric_stride, value_stride};
+  }
+  int quadric_stride, value_stride;
+  std::vector<S> scale, quadrics, values;
+};
+
+// Bit by bit the numbers of solveEdge, however many are asked for at once.
+template <class S>
+void expectErrorsOfSolveEdge() {
+  Random r(21);
+  for (int n : {3, 4, 5, 6, 7, 8, 9, 20}) {
+    const auto& kernels = quadricKernels<S>(n);
+    const Table<S> table(r, n, 30);
+    const VertexTable<S> view = table.view();
+    for (int count = 0; count <= 20; ++count) {
+      std::vector<uint32_t> others;
+      for (int k = 0; k < count; ++k) others.push_back(1 + r.below(29));
+      std::vector<S> errors(static_cast<size_t>(count) + 1, S(-7)), z(static_cast<size_t>(n));
+      kernels.edgeErrors(view, 0, others.data(), count, table.scale.data(), n, errors.data());
+      EXPECT_EQ(errors.back(), S(-7)) << "written beyond the end";
+      for (size_t k = 0; k < others.size(); ++k) {
+        const S one = kernels.solveEdge(view.quadric(0), view.value(0), view.quadric(others[k]),
+                                        view.value(others[k]), table.scale.data(), n, z.data());
+        EXPECT_EQ(0, std::memcmp(&one, &errors[k], sizeof one)) << "n = " << n;
+      }
+    }
+  }
+}
+TEST(ErrorsOfManyEdges, AreThoseOfEachInFloat) {
+  expectErrorsOfSolveEdge<float>();
+}
+TEST(ErrorsOfManyEdges, AreThoseOfEachInDouble) {
+  expectErrorsOfSolveEdge<double>();
+}
+
 // ---------------------------------------------------------------------------------- builds
 
 template <class S>
@@ -189,8 +365,8 @@ void expectSameBits(const QuadricKernels<S>& a, const QuadricKernels<S>& b, int 
   Corners<S> cell(r, 4, n, false), other = cell, face(r, 3, n, false), other_face = face;
   const auto addAll = [n](const QuadricKernels<S>& k, Corners<S>& c, Corners<S>& f) {
     c.template addWith<4>([&](const S* const* x, S* const* q) {
-      k.addCellField(x, c.scale.data(), n, q);
-      k.addCellDistance(x, c.scale.data(), n, q);
+      k.addCellField(x, c.scale.data(), n, kShapeWeight, q);
+      k.addCellDistance(x, c.scale.data(), n, kShapeWeight, q);
     });
     f.template addWith<3>([&](const S* const* x, S* const* q) {
       k.addFacePlane(x, f.scale.data(), n, 300, q);
@@ -218,6 +394,19 @@ void expectSameBits(const QuadricKernels<S>& a, const QuadricKernels<S>& b, int 
                      e.q1.data());
   };
   EXPECT_EQ(errorOf(a), errorOf(b));
+  const auto solved = [&](const QuadricKernels<S>& k, std::vector<S>& z) {
+    return k.solveEdge(e.q1.data(), e.x1.data(), e.q2.data(), e.x2.data(), e.scale.data(), n,
+                       z.data());
+  };
+  EXPECT_EQ(solved(a, z1), solved(b, z2));
+  EXPECT_EQ(0, std::memcmp(z1.data(), z2.data(), bytes(z1)));
+  if (n > 20) return;
+  const Table<S> table(r, n, 12);
+  const uint32_t others[11] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  std::vector<S> errors(11), other_errors(11);
+  a.edgeErrors(table.view(), 0, others, 11, table.scale.data(), n, errors.data());
+  b.edgeErrors(table.view(), 0, others, 11, table.scale.data(), n, other_errors.data());
+  EXPECT_EQ(0, std::memcmp(errors.data(), other_errors.data(), bytes(errors)));
 }
 
 // quadricKernels gives the build for this processor.

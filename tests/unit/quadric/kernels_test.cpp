@@ -11,6 +11,8 @@
 namespace tetstream::test {
 namespace {
 
+constexpr double kShape = 3e-5;  // any weight of the shape regulariser
+
 double volumeOf(const Vector& a, const Vector& b, const Vector& c) {
   return std::fabs(a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
                    a[2] * (b[0] * c[1] - b[1] * c[0])) /
@@ -34,7 +36,7 @@ void expectIntegral(double tolerance) {
     for (int round = 0; round < (slowRun() ? 2 : 20); ++round) {
       Corners<S> c(r, 4, n, round % 2);
       c.template addWith<4>([&](const S* const* x, S* const* q) {
-        quadricKernels<S>(n).addCellField(x, c.scale.data(), n, q);
+        quadricKernels<S>(n).addCellField(x, c.scale.data(), n, kShape, q);
       });
       const Vector e1 = c.edge(1), e2 = c.edge(2), e3 = c.edge(3);
       const double volume = volumeOf(e1, e2, e3);
@@ -42,7 +44,7 @@ void expectIntegral(double tolerance) {
         continue;  // thin cells have a rule of their own
       const Matrix a = denseOf(c.quadrics[2], static_cast<size_t>(n));
       const Vector d = randomVector(r, static_cast<size_t>(n));
-      double wanted = kShapeWeight * volume / 4 * spaceSquared(d), size = 0;
+      double wanted = kShape * volume / 4 * spaceSquared(d), size = 0;
       for (size_t f = 3; f < static_cast<size_t>(n); ++f) {
         const Vector g = gradientOf(e1, e2, e3, {e1[f], e2[f], e3[f]});
         const double miss = g[0] * d[0] + g[1] * d[1] + g[2] * d[2] - d[f];
@@ -67,7 +69,7 @@ TEST(QuadricOfACell, IsZeroForTheLinearExtension) {
   for (int n : {4, 6, 9}) {
     Corners<double> c(r, 4, n, true);
     c.addWith<4>([&](const double* const* x, double* const* q) {
-      quadricKernels<double>(n).addCellField(x, c.scale.data(), n, q);
+      quadricKernels<double>(n).addCellField(x, c.scale.data(), n, kShape, q);
     });
     const Vector e1 = c.edge(1), e2 = c.edge(2), e3 = c.edge(3);
     const Matrix a = denseOf(c.quadrics[0], static_cast<size_t>(n));
@@ -76,7 +78,7 @@ TEST(QuadricOfACell, IsZeroForTheLinearExtension) {
       Vector d(static_cast<size_t>(n));
       for (size_t i = 0; i < d.size(); ++i) d[i] = s * e1[i] + t * e2[i] + u * e3[i];
       const double volume = volumeOf(e1, e2, e3);
-      EXPECT_NEAR(formOf(a, d), kShapeWeight * volume / 4 * spaceSquared(d), 1e-9 * dotOf(d, d));
+      EXPECT_NEAR(formOf(a, d), kShape * volume / 4 * spaceSquared(d), 1e-9 * dotOf(d, d));
     }
   }
 }
@@ -91,7 +93,7 @@ TEST(QuadricOfACell, IsBoundedForFlatCells) {
                       quadricKernels<float>(n).addCellDistance};
     for (auto kernel : add)
       c.addWith<4>(
-          [&](const float* const* x, float* const* q) { kernel(x, c.scale.data(), n, q); });
+          [&](const float* const* x, float* const* q) { kernel(x, c.scale.data(), n, kShape, q); });
     for (float v : c.quadrics[0]) EXPECT_LT(std::fabs(v), 1e6f);
   }
 }
@@ -118,22 +120,22 @@ TEST(QuadricOfGarlandAndZhou, IsTheDistanceToTheCellsHyperplane) {
     for (int round = 0; round < (slowRun() ? 1 : 10); ++round) {
       Corners<double> c(r, 4, n, round % 2);
       c.addWith<4>([&](const double* const* x, double* const* q) {
-        quadricKernels<double>(n).addCellDistance(x, c.scale.data(), n, q);
+        quadricKernels<double>(n).addCellDistance(x, c.scale.data(), n, kShape, q);
       });
       const Vector e1 = c.edge(1), e2 = c.edge(2), e3 = c.edge(3);
       const double volume = volumeOf(e1, e2, e3);
       if (volume < 0.01 * std::pow(spaceSquared(e1) + spaceSquared(e2) + spaceSquared(e3), 1.5))
         continue;
       const Vector d = randomVector(r, static_cast<size_t>(n));
-      const double wanted = volume / 4 * (distanceSquared({e1, e2, e3}, d)) +
-                            kShapeWeight * volume / 4 * spaceSquared(d);
+      const double wanted =
+          volume / 4 * (distanceSquared({e1, e2, e3}, d)) + kShape * volume / 4 * spaceSquared(d);
       EXPECT_NEAR(formOf(denseOf(c.quadrics[1], static_cast<size_t>(n)), d), wanted,
                   1e-10 * volume * dotOf(d, d))
           << "n = " << n;
     }
 }
 
-// Three corners together have weight * area^(3/2) times the squared distance.
+// Three corners together have weight * area times the squared distance.
 TEST(QuadricOfAFace, IsTheDistanceToItsPlaneOrFlat) {
   Random r(5);
   for (int n : kDimensions)
@@ -152,7 +154,7 @@ TEST(QuadricOfAFace, IsTheDistanceToItsPlaneOrFlat) {
           0.5 * std::sqrt(dotOf(s1, s1) * dotOf(s2, s2) - std::pow(dotOf(s1, s2), 2));
       const Vector d = randomVector(r, size);
       const Vector in_space(d.begin(), d.begin() + 3);
-      const double weight = 7 * std::pow(area, 1.5) / 3;
+      const double weight = 7 * area / 3;
       EXPECT_NEAR(formOf(denseOf(c.quadrics[0], size), d),
                   weight * distanceSquared({s1, s2}, in_space), 1e-10 * weight * dotOf(d, d));
       EXPECT_NEAR(formOf(denseOf(flat.quadrics[0], size), d), weight * distanceSquared({e1, e2}, d),

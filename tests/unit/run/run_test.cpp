@@ -136,6 +136,46 @@ TEST(SimplifyRun, TellsProgressInBothPhases) {
   for (size_t i = 1; i < told.size(); ++i) EXPECT_GE(told[i].second, told[i - 1].second);
 }
 
+// A mesh that can be read twice and is larger than its window is read by a pilot first: progress
+// never turns back, and the paper's mode needs none.
+TEST(SimplifyRun, ReadsAMeshTwiceForAPilot) {
+  TestMesh mesh = shuffled(richMesh(), 6);
+  for (Mode mode : {Mode::kSweep, Mode::kPaper}) {
+    RunOptions options = toRatio(0.2);
+    options.simplify.mode = mode;
+    Recorder out;
+    std::vector<Progress> told;
+    SimplifyRun run(options, out, [&](const Progress& p) { told.push_back(p); });
+    Input input = indexed(mesh);
+    run.run(input);
+    EXPECT_EQ(out.problem, "");
+    size_t pilots = 0;
+    for (size_t i = 0; i < told.size(); ++i) {
+      pilots += told[i].phase == std::string("pilot");
+      if (told[i].phase == std::string("pilot")) {
+        EXPECT_EQ(told[i].cells_written, 0);
+      }
+      if (i > 0) {
+        EXPECT_GE(told[i].fraction, told[i - 1].fraction);
+      }
+    }
+    EXPECT_EQ(pilots > 0, mode == Mode::kSweep);
+    EXPECT_LE(run.report().cells_out, run.report().target_cells);
+    EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(out.mesh)), "");
+  }
+}
+
+TEST(SimplifyRun, CanBeCancelledWhileThePilotReads) {
+  TestMesh mesh = richMesh();
+  Recorder out;
+  SimplifyRun run(toRatio(0.2), out, [](const Progress& p) {
+    if (p.phase == std::string("pilot")) fail(Status::kCancelled, "enough");
+  });
+  Input input = indexed(mesh);
+  EXPECT_THROW(run.run(input), Error);
+  EXPECT_FALSE(out.finished);
+}
+
 TEST(SimplifyRun, CanBeCancelledWhileOrdering) {
   TestMesh mesh = richMesh();
   Recorder out;

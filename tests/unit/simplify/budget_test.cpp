@@ -15,14 +15,16 @@ TestMesh gridWith(int n, const Value& value, ScalarType type = ScalarType::kFloa
 }
 
 void expectAllRatiosReached(const TestMesh& mesh) {
-  for (double ratio : {0.5, 0.1, 0.02})
-    for (int64_t window : {2000, 0}) {  // 2000 cells: about four fronts
-      if (slowRun() && (window == 0 || ratio == 0.5)) continue;
-      SCOPED_TRACE(textOf("ratio %g, window %lld", ratio, static_cast<long long>(window)));
-      const Result result = simplified(mesh, toRatio(ratio, window));
-      expectSound(mesh, result);
-      expectReached(result);
-    }
+  for (Mode mode : kModes)
+    for (double ratio : {0.5, 0.1, 0.02})
+      for (int64_t window : {2000, 0}) {  // 2000 cells: about four fronts
+        if (slowRun() && (window == 0 || ratio == 0.5)) continue;
+        SCOPED_TRACE(textOf("mode %d, ratio %g, window %lld", static_cast<int>(mode), ratio,
+                            static_cast<long long>(window)));
+        const Result result = simplified(mesh, toRatio(ratio, window, mode));
+        expectSound(mesh, result);
+        expectReached(result);
+      }
 }
 
 int side() {
@@ -66,31 +68,34 @@ TEST(SimplifierTarget, IsReachedWhereErrorsUnderflow) {
     points.push_back(-size);
   }
   const TestMesh mesh = makeMesh(ScalarType::kFloat32, points, grid.cells);
-  expectSound(mesh, simplified(mesh, toRatio(0.5, 100)));
+  for (Mode mode : kModes) expectSound(mesh, simplified(mesh, toRatio(0.5, 100, mode)));
 }
 TEST(SimplifierTarget, IsReachedWithoutAField) {
   expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0.05));
   expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0, ScalarType::kFloat32));
 }
 TEST(SimplifierTarget, IsReachedForGarlandZhou) {
-  SimplifyOptions options = toRatio(0.1);
-  options.quadric = QuadricForm::kGarlandZhou;
   const TestMesh mesh = gridWith(side(), [](double x, double y, double) { return x * y; });
-  expectReached(simplified(mesh, options));
+  for (Mode mode : kModes) {
+    SimplifyOptions options = toRatio(0.1, 0, mode);
+    options.quadric = QuadricForm::kGarlandZhou;
+    expectReached(simplified(mesh, options));
+  }
 }
 
 TEST(SimplifierTarget, IsTheNumberOfCellsAskedFor) {
   const TestMesh mesh = gridWith(side(), [](double x, double y, double z) { return x * y + z; });
-  for (int64_t cells : {int64_t{100}, int64_t{333}, int64_t{2000}, int64_t{1} << 40})
-    for (int64_t window : {2000, 0}) {
-      SimplifyOptions options = toRatio(0.5, window);
-      options.cells = cells;
-      const Result result = simplified(mesh, options);
-      expectSound(mesh, result);
-      EXPECT_EQ(result.report.target_cells,
-                std::min(cells, static_cast<int64_t>(mesh.cellCount())));
-      expectReached(result);
-    }
+  for (Mode mode : kModes)
+    for (int64_t cells : {int64_t{100}, int64_t{333}, int64_t{2000}, int64_t{1} << 40})
+      for (int64_t window : {2000, 0}) {
+        SimplifyOptions options = toRatio(0, window, mode);
+        options.cells = cells;
+        const Result result = simplified(mesh, options);
+        expectSound(mesh, result);
+        EXPECT_EQ(result.report.target_cells,
+                  std::min(cells, static_cast<int64_t>(mesh.cellCount())));
+        expectReached(result);
+      }
 }
 
 TEST(SimplifierTarget, AsANumberOfCellsNeedsACountedStream) {
@@ -108,11 +113,13 @@ TEST(SimplifierTarget, AsANumberOfCellsNeedsACountedStream) {
 TEST(SimplifierTarget, IsMissedWithAReasonWhenEverythingIsLocked) {
   TestMesh mesh = gridWith(4, [](double x, double, double) { return x; });
   mesh.locked.assign(mesh.vertexCount(), 1);
-  const Result result = simplified(mesh, toRatio(0.1));
-  expectSound(mesh, result);
-  EXPECT_EQ(result.report.collapses, 0);
-  EXPECT_NE(result.report.limited_by, "");
-  EXPECT_EQ(result.out.allBytes(), simplified(mesh, toRatio(1)).out.allBytes());
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(0.1, 0, mode));
+    expectSound(mesh, result);
+    EXPECT_EQ(result.report.collapses, 0);
+    EXPECT_NE(result.report.limited_by, "");
+    EXPECT_EQ(result.out.allBytes(), simplified(mesh, toRatio(1)).out.allBytes());
+  }
 }
 
 // 500 cubes that do not touch, of 6 cells each: none can lose its last cells.
@@ -128,41 +135,45 @@ TEST(SimplifierTarget, IsMissedWithAReasonForManySmallParts) {
 
 TEST(SimplifierTarget, OfOneIsACopy) {
   const TestMesh mesh = gridWith(3, [](double x, double y, double z) { return x * y * z; });
-  const Result result = simplified(mesh, toRatio(1));
-  EXPECT_TRUE(result.out.mesh.positions.bytes == mesh.positions.bytes);
-  EXPECT_TRUE(result.out.mesh.cells == mesh.cells);
-  EXPECT_TRUE(result.out.mesh.fields[0].bytes == mesh.fields[0].bytes);
-  // A small window changes the order of what leaves, and nothing else.
-  const Result small = simplified(mesh, toRatio(1, 64));
-  EXPECT_EQ(small.out.mesh.cellCount(), mesh.cellCount());
-  EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(small.out.mesh)), "");
-  EXPECT_EQ(factsOf(mesh).boundary_faces, factsOf(small.out.mesh).boundary_faces);
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(1, 0, mode));
+    EXPECT_TRUE(result.out.mesh.positions.bytes == mesh.positions.bytes);
+    EXPECT_TRUE(result.out.mesh.cells == mesh.cells);
+    EXPECT_TRUE(result.out.mesh.fields[0].bytes == mesh.fields[0].bytes);
+    // A small window changes the order of what leaves, and nothing else.
+    const Result small = simplified(mesh, toRatio(1, 64, mode));
+    EXPECT_EQ(small.out.mesh.cellCount(), mesh.cellCount());
+    EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(small.out.mesh)), "");
+    EXPECT_EQ(factsOf(mesh).boundary_faces, factsOf(small.out.mesh).boundary_faces);
+  }
 }
 
 TEST(SimplifierWindow, StaysAsSmallAsAskedForWhereTheFrontAllows) {
   const TestMesh mesh = fullGrid(4, 4, slowRun() ? 8 : 30);  // a front of about 100 cells
-  const Result result = simplified(mesh, toRatio(0.2, 500));
-  EXPECT_EQ(result.report.window_cells, 500);
-  expectReached(result);
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(0.2, 500, mode));
+    EXPECT_EQ(result.report.window_cells, 500);
+    expectReached(result);
+  }
 }
 
 TEST(SimplifierWindow, GrowsWhereTheFrontIsWider) {
   const TestMesh mesh = fullGrid(6, 6, 6);  // a front of more than 200 cells
-  const Result result = simplified(mesh, toRatio(0.2, 64));
-  EXPECT_GT(result.report.window_cells, 200);
-  expectReached(result);
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(0.2, 64, mode));
+    EXPECT_GT(result.report.window_cells, 200);
+    expectReached(result);
+  }
 }
 
 // A budget either holds or the run says that it is too small; it is never passed.
-TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
-  TestMesh mesh = gridWith(6, [](double x, double y, double z) { return x * y + z; });
-  mesh.addIntegerCellData("id", [](size_t c) { return static_cast<int64_t>(c); });
+void expectWithinBudget(const TestMesh& mesh, Mode mode) {
   const int64_t needed =
-      static_cast<int64_t>(simplified(mesh, toRatio(0.2, 0)).report.peak_window_bytes);
+      static_cast<int64_t>(simplified(mesh, toRatio(0.2, 0, mode)).report.peak_window_bytes);
   ASSERT_GT(needed, 100000);
   int held = 0, refused = 0;
   for (int64_t limit = 1000; limit < 2 * needed; limit += limit / (slowRun() ? 1 : 4)) {
-    SimplifyOptions options = toRatio(0.2, limit % 2 ? 0 : 300);
+    SimplifyOptions options = toRatio(0.2, limit % 2 ? 0 : 300, mode);
     options.memory_bytes = limit;
     Recorder out;
     Simplifier simplifier(options, out, {});
@@ -181,14 +192,17 @@ TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
   EXPECT_GT(held, 0);
   EXPECT_GT(refused, 5);
 }
+TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
+  TestMesh mesh = gridWith(6, [](double x, double y, double z) { return x * y + z; });
+  mesh.addIntegerCellData("id", [](size_t c) { return static_cast<int64_t>(c); });
+  for (Mode mode : kModes) expectWithinBudget(mesh, mode);
+}
 
 // A window that starts small and grows must not fail with more memory where it held with less.
-TEST(SimplifierMemory, SufficesIfLessDid) {
-  const TestMesh mesh = gridWith(slowRun() ? 6 : 14,
-                                 [](double x, double y, double z) { return std::sin(x) + y * z; });
+void expectMoreSuffices(const TestMesh& mesh, Mode mode) {
   int64_t sufficed = 0;
   for (int64_t limit = 300000; limit < 6000000; limit += limit / (slowRun() ? 2 : 12)) {
-    SimplifyOptions options = toRatio(0.2, 0);
+    SimplifyOptions options = toRatio(0.2, 0, mode);
     options.memory_bytes = limit;
     Recorder out;
     Simplifier simplifier(options, out, {});
@@ -203,12 +217,18 @@ TEST(SimplifierMemory, SufficesIfLessDid) {
   }
   EXPECT_GT(sufficed, 0);
 }
+TEST(SimplifierMemory, SufficesIfLessDid) {
+  const TestMesh mesh = gridWith(slowRun() ? 6 : 14,
+                                 [](double x, double y, double z) { return std::sin(x) + y * z; });
+  for (Mode mode : kModes) expectMoreSuffices(mesh, mode);
+}
 
-TEST(SimplifierProgress, GrowsAndEndsAtTheWhole) {
+void expectProgress(Mode mode) {
   const TestMesh mesh = fullGrid(4, 4, 16);
   Recorder out;
   std::vector<Progress> told;
-  Simplifier simplifier(toRatio(0.2, 300), out, [&](const Progress& p) { told.push_back(p); });
+  Simplifier simplifier(toRatio(0.2, 300, mode), out,
+                        [&](const Progress& p) { told.push_back(p); });
   MeshStream stream(mesh, {});
   copyStream(stream, simplifier);
   ASSERT_GT(told.size(), 3u);
@@ -221,19 +241,23 @@ TEST(SimplifierProgress, GrowsAndEndsAtTheWhole) {
   EXPECT_EQ(told.back().cells_written, static_cast<int64_t>(out.mesh.cellCount()));
   EXPECT_EQ(told.back().fraction, 1);
 }
+TEST(SimplifierProgress, GrowsAndEndsAtTheWhole) {
+  for (Mode mode : kModes) expectProgress(mode);
+}
 
 TEST(SimplifierProgress, CanCancelAtAnyCall) {
   const TestMesh mesh = fullGrid(4, 4, 16);
-  for (int allowed = 0; allowed < 4; ++allowed) {
-    Recorder out;
-    int calls = 0;
-    Simplifier simplifier(toRatio(0.2, 300), out, [&](const Progress&) {
-      if (calls++ == allowed) fail(Status::kCancelled, "enough");
-    });
-    MeshStream stream(mesh, {});
-    EXPECT_EQ(thrownBy([&] { copyStream(stream, simplifier); }).first, Status::kCancelled);
-    EXPECT_FALSE(out.finished);
-  }
+  for (Mode mode : kModes)
+    for (int allowed = 0; allowed < 4; ++allowed) {
+      Recorder out;
+      int calls = 0;
+      Simplifier simplifier(toRatio(0.2, 300, mode), out, [&](const Progress&) {
+        if (calls++ == allowed) fail(Status::kCancelled, "enough");
+      });
+      MeshStream stream(mesh, {});
+      EXPECT_EQ(thrownBy([&] { copyStream(stream, simplifier); }).first, Status::kCancelled);
+      EXPECT_FALSE(out.finished);
+    }
 }
 
 }  // namespace

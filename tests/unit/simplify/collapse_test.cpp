@@ -1,6 +1,9 @@
-// One collapse at a time: what is legal, what is told, what is handed over.
+// One collapse at a time, in a window and in a patch of it: what is legal, what is told, what is
+// handed over.
+#include <array>
 #include <cmath>
 
+#include "random.h"
 #include "window_testing.h"
 
 namespace tetstream::test {
@@ -31,12 +34,56 @@ TestMesh gridWithField(int n) {
   return mesh;
 }
 
-TEST(Collapser, TellsItsObserverOfEachCollapse) {
-  WholeWindow<double> w(gridWithField(4), {});
+// The window itself, as the paper's mode works.
+struct InWindow : WholeWindow<double> {
+  explicit InWindow(const TestMesh& the_mesh)
+      : WholeWindow<double>(the_mesh, inMode(Mode::kPaper)),
+        collapser(core, core.window, account) {}
+  uint32_t slot(uint32_t v) const { return v; }
+  double* values(uint32_t v) { return core.window.values(v); }
+  double* quadric(uint32_t v) { return core.window.quadric(v); }
+  int64_t liveCells() { return core.window.liveCells(); }
+  void store() {}
+  std::unique_ptr<Selector> selector() { return makeRandomSelector(core, collapser, account); }
+  Collapser<Window<double>> collapser;
+};
+
+// A patch of all of it, as the sweep works; vertices are named by their slots in the window.
+struct InPatch : WholePatch<double> {
+  explicit InPatch(const TestMesh& the_mesh)
+      : WholePatch<double>(the_mesh), collapser(core, patch, account) {
+    EXPECT_TRUE(loaded);
+  }
+  uint32_t slot(uint32_t v) const {
+    for (uint32_t p = 0; p < patch.vertexEnd(); ++p)
+      if (patch.slotOf(p) == v) return p;
+    return kNone;
+  }
+  double* values(uint32_t v) { return patch.values(slot(v)); }
+  double* quadric(uint32_t v) { return patch.quadric(slot(v)); }
+  int64_t liveCells() { return patch.liveCells(); }
+  void store() { patch.store(); }
+  std::unique_ptr<Selector> selector() { return makeExhaustiveSelector(core, collapser); }
+  Collapser<Patch<double>> collapser;
+};
+
+template <class Place>
+class Collapsers : public ::testing::Test {};
+using Places = ::testing::Types<InWindow, InPatch>;
+TYPED_TEST_SUITE(Collapsers, Places);
+
+template <class Place>
+Outcome collapse(Place& w, uint32_t u, uint32_t v, const double* z, double error = 0,
+                 int64_t least = 0) {
+  return w.collapser.collapse(w.slot(u), w.slot(v), z, error, least);
+}
+
+TYPED_TEST(Collapsers, TellTheirObserverOfEachCollapse) {
+  TypeParam w(gridWithField(4));
   Listener listener;
   w.collapser.observe(&listener);
-  const auto selector = makeRandomSelector(w.core, w.collapser, w.account);
-  selector->decimate({100, 90, true}, [] {});
+  w.selector()->decimate({100, 90, true}, [] {});
+  w.store();
   ASSERT_EQ(static_cast<int64_t>(listener.told.size()), w.core.report.collapses);
   EXPECT_GT(listener.told.size(), 30u);
   EXPECT_LE(w.core.window.mesh.liveCells(), 100u);
@@ -52,22 +99,25 @@ TEST(Collapser, TellsItsObserverOfEachCollapse) {
   EXPECT_EQ(largest, w.core.report.largest_error);
   for (uint32_t v = 0; v < gone.size(); ++v)
     EXPECT_EQ(gone[v], (w.core.window.mesh.vertexFlags(v) & kCollapsed) != 0);
+  EXPECT_EQ(topologyChange(factsOf(w.mesh), factsOf(w.live())), "");
 }
 
-TEST(Collapser, RefusesToTurnACellOver) {
-  WholeWindow<double> w(gridWithField(4), {});
+TYPED_TEST(Collapsers, RefuseToTurnACellOver) {
+  TypeParam w(gridWithField(4));
   const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
   double z[4] = {1000, 0, 0, 0};
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 0), Outcome::kOrientation);
+  EXPECT_EQ(collapse(w, u, v, z), Outcome::kOrientation);
   EXPECT_EQ(w.core.report.rejected_orientation, 1);
   // Onto the plane of the star's outer faces: flat is as bad as turned over.
   z[0] = 1.5 * w.core.scale[0];
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 0), Outcome::kOrientation);
+  EXPECT_EQ(collapse(w, u, v, z), Outcome::kOrientation);
   // By little less, and cells are too thin.
   z[0] = 1.49999 * w.core.scale[0];
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 0), Outcome::kOrientation);
+  EXPECT_EQ(collapse(w, u, v, z), Outcome::kOrientation);
   z[0] = 0;
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 0), Outcome::kDone);
+  EXPECT_EQ(collapse(w, u, v, z), Outcome::kDone);
+  EXPECT_EQ(w.values(u)[0], 2.5);
+  w.store();
   EXPECT_EQ(w.core.window.values(u)[0], 2.5);
   const MeshFacts facts = factsOf(w.live());
   EXPECT_EQ(topologyChange(factsOf(w.mesh), facts), "");
@@ -75,65 +125,66 @@ TEST(Collapser, RefusesToTurnACellOver) {
   EXPECT_EQ(facts.negative, 0);
 }
 
-TEST(Collapser, RefusesToTakeMoreCellsThanAllowed) {
-  WholeWindow<double> w(gridWithField(4), {});
+TYPED_TEST(Collapsers, RefuseToTakeMoreCellsThanAllowed) {
+  TypeParam w(gridWithField(4));
   const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
   const double z[4] = {0, 0, 0, 0};
   // Six cells round an edge of the lattice.
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 384 - 5), Outcome::kTooMany);
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 384 - 6), Outcome::kDone);
+  EXPECT_EQ(collapse(w, u, v, z, 0, 384 - 5), Outcome::kTooMany);
+  EXPECT_EQ(collapse(w, u, v, z, 0, 384 - 6), Outcome::kDone);
+  EXPECT_EQ(w.liveCells(), 378);
+  w.store();
   EXPECT_EQ(w.core.window.mesh.liveCells(), 378u);
 }
 
-TEST(Collapser, RefusesWhatIsNotFinite) {
-  WholeWindow<double> w(gridWithField(3), {});
+TYPED_TEST(Collapsers, RefuseWhatIsNotFinite) {
+  TypeParam w(gridWithField(3));
   const uint32_t u = slotAt(w.mesh, 1, 1, 1), v = slotAt(w.mesh, 2, 1, 1);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double z[4] = {0, 0, 0, 0}, bad[4] = {0, 0, 0, nan};
-  EXPECT_EQ(w.collapser.collapse(u, v, z, nan, 0), Outcome::kNotFinite);
-  EXPECT_EQ(w.collapser.collapse(u, v, bad, 0, 0), Outcome::kNotFinite);
+  EXPECT_EQ(collapse(w, u, v, z, nan), Outcome::kNotFinite);
+  EXPECT_EQ(collapse(w, u, v, bad), Outcome::kNotFinite);
   EXPECT_EQ(w.core.report.rejected_other, 2);
 }
 
-TEST(Collapser, RefusesLockedAndGoneVertices) {
+TYPED_TEST(Collapsers, RefuseLockedAndGoneVertices) {
   TestMesh mesh = gridWithField(4);
   const uint32_t u = slotAt(mesh, 2, 2, 2), v = slotAt(mesh, 3, 2, 2), o = slotAt(mesh, 1, 2, 2);
   mesh.locked.assign(mesh.vertexCount(), 0);
   mesh.locked[o] = 1;
-  WholeWindow<double> w(mesh, {});
+  TypeParam w(mesh);
   const double z[4] = {0, 0, 0, 0};
-  EXPECT_EQ(w.collapser.collapse(u, o, z, 0, 0), Outcome::kLocked);
-  EXPECT_EQ(w.collapser.collapse(o, u, z, 0, 0), Outcome::kLocked);
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 0), Outcome::kDone);
-  EXPECT_EQ(w.collapser.collapse(u, v, z, 0, 0), Outcome::kLocked);
+  EXPECT_EQ(collapse(w, u, o, z), Outcome::kLocked);
+  EXPECT_EQ(collapse(w, o, u, z), Outcome::kLocked);
+  EXPECT_EQ(collapse(w, u, v, z), Outcome::kDone);
+  EXPECT_EQ(collapse(w, u, v, z), Outcome::kLocked);
 }
 
-TEST(Collapser, RefusesWhatIsNoEdge) {
-  WholeWindow<double> w(gridWithField(4), {});
+TYPED_TEST(Collapsers, RefuseWhatIsNoEdge) {
+  TypeParam w(gridWithField(4));
   const double z[4] = {0, 0, 0, 0};
-  EXPECT_EQ(w.collapser.collapse(slotAt(w.mesh, 1, 2, 2), slotAt(w.mesh, 3, 2, 2), z, 0, 0),
-            Outcome::kTopology);
+  EXPECT_EQ(collapse(w, slotAt(w.mesh, 1, 2, 2), slotAt(w.mesh, 3, 2, 2), z), Outcome::kTopology);
 }
 
 // An edge through the inside, between two sides of a plate one cube thick: its collapse would make
 // the plate touch itself.
-TEST(Collapser, RefusesToPinch) {
-  TestMesh mesh = fullGrid(4, 4, 1);
-  WholeWindow<double> w(mesh, {});
+TYPED_TEST(Collapsers, RefuseToPinch) {
+  const TestMesh mesh = fullGrid(4, 4, 1);
+  TypeParam w(mesh);
   const double z[3] = {0, 0, 0};
-  EXPECT_EQ(w.collapser.collapse(slotAt(mesh, 2, 2, 0), slotAt(mesh, 2, 2, 1), z, 0, 0),
-            Outcome::kTopology);
+  EXPECT_EQ(collapse(w, slotAt(mesh, 2, 2, 0), slotAt(mesh, 2, 2, 1), z), Outcome::kTopology);
   EXPECT_EQ(w.core.report.rejected_link, 1);
 }
 
-TEST(Collapser, RoundsPlacesToTheTypeThatIsWritten) {
+TYPED_TEST(Collapsers, RoundPlacesToTheTypeThatIsWritten) {
   TestMesh mesh = fullGrid(4, 4, 4, 0, ScalarType::kFloat32);
   addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
                    [](double x, double, double) { return x; });
-  WholeWindow<double> w(mesh, {});
+  TypeParam w(mesh);
   const uint32_t u = slotAt(mesh, 2, 2, 2), v = slotAt(mesh, 3, 2, 2);
   const double z[4] = {0.01, 0.003, 0.0007, 0};
-  ASSERT_EQ(w.collapser.collapse(u, v, z, 0, 0), Outcome::kDone);
+  ASSERT_EQ(collapse(w, u, v, z), Outcome::kDone);
+  w.store();
   for (int i = 0; i < 3; ++i) {
     const double x = w.core.window.values(u)[i];
     EXPECT_EQ(x, static_cast<double>(static_cast<float>(x)));
@@ -142,11 +193,11 @@ TEST(Collapser, RoundsPlacesToTheTypeThatIsWritten) {
 
 // The volumes that cells stand for, and the sums of their data over them, outlive any number of
 // collapses: every dying cell has an heir.
-TEST(Collapser, ConservesCellDataOverTheVolumesTheyStandFor) {
+TYPED_TEST(Collapsers, ConserveCellDataOverTheVolumesTheyStandFor) {
   TestMesh mesh = fullGrid(5, 5, 5, 0.1);
   mesh.addCellData({"d", 2, ScalarType::kFloat64},
                    [](size_t c, int i) { return std::sin(0.37 * static_cast<double>(c)) + i; });
-  WholeWindow<double> w(mesh, {});
+  TypeParam w(mesh);
   const auto sums = [&w] {
     std::array<double, 3> sum = {};
     for (uint32_t c = 0; c < w.core.window.mesh.cellEnd(); ++c) {
@@ -158,7 +209,8 @@ TEST(Collapser, ConservesCellDataOverTheVolumesTheyStandFor) {
     return sum;
   };
   const auto before = sums();
-  makeRandomSelector(w.core, w.collapser, w.account)->decimate({80, 70, true}, [] {});
+  w.selector()->decimate({80, 70, true}, [] {});
+  w.store();
   const auto after = sums();
   EXPECT_LE(w.core.window.mesh.liveCells(), 80u);
   for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(after[i], before[i], 1e-9 * before[0]);
@@ -166,46 +218,143 @@ TEST(Collapser, ConservesCellDataOverTheVolumesTheyStandFor) {
 
 // The quadric of a merged vertex is the sum, its error what the minimum of the sum is: never less
 // than both errors together.
-TEST(Collapser, AddsQuadrics) {
-  WholeWindow<double> w(gridWithField(4), {});
+TYPED_TEST(Collapsers, AddQuadrics) {
+  TypeParam w(gridWithField(4));
   const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
   const int size = quadricSize(4);
-  const std::vector<double> a(w.core.window.quadric(u), w.core.window.quadric(u) + size);
-  const std::vector<double> b(w.core.window.quadric(v), w.core.window.quadric(v) + size);
+  const std::vector<double> a(w.quadric(u), w.quadric(u) + size);
+  const std::vector<double> b(w.quadric(v), w.quadric(v) + size);
   const double z[4] = {0, 0, 0, 0};
-  ASSERT_EQ(w.collapser.collapse(u, v, z, 0.125, 0), Outcome::kDone);
+  ASSERT_EQ(collapse(w, u, v, z, 0.125), Outcome::kDone);
+  w.store();
+  const double* sum = w.core.window.quadric(u);
   for (int i = 0; i + 1 < size; ++i)
-    EXPECT_EQ(w.core.window.quadric(u)[i], a[static_cast<size_t>(i)] + b[static_cast<size_t>(i)]);
-  EXPECT_EQ(w.core.window.quadric(u)[size - 1], 0.125);
+    EXPECT_EQ(sum[i], a[static_cast<size_t>(i)] + b[static_cast<size_t>(i)]);
+  EXPECT_EQ(sum[size - 1], 0.125);
 }
+
+// The same edges, in the same order, with the same outcome and the same numbers.
+TEST(Collapser, DoesTheSameInAPatchAsInTheWindow) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  for (size_t c = 0; c < mesh.cellCount(); c += 3)
+    std::swap(mesh.cells[4 * c + 1], mesh.cells[4 * c + 2]);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return std::sin(x) * y - z; });
+  addPositionField(mesh, {"carried", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return x * y * z; });
+  mesh.addIntegerField("label", [](size_t v) { return static_cast<int64_t>(v % 5); });
+  SimplifyOptions paper = inMode(Mode::kPaper), sweep;
+  paper.fields = sweep.fields = {{"f", 1}};
+  WholeWindow<double> a(mesh, paper);
+  WholePatch<double> b(mesh, sweep);
+  Collapser<Window<double>> in_window(a.core, a.core.window, a.account);
+  Collapser<Patch<double>> in_patch(b.core, b.patch, b.account);
+  a.core.thin = b.core.thin;
+  Random r(3);
+  int done = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const uint32_t cell = r.below(static_cast<uint32_t>(mesh.cellCount()));
+    if (!a.core.window.isLive(cell)) continue;
+    ASSERT_TRUE(b.patch.isLive(cell));
+    const uint32_t i = r.below(4), j = (i + 1 + r.below(3)) % 4;
+    const uint32_t u = a.core.window.vertexOf(cell, i), v = a.core.window.vertexOf(cell, j);
+    ASSERT_TRUE(b.owned[u] == u && b.owned[v] == v);  // all are owned: numbers are slots
+    double z[4];
+    const double error = a.core.kernels.solveEdge(a.core.window.quadric(u), a.core.window.values(u),
+                                                  a.core.window.quadric(v), a.core.window.values(v),
+                                                  a.core.scale.data(), a.core.plan.dimension, z);
+    const Outcome outcome = in_window.collapse(u, v, z, error, 0);
+    ASSERT_EQ(in_patch.collapse(u, v, z, error, 0), outcome);
+    done += outcome == Outcome::kDone;
+  }
+  EXPECT_GT(done, 50);
+  b.patch.store();
+  ASSERT_EQ(a.core.window.liveCells(), b.core.window.liveCells());
+  for (uint32_t c = 0; c < mesh.cellCount(); ++c) {
+    ASSERT_EQ(a.core.window.isLive(c), b.core.window.isLive(c));
+    for (uint32_t j = 0; j < 4 && a.core.window.isLive(c); ++j)
+      EXPECT_EQ(a.core.window.vertexOf(c, j), b.core.window.vertexOf(c, j));
+  }
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    ASSERT_EQ(a.core.window.mesh.vertexFlags(v), b.core.window.mesh.vertexFlags(v));
+    if (a.core.window.mesh.vertexFlags(v) & kCollapsed) continue;
+    for (int i = 0; i < a.core.plan.values; ++i)
+      EXPECT_EQ(a.core.window.values(v)[i], b.core.window.values(v)[i]);
+    EXPECT_EQ(a.core.window.picks(v)[0], b.core.window.picks(v)[0]);
+  }
+}
+
+// ---------------------------------------------------------------------------------- Resolver
 
 // Every vertex on the outside knows it, and has the quadric of the faces there.
 TEST(Resolver, FindsTheBoundary) {
-  const TestMesh mesh = shellGrid(4);
-  WholeWindow<double> w(mesh, {});
+  for (Mode mode : {Mode::kSweep, Mode::kPaper}) {
+    const TestMesh mesh = shellGrid(4);
+    WholeWindow<double> w(mesh, inMode(mode));
+    for (uint32_t v = 0; v < mesh.vertexCount(); ++v)
+      EXPECT_EQ(w.core.window.mesh.vertexFlags(v), kFinal | kBoundary | kResolved);
+    const TestMesh full = fullGrid(3, 3, 3);
+    WholeWindow<double> inner(full, inMode(mode));
+    int inside = 0;
+    for (uint32_t v = 0; v < full.vertexCount(); ++v)
+      inside += inner.core.window.mesh.vertexFlags(v) == (kFinal | kResolved);
+    EXPECT_EQ(inside, 8);
+  }
+}
+
+int lockedIn(const TestMesh& mesh) {
+  WholeWindow<double> w(mesh);
+  int locked = 0;
   for (uint32_t v = 0; v < mesh.vertexCount(); ++v)
-    EXPECT_EQ(w.core.window.mesh.vertexFlags(v), kFinal | kBoundary | kResolved);
-  const TestMesh full = fullGrid(3, 3, 3);
-  WholeWindow<double> inner(full, {});
-  int inside = 0;
-  for (uint32_t v = 0; v < full.vertexCount(); ++v)
-    inside += inner.core.window.mesh.vertexFlags(v) == (kFinal | kResolved);
-  EXPECT_EQ(inside, 8);
+    locked += (w.core.window.mesh.vertexFlags(v) & kLocked) != 0;
+  return locked;
 }
 
 // Two cubes at a vertex: that one is locked, and no other. At an edge: the edge.
 TEST(Resolver, LocksNonManifoldPlaces) {
-  const auto lockedIn = [](const TestMesh& mesh) {
-    WholeWindow<double> w(mesh, {});
-    int locked = 0;
-    for (uint32_t v = 0; v < mesh.vertexCount(); ++v)
-      locked += (w.core.window.mesh.vertexFlags(v) & kLocked) != 0;
-    return locked;
-  };
   EXPECT_EQ(lockedIn(cubesAtVertex(2)), 1);
   EXPECT_EQ(lockedIn(cubesAtEdge(2)), 3);
   EXPECT_EQ(lockedIn(slitGrid(6)), 0);
   EXPECT_EQ(lockedIn(apart(2)), 0);
+}
+
+// A plate, all of whose vertices are on the boundary, with more corners than are listed at once:
+// as with a small one, face by face. In the form of a face each has its share of the same areas.
+TEST(Resolver, ListsTheStarsOfAnyNumberOfBoundaryVertices) {
+  const int n = slowRun() ? 20 : 60;  // 60 x 60 cubes: 86400 corners
+  const TestMesh mesh = fullGrid(n, n, 1);
+  WholeWindow<double> w(mesh);
+  const TestMesh small = fullGrid(4, 4, 1);
+  WholeWindow<double> s(small);
+  const auto weight = [](WholeWindow<double>& window, uint32_t v) {
+    const double* q = window.core.window.quadric(v);  // twice the area's share, in x y z together
+    const double unit = window.core.scale[0];
+    return (q[0] + q[2] + q[5]) / unit;
+  };
+  const double extent_share = static_cast<double>(n) / 4;  // of the boundary's weight
+  const double inner = weight(s, slotAt(small, 2, 2, 0)) * extent_share;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    ASSERT_EQ(w.core.window.mesh.vertexFlags(v), kFinal | kBoundary | kResolved) << v;
+    const double x = mesh.position(v, 0), y = mesh.position(v, 1), z = mesh.position(v, 2);
+    if (x < 1 || y < 1 || x > n - 1 || y > n - 1 || z > 0) continue;
+    ASSERT_NEAR(weight(w, v), inner, 1e-3 * inner) << v;
+  }
+}
+
+// Many vertices that are locked, more than the lists hold at once.
+TEST(Resolver, LocksNonManifoldPlacesInAnyNumber) {
+  const int n = slowRun() ? 7 : 21;
+  // Cubes at alternate places: they touch at edges and vertices only.
+  const TestMesh mesh = cubes(n, n, n, [](int x, int y, int z) { return (x + y + z) % 2 == 0; });
+  const MeshFacts facts = factsOf(mesh);
+  ASSERT_FALSE(facts.manifold());
+  WholeWindow<double> w(mesh);
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    int outside = 0;  // two: on an edge of the whole, a vertex of one cube only
+    for (int i = 0; i < 3; ++i) outside += mesh.position(v, i) == 0 || mesh.position(v, i) == n;
+    EXPECT_EQ((w.core.window.mesh.vertexFlags(v) & kLocked) != 0, outside < 2) << v;
+    EXPECT_TRUE(w.core.window.mesh.vertexFlags(v) & kBoundary);
+  }
 }
 
 }  // namespace

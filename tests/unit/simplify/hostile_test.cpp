@@ -105,10 +105,12 @@ TEST(HostileStream, OfTheLargestNumbersStaysFinite) {
                    [](double x, double, double) { return x < 2 ? -1.7e308 : 1.7e308; });
   addPositionField(mesh, {"tiny", 1, ScalarType::kFloat64},
                    [](double x, double y, double) { return 4.9e-324 * (x + y); });
-  const Result result = simplified(mesh, toRatio(0.5));
-  expectSound(mesh, result);
-  for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
-    for (size_t f = 0; f < 2; ++f) EXPECT_TRUE(std::isfinite(result.out.mesh.field(f, v)));
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(0.5, 0, mode));
+    expectSound(mesh, result);
+    for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
+      for (size_t f = 0; f < 2; ++f) EXPECT_TRUE(std::isfinite(result.out.mesh.field(f, v)));
+  }
 }
 
 TEST(HostileStream, WithAWrongNumberOfCellsIsRefused) {
@@ -131,10 +133,12 @@ TEST(HostileStream, WithAWrongFrontIsStillSimplified) {
     TestMesh lying = mesh;
     lying.schema.front_cells = claimed;
     lying.schema.front_span = lying.schema.front_width = claimed;
-    const Result result = simplified(lying, toRatio(0.2));
-    expectSound(mesh, result);
-    EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
-    EXPECT_LT(result.out.mesh.cellCount(), mesh.cellCount() / 3);
+    for (Mode mode : kModes) {
+      const Result result = simplified(lying, toRatio(0.2, 0, mode));
+      expectSound(mesh, result);
+      EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
+      EXPECT_LT(result.out.mesh.cellCount(), mesh.cellCount() / 3);
+    }
   }
 }
 

@@ -37,18 +37,18 @@ std::set<Place> interfaceOf(const TestMesh& mesh) {
   return places;
 }
 
-Result withRegions(const TestMesh& mesh, const std::string& regions, int64_t window) {
-  SimplifyOptions options = toRatio(0.25, window);
+Result withRegions(const TestMesh& mesh, const std::string& regions, int64_t window,
+                   Mode mode = SimplifyOptions().mode) {
+  SimplifyOptions options = toRatio(0.25, window, mode);
   options.regions = regions;
   return simplified(mesh, options);
 }
 
-TEST(SimplifierRegions, KeepTheirInterface) {
-  const TestMesh mesh = twoMaterials(slowRun() ? 3 : 5);
+void expectInterfaceKept(const TestMesh& mesh, Mode mode) {
   const std::set<Place> interface = interfaceOf(mesh);
   for (int64_t window : {64, 400, 0})
     for (const char* regions : {"auto", "material"}) {
-      const Result result = withRegions(mesh, regions, window);
+      const Result result = withRegions(mesh, regions, window, mode);
       expectSound(mesh, result);
       EXPECT_TRUE(interfaceOf(result.out.mesh) == interface);
       EXPECT_NE(result.report.regions.find("material"), std::string::npos);
@@ -70,6 +70,10 @@ TEST(SimplifierRegions, KeepTheirInterface) {
         EXPECT_TRUE(facts.manifold());
       }
     }
+}
+TEST(SimplifierRegions, KeepTheirInterface) {
+  const TestMesh mesh = twoMaterials(slowRun() ? 3 : 5);
+  for (Mode mode : kModes) expectInterfaceKept(mesh, mode);
 }
 
 TEST(SimplifierRegions, AreNotTakenFromIds) {

@@ -26,8 +26,18 @@ inline Result simplified(const TestMesh& mesh, const SimplifyOptions& options,
   return result;
 }
 
-inline SimplifyOptions toRatio(double ratio, int64_t window = 0) {
+// What is promised is promised for every mode; the first is the default.
+constexpr Mode kModes[] = {Mode::kSweep, Mode::kPaper};
+
+inline SimplifyOptions inMode(Mode mode) {
   SimplifyOptions options;
+  options.mode = mode;
+  return options;
+}
+
+inline SimplifyOptions toRatio(double ratio, int64_t window = 0,
+                               Mode mode = SimplifyOptions().mode) {
+  SimplifyOptions options = inMode(mode);
   options.ratio = ratio;
   options.window_cells = window;
   return options;

@@ -12,14 +12,14 @@ double wave(double x, double y, double z) {
   return std::sin(0.9 * x) + 0.5 * std::cos(1.3 * y + 0.4 * z);
 }
 
-void expectKept(const TestMesh& mesh, double volume_tolerance, const char* name) {
+void expectKeptIn(Mode mode, const TestMesh& mesh, double volume_tolerance, const char* name) {
   const MeshFacts before = factsOf(mesh);
   for (double ratio : {1.0, 0.5, 0.1, 0.02})
     for (int64_t window : {64, 512, 0}) {
       if (slowRun() && (window != 64 || ratio == 0.5)) continue;
-      SCOPED_TRACE(
-          textOf("%s, ratio %g, window %lld", name, ratio, static_cast<long long>(window)));
-      const Result result = simplified(mesh, toRatio(ratio, window));
+      SCOPED_TRACE(textOf("%s, mode %d, ratio %g, window %lld", name, static_cast<int>(mode), ratio,
+                          static_cast<long long>(window)));
+      const Result result = simplified(mesh, toRatio(ratio, window, mode));
       expectSound(mesh, result);
       const MeshFacts after = factsOf(result.out.mesh);
       EXPECT_EQ(topologyChange(before, after), "");
@@ -32,6 +32,10 @@ void expectKept(const TestMesh& mesh, double volume_tolerance, const char* name)
         EXPECT_EQ(result.report.collapses, 0);
       }
     }
+}
+
+void expectKept(const TestMesh& mesh, double volume_tolerance, const char* name) {
+  for (Mode mode : kModes) expectKeptIn(mode, mesh, volume_tolerance, name);
 }
 
 TestMesh withWave(TestMesh mesh) {
@@ -146,14 +150,15 @@ TEST(SimplifierTopology, PassesFlatCellsOnUnchanged) {
   mesh = inStreamOrder(mesh);
   const MeshFacts before = factsOf(mesh);
   ASSERT_EQ(before.flat, 1);
-  for (int64_t window : {64, 0})
-    for (double ratio : {0.5, 0.1}) {
-      const Result result = simplified(mesh, toRatio(ratio, window));
-      expectSound(mesh, result);
-      EXPECT_EQ(factsOf(result.out.mesh).flat, 1);
-      EXPECT_EQ(cellsFound(mesh, {flat}, result.out.mesh), 1u);
-      EXPECT_EQ(result.report.locked_cells, 1);
-    }
+  for (Mode mode : kModes)
+    for (int64_t window : {64, 0})
+      for (double ratio : {0.5, 0.1}) {
+        const Result result = simplified(mesh, toRatio(ratio, window, mode));
+        expectSound(mesh, result);
+        EXPECT_EQ(factsOf(result.out.mesh).flat, 1);
+        EXPECT_EQ(cellsFound(mesh, {flat}, result.out.mesh), 1u);
+        EXPECT_EQ(result.report.locked_cells, 1);
+      }
 }
 
 // The vertex at (3, 3, 3) of a lattice goes to (4.6, 3.1, 3.2): past its neighbours, so that some
@@ -176,16 +181,17 @@ TEST(SimplifierTopology, PassesFoldedCellsOnUnchanged) {
   const MeshFacts before = factsOf(mesh);
   ASSERT_GT(folded.size(), 2u);
   ASSERT_GT(before.folded, 2);
-  for (int64_t window : {64, 200, 0})
-    for (double ratio : {0.5, 0.1}) {
-      SCOPED_TRACE(textOf("ratio %g, window %lld", ratio, static_cast<long long>(window)));
-      const Result result = simplified(mesh, toRatio(ratio, window));
-      expectSound(mesh, result);
-      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
-      EXPECT_EQ(factsOf(result.out.mesh).folded, before.folded);
-      EXPECT_EQ(cellsFound(mesh, folded, result.out.mesh), folded.size());
-      EXPECT_GE(result.report.locked_cells, static_cast<int64_t>(folded.size()));
-    }
+  for (Mode mode : kModes)
+    for (int64_t window : {64, 200, 0})
+      for (double ratio : {0.5, 0.1}) {
+        SCOPED_TRACE(textOf("ratio %g, window %lld", ratio, static_cast<long long>(window)));
+        const Result result = simplified(mesh, toRatio(ratio, window, mode));
+        expectSound(mesh, result);
+        EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+        EXPECT_EQ(factsOf(result.out.mesh).folded, before.folded);
+        EXPECT_EQ(cellsFound(mesh, folded, result.out.mesh), folded.size());
+        EXPECT_GE(result.report.locked_cells, static_cast<int64_t>(folded.size()));
+      }
 }
 
 // Cells taken out of a grid at random, in random order, some the other way round: holes, tunnels,
@@ -209,12 +215,14 @@ TEST(SimplifierTopology, KeepsWhateverThereIs) {
   for (uint64_t seed = 1; seed < (slowRun() ? 3u : 25u); ++seed) {
     const TestMesh mesh = randomPart(seed);
     const MeshFacts before = factsOf(mesh);
-    for (int64_t window : {64, 150, 0}) {
-      SCOPED_TRACE(textOf("seed %d, window %d", static_cast<int>(seed), static_cast<int>(window)));
-      const Result result = simplified(mesh, toRatio(0.05, window));
-      expectSound(mesh, result);
-      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
-    }
+    for (Mode mode : kModes)
+      for (int64_t window : {64, 150, 0}) {
+        SCOPED_TRACE(textOf("seed %d, window %d, mode %d", static_cast<int>(seed),
+                            static_cast<int>(window), static_cast<int>(mode)));
+        const Result result = simplified(mesh, toRatio(0.05, window, mode));
+        expectSound(mesh, result);
+        EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+      }
   }
 }
 
@@ -230,12 +238,14 @@ TEST(SimplifierTopology, KeepsTangles) {
     }
     mesh = withWave(mesh);
     const MeshFacts before = factsOf(mesh);
-    for (int64_t window : {64, 150, 0}) {
-      SCOPED_TRACE(textOf("seed %d, window %d", static_cast<int>(seed), static_cast<int>(window)));
-      const Result result = simplified(mesh, toRatio(0.05, window));
-      expectSound(mesh, result);
-      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
-    }
+    for (Mode mode : kModes)
+      for (int64_t window : {64, 150, 0}) {
+        SCOPED_TRACE(textOf("seed %d, window %d, mode %d", static_cast<int>(seed),
+                            static_cast<int>(window), static_cast<int>(mode)));
+        const Result result = simplified(mesh, toRatio(0.05, window, mode));
+        expectSound(mesh, result);
+        EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+      }
   }
 }
 
@@ -247,11 +257,13 @@ TEST(SimplifierTopology, MakesAMeshThatIsThereTwiceNoWorse) {
   for (size_t c = 0; c < once.size() / 4; ++c)
     for (int again = 0; again < 2; ++again)
       mesh.cells.insert(mesh.cells.end(), &once[4 * c], &once[4 * c] + 4);
-  const Result result = simplified(mesh, toRatio(0.1));
-  expectSound(mesh, result);
-  EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
-  EXPECT_EQ(factsOf(result.out.mesh).duplicates * 2,
-            static_cast<int64_t>(result.out.mesh.cellCount()));
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(0.1, 0, mode));
+    expectSound(mesh, result);
+    EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
+    EXPECT_EQ(factsOf(result.out.mesh).duplicates * 2,
+              static_cast<int64_t>(result.out.mesh.cellCount()));
+  }
 }
 
 }  // namespace

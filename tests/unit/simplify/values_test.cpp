@@ -11,6 +11,9 @@ namespace {
 
 using Place = std::array<double, 3>;
 
+constexpr std::pair<Mode, int64_t> kModesAndWindows[] = {
+    {Mode::kSweep, 100}, {Mode::kSweep, 0}, {Mode::kPaper, 100}, {Mode::kPaper, 0}};
+
 Place placeOf(const TestMesh& mesh, size_t v) {
   return {mesh.position(v, 0), mesh.position(v, 1), mesh.position(v, 2)};
 }
@@ -33,10 +36,9 @@ TEST(SimplifierValues, KeepTheirBitsWhereVerticesDidNotMove) {
   addPositionField(mesh, {"c", 2, ScalarType::kFloat32}, wild);
   mesh.addIntegerField("d", [](size_t v) { return (int64_t{1} << 60) + static_cast<int64_t>(v); });
   for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(v % 3 == 0);
-  SimplifyOptions options = toRatio(0.5);
-  options.fields = {{"a", 1}};
-  for (int64_t window : {100, 0}) {
-    options.window_cells = window;
+  for (auto [mode, window] : kModesAndWindows) {
+    SimplifyOptions options = toRatio(0.5, window, mode);
+    options.fields = {{"a", 1}};
     const Result result = simplified(mesh, options);
     const TestMesh& out = result.out.mesh;
     const auto places = placesOf(out);
@@ -58,7 +60,7 @@ TEST(SimplifierValues, KeepTheirBitsWhereVerticesDidNotMove) {
   }
 }
 
-TEST(SimplifierValues, OfIntegersArePicked) {
+void expectIntegersPicked(Mode mode) {
   TestMesh mesh = fullGrid(5, 5, 5, 0.1);
   addPositionField(mesh, {"a", 1, ScalarType::kFloat32}, wild);
   std::set<int64_t> labels, ids;
@@ -69,7 +71,7 @@ TEST(SimplifierValues, OfIntegersArePicked) {
                 [](size_t v, int i) { return 7.0 * static_cast<double>(v) + i; });
   mesh.addIntegerCellData(
       "id", [&](size_t c) { return *ids.insert(-big + 5 * static_cast<int64_t>(c)).first; });
-  const Result result = simplified(mesh, toRatio(0.1));
+  const Result result = simplified(mesh, toRatio(0.1, 0, mode));
   expectReached(result);
   const TestMesh& out = result.out.mesh;
   std::set<int64_t> seen;
@@ -86,18 +88,23 @@ TEST(SimplifierValues, OfIntegersArePicked) {
     EXPECT_TRUE(seen_cells.insert(out.cellInteger(0, c)).second);
   }
 }
+TEST(SimplifierValues, OfIntegersArePicked) {
+  for (Mode mode : kModes) expectIntegersPicked(mode);
+}
 
 TEST(SimplifierValues, OfConstantFieldsStayConstant) {
   TestMesh mesh = fullGrid(5, 5, 5, 0.1);
   addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
   mesh.addField({"one", 1, ScalarType::kFloat64}, [](size_t, int) { return 0.1; });
   mesh.addField({"carried", 1, ScalarType::kFloat64}, [](size_t, int) { return 0.1; });
-  SimplifyOptions options = toRatio(0.1);
-  options.fields = {{"a", 1}, {"one", 1}, {"carried", 0}};
-  const Result result = simplified(mesh, options);
-  for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v) {
-    EXPECT_EQ(result.out.mesh.field(1, v), 0.1);
-    EXPECT_NEAR(result.out.mesh.field(2, v), 0.1, 1e-15);
+  for (Mode mode : kModes) {
+    SimplifyOptions options = toRatio(0.1, 0, mode);
+    options.fields = {{"a", 1}, {"one", 1}, {"carried", 0}};
+    const Result result = simplified(mesh, options);
+    for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v) {
+      EXPECT_EQ(result.out.mesh.field(1, v), 0.1);
+      EXPECT_NEAR(result.out.mesh.field(2, v), 0.1, 1e-15);
+    }
   }
 }
 
@@ -113,17 +120,19 @@ TEST(SimplifierValues, OfCarriedLinearFieldsStayLinear) {
     for (int i = 0; i < 3; ++i) outside |= std::fabs(mesh.position(v, i) - 0.5 * n) > 0.5 * n - 0.2;
     mesh.locked.push_back(outside);
   }
-  SimplifyOptions options = toRatio(0.3);
-  options.fields = {{"a", 1}};
-  const Result result = simplified(mesh, options);
-  const TestMesh& out = result.out.mesh;
-  EXPECT_GT(result.report.collapses, 20);
-  for (size_t v = 0; v < out.vertexCount(); ++v)
-    for (int i = 0; i < 2; ++i)
-      EXPECT_NEAR(
-          out.field(1, v, i),
-          (i + 1) * (3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) + 11),
-          1e-11);
+  for (Mode mode : kModes) {
+    SimplifyOptions options = toRatio(0.3, 0, mode);
+    options.fields = {{"a", 1}};
+    const Result result = simplified(mesh, options);
+    const TestMesh& out = result.out.mesh;
+    EXPECT_GT(result.report.collapses, 20);
+    for (size_t v = 0; v < out.vertexCount(); ++v)
+      for (int i = 0; i < 2; ++i)
+        EXPECT_NEAR(
+            out.field(1, v, i),
+            (i + 1) * (3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) + 11),
+            1e-11);
+  }
 }
 
 // A linear field lies in the hyperplane of every cell: the metric keeps it, to rounding.
@@ -131,11 +140,14 @@ TEST(SimplifierValues, OfMeasuredLinearFieldsStayLinear) {
   TestMesh mesh = fullGrid(5, 5, 5, 0.1);
   addPositionField(mesh, {"linear", 1, ScalarType::kFloat64},
                    [](double x, double y, double z) { return 3 * x - y + 0.5 * z + 11; });
-  const Result result = simplified(mesh, toRatio(0.2));
-  const TestMesh& out = result.out.mesh;
-  for (size_t v = 0; v < out.vertexCount(); ++v)
-    EXPECT_NEAR(out.field(0, v),
-                3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) + 11, 1e-6);
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(0.2, 0, mode));
+    const TestMesh& out = result.out.mesh;
+    for (size_t v = 0; v < out.vertexCount(); ++v)
+      EXPECT_NEAR(out.field(0, v),
+                  3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) + 11,
+                  1e-6);
+  }
 }
 
 // Constants are the test of an average: (a w + a v) / (w + v) must give a, to the last bit.
@@ -144,30 +156,41 @@ TEST(SimplifierValues, OfConstantCellDataStayConstant) {
   addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
   mesh.addCellData({"one", 2, ScalarType::kFloat64}, [](size_t, int i) { return 0.1 + i / 3.0; });
   mesh.addCellData({"two", 1, ScalarType::kFloat32}, [](size_t, int) { return 0.3; });
-  const Result result = simplified(mesh, toRatio(0.1));
-  for (size_t c = 0; c < result.out.mesh.cellCount(); ++c) {
-    EXPECT_EQ(result.out.mesh.cellValue(0, c, 0), 0.1);
-    EXPECT_EQ(result.out.mesh.cellValue(0, c, 1), 0.1 + 1 / 3.0);
-    EXPECT_EQ(result.out.mesh.cellValue(1, c), static_cast<double>(0.3f));
+  for (Mode mode : kModes) {
+    const Result result = simplified(mesh, toRatio(0.1, 0, mode));
+    for (size_t c = 0; c < result.out.mesh.cellCount(); ++c) {
+      EXPECT_EQ(result.out.mesh.cellValue(0, c, 0), 0.1);
+      EXPECT_EQ(result.out.mesh.cellValue(0, c, 1), 0.1 + 1 / 3.0);
+      EXPECT_EQ(result.out.mesh.cellValue(1, c), static_cast<double>(0.3f));
+    }
   }
 }
 
+// Some values whose means are zero. Over the volumes that the cells end with they are not exactly
+// conserved, but nearly: the sum of |d| is over 300, a gradient in it would be lost with one cell
+// in a hundred. What one of them comes to hangs on chance, the mean of some does not.
 TEST(SimplifierValues, OfCellDataStayBetweenTheirEnds) {
   TestMesh mesh = fullGrid(6, 6, 6, 0.1);
-  mesh.addCellData({"d", 1, ScalarType::kFloat64},
-                   [](size_t c, int) { return static_cast<double>(c % 7) - 3; });
-  for (int64_t window : {100, 0}) {
-    const Result result = simplified(mesh, toRatio(0.1, window));
-    double sum = 0;
-    for (size_t c = 0; c < result.out.mesh.cellCount(); ++c) {
-      const double value = result.out.mesh.cellValue(0, c);
-      EXPECT_GE(value, -3);
-      EXPECT_LE(value, 3);
-      sum += value * cellVolume(result.out.mesh, c);
+  constexpr int kColumns = 10;
+  for (size_t k = 3; k < 3 + kColumns; ++k)
+    mesh.addCellData({textOf("d%zu", k), 1, ScalarType::kFloat64}, [k](size_t c, int) {
+      return 6 * (static_cast<double>(c % k) / static_cast<double>(k - 1) - 0.5);
+    });
+  for (auto [mode, window] : kModesAndWindows) {
+    const Result result = simplified(mesh, toRatio(0.1, window, mode));
+    double squares = 0;
+    for (size_t k = 0; k < kColumns; ++k) {
+      double sum = 0;
+      for (size_t c = 0; c < result.out.mesh.cellCount(); ++c) {
+        const double value = result.out.mesh.cellValue(k, c);
+        EXPECT_GE(value, -3);
+        EXPECT_LE(value, 3);
+        sum += value * cellVolume(result.out.mesh, c);
+      }
+      squares += sum * sum;
     }
-    // Not exactly conserved by the volumes that the cells end with, but near: the sum of |d| is
-    // over 300, a gradient in it would be lost with one cell in a hundred.
-    EXPECT_LT(std::fabs(sum), 12);
+    // A window that is smaller than the front cannot keep the shape as well.
+    EXPECT_LT(std::sqrt(squares / kColumns), window > 0 ? 25 : 15);
   }
 }
 
@@ -188,10 +211,11 @@ TestMesh scaledMesh(double length, double value, ScalarType type) {
 
 void expectUnitsDoNotMatter(double length, double value, ScalarType type, const Cut& cut) {
   for (QuadricForm form : {QuadricForm::kDeterminant, QuadricForm::kGarlandZhou})
-    for (int64_t window : {300, 0}) {
+    for (auto [mode, small] : kModesAndWindows) {
+      const int64_t window = small ? 300 : 0;
       SCOPED_TRACE(textOf("length %g value %g window %lld form %d", length, value,
                           static_cast<long long>(window), static_cast<int>(form)));
-      SimplifyOptions options = toRatio(0.2, window);
+      SimplifyOptions options = toRatio(0.2, window, mode);
       options.quadric = form;
       const Result plain = simplified(scaledMesh(1, 1, type), options, cut);
       const Result scaled = simplified(scaledMesh(length, value, type), options, cut);

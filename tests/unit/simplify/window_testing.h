@@ -1,4 +1,4 @@
-// tests: a whole small mesh in one window, ready for collapses by hand.
+// tests: a whole small mesh in one window, or in one patch of it, ready for collapses by hand.
 #pragma once
 
 #include "collapse.h"
@@ -9,9 +9,10 @@
 
 namespace tetstream::test {
 
+// The window of the paper's mode has links: cells can be merged in it without a patch.
 template <class S>
 struct WholeWindow {
-  WholeWindow(TestMesh the_mesh, const SimplifyOptions& the_options)
+  explicit WholeWindow(TestMesh the_mesh, const SimplifyOptions& the_options = inMode(Mode::kPaper))
       : mesh(std::move(the_mesh)),
         options(the_options),
         plan(makePlan(mesh.schema, options)),
@@ -19,8 +20,7 @@ struct WholeWindow {
         intake(core, account),
         regions(core),
         metric(core),
-        resolver(core, metric, regions, account),
-        collapser(core, account) {
+        resolver(core, metric, regions, account) {
     MeshStream stream(mesh, {});
     BatchView batch;
     while (stream.next(batch)) {
@@ -56,7 +56,28 @@ struct WholeWindow {
   Regions<S> regions;
   Metric<S> metric;
   Resolver<S> resolver;
-  Collapser<S> collapser;
+};
+
+// The whole mesh in a patch: all free vertices are owned.
+template <class S>
+struct WholePatch : WholeWindow<S> {
+  explicit WholePatch(TestMesh the_mesh, const SimplifyOptions& the_options = {})
+      : WholeWindow<S>(std::move(the_mesh), the_options), patch(this->account, this->core.window) {
+    load();
+  }
+  void load() {
+    const Topology& window = this->core.window.mesh;
+    owned.clear();
+    std::vector<uint32_t> cells;
+    for (uint32_t v = 0; v < window.vertexEnd(); ++v)
+      if (window.isFree(v)) owned.push_back(v);
+    for (uint32_t c = 0; c < window.cellEnd(); ++c) cells.push_back(c);
+    loaded = patch.load(owned.data(), owned.size(), cells.data(), cells.size());
+  }
+
+  Patch<S> patch;
+  std::vector<uint32_t> owned;
+  bool loaded = false;
 };
 
 }  // namespace tetstream::test

@@ -96,6 +96,45 @@ TEST(RoundingSource, KeepsWhatIsNotFiniteAndRefusesWhatWouldBecomeSo) {
   }
 }
 
+// A stream in one batch, which can be read again if it is said so.
+class OneBatch final : public Source {
+ public:
+  OneBatch(test::SmallMesh& mesh, bool twice)
+      : mesh_(mesh), schema_(mesh.schema()), twice_(twice) {}
+  const Schema& schema() const override { return schema_; }
+  bool next(BatchView& batch) override {
+    if (done_) return false;
+    batch = mesh_.view();
+    return done_ = true;
+  }
+  std::unique_ptr<Source> again() override {
+    return twice_ ? std::make_unique<OneBatch>(mesh_, false) : nullptr;
+  }
+
+ private:
+  test::SmallMesh& mesh_;
+  Schema schema_;
+  bool twice_, done_ = false;
+};
+
+TEST(RoundingSource, CanBeReadAgainIfItsSourceCan) {
+  test::SmallMesh mesh = thirds();
+  OneBatch once(mesh, false), twice(mesh, true);
+  EXPECT_EQ(RoundingSource(once).again(), nullptr);
+  RoundingSource first(twice);
+  const std::unique_ptr<Source> second = first.again();
+  ASSERT_NE(second, nullptr);
+  for (Source* source : {second.get(), static_cast<Source*>(&first)}) {
+    EXPECT_EQ(source->schema().fields[0].type, ScalarType::kFloat32);
+    BatchView batch;
+    ASSERT_TRUE(source->next(batch));
+    const float* x = static_cast<const float*>(batch.positions);
+    for (size_t i = 0; i < mesh.positions.size(); ++i)
+      EXPECT_EQ(x[i], static_cast<float>(mesh.positions[i]));
+    EXPECT_FALSE(source->next(batch));
+  }
+}
+
 TEST(RoundingSource, IndexedRangesEqualTheRoundedWhole) {
   test::SmallMesh mesh = thirds();
   MemorySource exact(mesh.schema(), mesh.view());

@@ -1,0 +1,204 @@
+#include "patch.h"
+
+#include <algorithm>
+
+#include "star_kernels.h"
+
+namespace tetstream {
+
+template <class S>
+Patch<S>::Patch(Account& account, Window<S>& window)
+    : account_(&account),
+      window_(window),
+      value_stride_(static_cast<size_t>(window.shape().values)),
+      quadric_stride_(static_cast<size_t>(window.shape().quadric)),
+      local_of_(account),
+      global_vertex_(account),
+      global_cell_(account),
+      corner_(account),
+      flags_(account),
+      values_(account),
+      quadrics_(account),
+      star_of_(account),
+      lists_(account) {}
+
+template <class T>
+static void ensure(Array<T>& array, size_t size) {
+  if (array.size() < size) array.resize(size + size / 4);
+}
+
+template <class S>
+void Patch<S>::sizeFor(size_t owned, size_t cells) {
+  const size_t before = local_of_.size();
+  if (before < window_.mesh.vertexEnd()) {
+    local_of_.resize(window_.mesh.vertexCapacity());
+    std::fill(local_of_.data() + before, local_of_.data() + local_of_.size(), kGoneCorner);
+  }
+  ensure(global_cell_, cells);
+  ensure(corner_, 4 * cells);
+  ensure(quadrics_, owned * quadric_stride_ + 3);  // rows are read four numbers at a time
+  ensure(star_of_, owned);
+}
+
+template <class S>
+void Patch<S>::loadVertex(uint32_t slot) {
+  const size_t v = vertices_++;
+  if (v >= global_vertex_.size()) {
+    ensure(global_vertex_, v + 1024);
+    flags_.resize(global_vertex_.size());
+    values_.resize(global_vertex_.size() * value_stride_ + 3);
+  }
+  local_of_[slot] = static_cast<uint16_t>(v);
+  global_vertex_[v] = slot;
+  flags_[v] = window_.mesh.vertexFlags(slot);
+  std::copy_n(window_.values(slot), value_stride_, values(static_cast<uint32_t>(v)));
+}
+
+template <class S>
+bool Patch<S>::takeCells(const uint32_t* cells, size_t count) {
+  const Topology& mesh = window_.mesh;
+  for (size_t i = 0; i < count; ++i) {
+    if (!mesh.isLive(cells[i])) continue;
+    const uint32_t* v = mesh.corners(cells[i]);
+    uint16_t* corner = &corner_[4 * size_t{cells_}];
+    for (int j = 0; j < 4; ++j) {
+      if (local_of_[v[j]] == kGoneCorner) {
+        if (vertices_ == kMostVertices) return false;
+        loadVertex(v[j]);
+      }
+      corner[j] = local_of_[v[j]];
+    }
+    if (mesh.cellFlags(cells[i]) & kNegative) std::swap(corner[2], corner[3]);
+    global_cell_[cells_++] = cells[i];
+  }
+  return true;
+}
+
+template <class S>
+void Patch<S>::listStars() {
+  for (uint32_t v = 0; v < owned_; ++v) star_of_[v].size = 0;
+  const size_t corners = 4 * size_t{cells_};
+  for (size_t c = 0; c < corners; ++c)
+    if (corner_[c] < owned_) ++star_of_[corner_[c]].size;
+  lists_end_ = 0;
+  for (uint32_t v = 0; v < owned_; ++v) {
+    star_of_[v].begin = static_cast<uint32_t>(lists_end_);
+    lists_end_ += star_of_[v].size;
+    star_of_[v].size = 0;
+  }
+  ensure(lists_, 2 * lists_end_ + 4096);
+  for (size_t c = 0; c < corners; ++c) {
+    if (corner_[c] >= owned_) continue;
+    List& list = star_of_[corner_[c]];
+    lists_[list.begin + list.size++] = static_cast<uint16_t>(c / 4);
+  }
+}
+
+template <class S>
+void Patch<S>::forget() {
+  for (uint32_t v = 0; v < vertices_; ++v) local_of_[global_vertex_[v]] = kGoneCorner;
+}
+
+template <class S>
+bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
+                    size_t cell_count) {
+  if (cell_count > kMostCells || owned_count > kMostVertices) return false;
+  sizeFor(owned_count, cell_count);
+  vertices_ = cells_ = 0;
+  for (size_t i = 0; i < owned_count; ++i) {
+    loadVertex(owned[i]);
+    std::copy_n(window_.quadric(owned[i]), quadric_stride_, quadric(static_cast<uint32_t>(i)));
+  }
+  owned_ = vertices_;
+  if (!takeCells(cells, cell_count)) {
+    forget();
+    return false;
+  }
+  listStars();
+  live_ = window_.mesh.liveCells();
+  return true;
+}
+
+template <class S>
+void Patch<S>::storeCell(uint32_t c) {
+  Topology& mesh = window_.mesh;
+  const uint32_t cell = global_cell_[c];
+  if (!isLive(c)) {
+    mesh.kill(cell);
+    return;
+  }
+  const uint32_t swap = mesh.cellFlags(cell) & kNegative ? 1 : 0;
+  mesh.setCorner(4 * cell, global_vertex_[vertexOf(c, 0)]);
+  mesh.setCorner(4 * cell + 1, global_vertex_[vertexOf(c, 1)]);
+  mesh.setCorner(4 * cell + 2, global_vertex_[vertexOf(c, 2 + swap)]);
+  mesh.setCorner(4 * cell + 3, global_vertex_[vertexOf(c, 3 - swap)]);
+}
+
+template <class S>
+void Patch<S>::store() {
+  for (uint32_t c = 0; c < cells_; ++c) storeCell(c);
+  for (uint32_t v = 0; v < owned_; ++v) {
+    const uint32_t slot = global_vertex_[v];
+    window_.mesh.flagVertex(slot, flags_[v]);
+    if (flags_[v] & kCollapsed) continue;
+    std::copy_n(values(v), value_stride_, window_.values(slot));
+    std::copy_n(quadric(v), quadric_stride_, window_.quadric(slot));
+  }
+  forget();
+}
+
+template <class S>
+void Patch<S>::gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
+  List& list = star_of_[v];
+  star.clear();
+  ring.clear();
+  const StarCounts counts =
+      lookRound(corner_.data(), lists_.data() + list.begin, list.size, static_cast<uint16_t>(v),
+                static_cast<uint16_t>(other), star.room(list.size), ring.room(list.size));
+  star.grow(counts.star);
+  ring.grow(counts.ring);
+  list.size = counts.star + counts.ring;
+}
+
+// Lists are only ever appended; when the room is used up, those of vertices that are left move.
+template <class S>
+uint16_t* Patch<S>::roomFor(size_t count) {
+  if (lists_end_ + count > lists_.size()) {
+    size_t live = 0;
+    for (uint32_t v = 0; v < owned_; ++v) live += star_of_[v].size;
+    Array<uint16_t> larger(*account_, 2 * live + count + 4096);
+    size_t end = 0;
+    for (uint32_t v = 0; v < owned_; ++v) {
+      const uint16_t* from = lists_.data() + star_of_[v].begin;
+      star_of_[v].begin = static_cast<uint32_t>(end);
+      std::copy_n(from, star_of_[v].size, larger.data() + end);
+      end += star_of_[v].size;
+    }
+    lists_.swap(larger);
+    lists_end_ = end;
+  }
+  return lists_.data() + lists_end_;
+}
+
+template <class S>
+void Patch<S>::merge(uint32_t u, uint32_t v, const Stars& stars) {
+  star_of_[u].size = star_of_[v].size = 0;
+  uint16_t* cells = roomFor(stars.u.size() + stars.v.size());
+  uint32_t count = 0;
+  for (const StarCell& s : stars.ring) std::fill_n(&corner_[s.corner & ~3u], 4, kGoneCorner);
+  for (const StarCell& s : stars.u) cells[count++] = static_cast<uint16_t>(s.cell());
+  for (const StarCell& s : stars.v) {
+    corner_[s.corner] = static_cast<uint16_t>(u);
+    cells[count++] = static_cast<uint16_t>(s.cell());
+  }
+  live_ -= static_cast<int64_t>(stars.ring.size());
+  star_of_[u] = {static_cast<uint32_t>(lists_end_), count};
+  lists_end_ += count;
+  flags_[v] |= kCollapsed;
+  flags_[u] |= flags_[v] & kBoundary;
+}
+
+template class Patch<float>;
+template class Patch<double>;
+
+}  // namespace tetstream

@@ -1,0 +1,91 @@
+// mesh: a piece of the window, copied out to be worked on in the cache. Depends on window.h.
+//
+// A patch owns some free vertices and holds every cell that touches them, so their stars are
+// complete; the other vertices of those cells, its rim, do not move. Inside, vertices and cells are
+// numbered from 0 with 16 bits, owned vertices first, and each owned vertex has the list of its
+// cells: a walk round a vertex loads no links and misses no cache. Patches that share no cell may
+// be worked on at the same time.
+#pragma once
+
+#include "star_kernels.h"
+#include "window.h"
+
+namespace tetstream {
+
+template <class S>
+class Patch {
+ public:
+  using Scalar = S;
+  // As large as numbers and sense allow; larger stars than that are left alone.
+  static constexpr size_t kMostCells = 65000, kMostVertices = 65000;
+
+  Patch(Account& account, Window<S>& window);
+
+  // `cells`: at least all live cells that touch an owned vertex; dead ones are passed over. False
+  // if the piece is too large: nothing is loaded then.
+  bool load(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count);
+  // Puts what was changed into the window.
+  void store();
+
+  uint32_t ownedEnd() const { return owned_; }
+  uint32_t vertexEnd() const { return vertices_; }
+  uint32_t cellEnd() const { return cells_; }
+  bool isLive(uint32_t c) const { return corner_[4 * size_t{c}] != kGoneCorner; }
+  uint32_t vertexOf(uint32_t c, uint32_t j) const { return corner_[4 * size_t{c} + j]; }
+  int64_t liveCells() const { return live_; }  // of the whole window
+
+  bool isOwned(uint32_t v) const { return v < owned_; }
+  bool isFree(uint32_t v) const { return v < owned_ && !(flags_[v] & kCollapsed); }
+  bool isBoundary(uint32_t v) const { return flags_[v] & kBoundary; }
+
+  // Values of all vertices, quadrics of the owned ones.
+  S* values(uint32_t v) { return &values_[v * value_stride_]; }
+  const S* values(uint32_t v) const { return &values_[v * value_stride_]; }
+  S* quadric(uint32_t v) { return &quadrics_[v * quadric_stride_]; }
+  const S* allValues() const { return values_.data(); }
+  const uint8_t* allFlags() const { return flags_.data(); }
+  const S* allQuadrics() const { return quadrics_.data(); }
+  int valueStride() const { return static_cast<int>(value_stride_); }
+  int64_t* picks(uint32_t v) { return window_.picks(global_vertex_[v]); }
+  double* cellMeans(uint32_t c) { return window_.cellMeans(global_cell_[c]); }
+  uint32_t slotOf(uint32_t v) const { return global_vertex_[v]; }  // in the window
+
+  // As those of Topology; for owned vertices.
+  void gather(uint32_t v, uint32_t other, Star& star, Star& ring);
+  void merge(uint32_t u, uint32_t v, const Stars& stars);
+  // For listVertices: the cells of v's star, dead ones among them, and all corners.
+  const uint16_t* starOf(uint32_t v) const { return &lists_[star_of_[v].begin]; }
+  uint32_t starSize(uint32_t v) const { return star_of_[v].size; }
+  const uint16_t* corners() const { return corner_.data(); }
+
+ private:
+  struct List {
+    uint32_t begin;
+    uint32_t size;
+  };
+
+  void sizeFor(size_t owned, size_t cells);
+  bool takeCells(const uint32_t* cells, size_t count);
+  void listStars();
+  void loadVertex(uint32_t slot);
+  void forget();
+  uint16_t* roomFor(size_t count);
+  void storeCell(uint32_t c);
+
+  Account* account_;
+  Window<S>& window_;
+  size_t value_stride_, quadric_stride_;
+  uint32_t owned_ = 0, vertices_ = 0, cells_ = 0;
+  int64_t live_ = 0;
+  Array<uint16_t> local_of_;  // per vertex of the window, kGoneCorner outside this patch
+  Array<uint32_t> global_vertex_, global_cell_;
+  Array<uint16_t>
+      corner_;  // four to a cell, so ordered that its volume is positive; kGoneCorner: dead
+  Array<uint8_t> flags_;
+  Array<S> values_, quadrics_;
+  Array<List> star_of_;  // of owned vertices
+  Array<uint16_t> lists_;
+  size_t lists_end_ = 0;
+};
+
+}  // namespace tetstream

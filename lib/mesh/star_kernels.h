@@ -1,0 +1,49 @@
+// mesh: the loops over the cells of a star, built for several instruction sets; all builds give the
+// same. Depends on topology.h.
+#pragma once
+
+#include <cstddef>
+
+#include "topology.h"
+
+namespace tetstream {
+
+// Cells whose smallest dihedral angle is below this one are thin.
+struct ThinAngle {
+  explicit ThinAngle(double degrees);  // 0: no cell is
+  double cos2;                         // squared cosine
+  double shape;                        // no cell of a better shape (below) is thin
+};
+
+struct StarShape {
+  bool positive;  // every cell strictly; decided exactly
+  size_t thin;    // cells; 0 when not positive
+};
+
+// The cells (x, t0, t1, t2) of a star. Coordinates of vertex v: the first three numbers at
+// values + v * stride; four must be readable.
+//
+// Angles are only measured where 432 V^2 / (mean squared edge)^3, the cube of the mean ratio, 1 for
+// the regular cell, is small: it is at most 4 sin^2 of the smallest angle.
+template <class S>
+StarShape starShape(const double x[3], const S* values, int stride, const StarCell* cells,
+                    size_t count, const ThinAngle& thin);
+
+// Cells with 16-bit corners, four to a cell, ordered so that volumes are positive; a dead cell has
+// kGoneCorner in their place.
+constexpr uint16_t kGoneCorner = 0xffff;
+struct StarCounts {
+  uint32_t star, ring;
+};
+
+// Looks from v at `count` cells that hold it: those that hold `other` go to `ring`, the rest to
+// `star`, each with room for all; dead ones are passed over, in `cells` too.
+StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
+                     uint16_t other, StarCell* star, StarCell* ring);
+
+// The vertices of `count` cells, each once: those whose entry in `seen` is below `mark`, which it
+// becomes. `out` has room for 4 * count + 1. Returns their number.
+size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t count, uint32_t* seen,
+                    uint32_t mark, uint32_t* out);
+
+}  // namespace tetstream

@@ -1,0 +1,17 @@
+// mesh: the star kernels' build for x86-64-v3 processors. Internal to the room.
+#pragma once
+
+#include "star_kernels.h"
+
+namespace tetstream::v3 {
+
+StarShape starShape(const double x[3], const float* values, int stride, const StarCell* cells,
+                    size_t count, const ThinAngle& thin);
+StarShape starShape(const double x[3], const double* values, int stride, const StarCell* cells,
+                    size_t count, const ThinAngle& thin);
+StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
+                     uint16_t other, StarCell* star, StarCell* ring);
+size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t count, uint32_t* seen,
+                    uint32_t mark, uint32_t* out);
+
+}  // namespace tetstream::v3

@@ -1,0 +1,116 @@
+#include "budget.h"
+
+#include <cmath>
+#include <limits>
+
+namespace tetstream {
+
+// Cells left at a bound b: proportional to b^-kDecay, in space and for a field that linear
+// interpolation follows (squared error times volume ~ n^(-7/3) for n cells).
+constexpr double kDecay = 3.0 / 7;
+// The first window is not simplified further than this: its own detail says little of the rest.
+constexpr double kFirstRatio = 0.25;
+// Cells are not written ahead of their share, but for this factor.
+constexpr double kAhead = 1.0;
+// What a pilot says weighs as much as this share of the stream.
+constexpr double kTrust = 0.2;
+constexpr double kReserve = 0.02;
+// With a bound on the error the first window makes this share of what it allows.
+constexpr double kFirstError = 0.7, kBackOff = 0.6;
+// Share of a correction that is made at once, and the largest step.
+constexpr double kDamping = 0.7, kLargestChange = 4;
+
+double CommonBound::wanted(const Ledger& ledger) const {
+  return std::max({static_cast<double>(target_.cells), target_.ratio * total(ledger), 1.0});
+}
+
+// Without a count, as much again is expected.
+double CommonBound::total(const Ledger& ledger) const {
+  return total_ >= 0 ? static_cast<double>(total_) : 2 * static_cast<double>(ledger.read);
+}
+
+// Of all cells out, those of the first `seen` cells in.
+double CommonBound::shareOf(double seen, const Ledger& ledger) const {
+  const double part = std::clamp(seen / std::max(total(ledger), 1.0), 1e-9, 1.0);
+  return pilot_.known() ? pilot_.shareOf(part) : part;
+}
+
+double CommonBound::boundForCells(const Ledger& ledger) const {
+  const double all = wanted(ledger), share = shareOf(seen_, ledger);
+  const double so_far = kept_ + written_at_1_ * std::pow(bound_, -kDecay);
+  // Cells out of the whole stream at the bound, as the pilot says; without one, as it seems.
+  const double expected =
+      pilot_.known() ? all * std::pow(bound_ / pilot_bound_, -kDecay) : so_far / share;
+  if (!(expected > 0)) return bound_;  // nothing is simplified yet
+  const double trust = pilot_.known() ? kTrust : 0;
+  const double more = (so_far + trust * expected) / ((share + trust) * expected);
+  const double to_come = (1 - share) * expected * more;
+  // With x = (new bound / bound)^-kDecay: what is kept and what is to come shrink alike,
+  // (kept + to come) x = wanted - written; but only what is to come can grow. A little is left for
+  // the end, since what is simplified too far cannot be brought back.
+  const double left = std::max(all - written_, 1.0) * (1 + kReserve);
+  const double x = left < kept_ + to_come ? left / std::max(kept_ + to_come, 1.0)
+                                          : (left - kept_) / std::max(to_come, 1.0);
+  const double change = std::pow(x, -kDamping / kDecay);
+  return bound_ * std::clamp(change, 1 / kLargestChange, kLargestChange);
+}
+
+// The squared error rises with the bound b as b^(4/7), being proportional to n^(-4/3). A window
+// that met the limit was left half done: its bound was too high.
+double CommonBound::nextBound(const Ledger& ledger) const {
+  const double for_cells = boundForCells(ledger);
+  if (!(target_.error > 0)) return for_cells;
+  const double change = limit_met_ ? kBackOff : std::pow(error_room_, kDamping * 7 / 4);
+  return std::min(for_cells, bound_ * std::min(change, kLargestChange));
+}
+
+// So many that the target stays in reach even if all that is to come is written as it is; where
+// nobody knows what is to come, even if it is nothing.
+int64_t CommonBound::leastOf(const Ledger& ledger) const {
+  const int64_t to_come = total_ >= 0 ? total_ - ledger.read : 0;
+  const int64_t in = ledger.read + to_come, all = target(in);
+  if (all >= in) return std::numeric_limits<int64_t>::max();  // nothing is to be simplified
+  const int64_t slack = std::max<int64_t>(all / 1000, 5);
+  return all - slack - ledger.written - to_come;
+}
+
+Goal CommonBound::goalOf(const Ledger& ledger) {
+  const double seen = static_cast<double>(ledger.read - ledger.front);
+  // Cells that are written are lost for the target: not many more than are due by now.
+  const double due = kAhead * wanted(ledger) * shareOf(seen, ledger);
+  const double may_go = std::max(due - static_cast<double>(ledger.written), 0.0);
+  Goal goal{ledger.keep + static_cast<int64_t>(may_go), leastOf(ledger), false, ledger.front};
+  // An error bound is not passed to make room: what comes first would use it up.
+  if (target_.error > 0) goal.most_error = 0;
+  bound_ *= ledger.rescaled;
+  if (bound_ > 0) {
+    goal.first_bound = nextBound(ledger);
+  } else if (pilot_.known()) {
+    goal.first_bound = pilot_bound_ = pilot_.bound / ledger.error_unit;
+  } else {
+    const bool by_count = target_.ratio > 0 || target_.cells > 0;
+    const double ratio = std::max(wanted(ledger) / std::max(total(ledger), 1.0), kFirstRatio);
+    const double kept = by_count ? ratio * static_cast<double>(ledger.live - ledger.front) : 0;
+    goal.cells = std::min(goal.cells, ledger.front + static_cast<int64_t>(kept));
+    if (target_.error > 0) goal.most_error = kFirstError * ledger.error_limit;
+  }
+  return goal;
+}
+
+Goal CommonBound::lastGoal(const Ledger& ledger) {
+  Goal goal = Budget::lastGoal(ledger);
+  goal.first_bound = bound_;
+  return goal;
+}
+
+void CommonBound::learn(double bound, const Ledger& before, const Ledger& after, int64_t written) {
+  bound_ = bound;
+  written_ = static_cast<double>(after.written + written);
+  kept_ = static_cast<double>(after.live - after.front - written);
+  limit_met_ = after.error_met;
+  error_room_ = after.error > 0 ? after.error_limit / after.error : 1;
+  seen_ = static_cast<double>(before.read - before.front);
+  written_at_1_ += static_cast<double>(written) * std::pow(bound, kDecay);
+}
+
+}  // namespace tetstream

@@ -1,0 +1,156 @@
+// simplify: the best edges of each vertex of a patch. Depends on base.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "memory.h"
+
+namespace tetstream {
+
+// An edge is kept with both its ends, as its error and the other end. Of a vertex the two best are
+// known, and the best of those that were refused since its surroundings last changed; of all others
+// only the least error. Once the two are worse than that, the vertex must look at its edges again.
+class Choices {
+ public:
+  explicit Choices(Account& account) : of_(account), least_(account), woken_(account) {}
+
+  void reset(size_t vertices) {
+    const size_t rows = (vertices + kBlock - 1) / kBlock * kBlock;
+    if (of_.size() < rows) {
+      of_.resize(rows);
+      least_.resize(rows);
+      woken_.resize(rows);
+    }
+    count_ = vertices;
+    for (uint32_t v = 0; v < rows; ++v) forget(v);
+  }
+
+  // The least error that an edge of v may have; infinity when there is none left.
+  float least(uint32_t v) const { return std::bit_cast<float>(least_[v]); }
+  // The same of kBlock vertices from v on, and of the rows beyond the last.
+  static constexpr uint32_t kBlock = 16;
+  float leastOfBlock(uint32_t v) const {
+    uint32_t least = least_[v];
+    for (uint32_t k = 1; k < kBlock; ++k) least = std::min(least, least_[v + k]);
+    return std::bit_cast<float>(least);
+  }
+  // Offers again what was refused before its surroundings changed.
+  void reconsider() {
+    for (uint32_t v = 0; v < count_; ++v)
+      if (woken_[v]) reconsider(v);
+  }
+  // Whether the vertex must look at its edges, all of them, for its best.
+  bool mustLookAgain(uint32_t v) const { return of_[v].passed_over < errorOf(of_[v].best[0]); }
+  uint32_t target(uint32_t v) const { return static_cast<uint32_t>(of_[v].best[0]); }
+
+  // The edges of v, all of them, in place of what was known.
+  template <class S>
+  void relist(uint32_t v, const S* errors, const uint32_t* others, size_t count) {
+    Choice c = of_[v];
+    c.best[0] = c.best[1] = kNothing;
+    c.passed_over = kInfinite;
+    for (size_t i = 0; i < count; ++i) offer(c, keyOf(static_cast<float>(errors[i]), others[i]));
+    of_[v] = c;
+    update(v);
+  }
+  // One edge more, at both its ends.
+  void add(uint32_t v, uint32_t w, float error) {
+    offer(of_[v], keyOf(error, w));
+    offer(of_[w], keyOf(error, v));
+    update(v);
+    update(w);
+  }
+  // v was merged into u: what x knew of either is void, and its other edges may be legal again.
+  void replace(uint32_t x, uint32_t u, uint32_t v, float error) {
+    Choice& c = of_[x];
+    const auto is_void = [u, v](uint64_t key) {
+      return (static_cast<uint32_t>(key) == u) | (static_cast<uint32_t>(key) == v);
+    };
+    const uint64_t first = is_void(c.best[0]) ? kNothing : c.best[0],
+                   second = is_void(c.best[1]) ? kNothing : c.best[1];
+    c.best[0] = std::min(first, second);
+    c.best[1] = std::max(first, second);
+    c.refused = is_void(c.refused) ? kNothing : c.refused;
+    woken_[x] = 1;
+    c.tried = std::min(c.tried, keyOf(error, u));  // this one was not
+    offer(c, keyOf(error, u));
+    update(x);
+  }
+  // v is gone, or another vertex now.
+  void forget(uint32_t v) {
+    of_[v] = Choice{};
+    least_[v] = bitsOf(kInfinite);
+    woken_[v] = 0;
+  }
+  // v's best edge, to w, is not legal.
+  void refuse(uint32_t v, uint32_t w) {
+    const uint64_t key = of_[v].best[0], back = (key & kErrorMask) | v;
+    refuse(of_[v], key);
+    update(v);
+    if (of_[w].best[0] != back && of_[w].best[1] != back) return;
+    refuse(of_[w], back);
+    update(w);
+  }
+
+ private:
+  static constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  static constexpr uint64_t kErrorMask = 0xffffffff00000000ull;
+  static constexpr uint64_t kNothing = uint64_t{0x7f800000} << 32 | 0xffffffffu;
+  struct Choice {
+    uint64_t best[2] = {kNothing, kNothing};
+    uint64_t refused = kNothing;
+    uint64_t tried = 0;  // edges below were refused or are listed
+    float passed_over = kInfinite, also_refused = kInfinite;
+  };
+
+  static float errorOf(uint64_t key) {
+    return std::bit_cast<float>(static_cast<uint32_t>(key >> 32));
+  }
+  // Errors are not negative: their bits order as they do.
+  static uint32_t bitsOf(float error) { return std::bit_cast<uint32_t>(error); }
+  static uint64_t keyOf(float error, uint32_t other) {
+    return error < kInfinite ? uint64_t{bitsOf(error)} << 32 | other : kNothing;
+  }
+  static void offer(Choice& c, uint64_t key) {
+    if (key < c.tried) key = kNothing;
+    const uint64_t middle = std::max(key, c.best[0]);
+    c.best[0] = std::min(key, c.best[0]);
+    const uint64_t last = std::max(middle, c.best[1]);
+    c.best[1] = std::min(middle, c.best[1]);
+    c.passed_over = std::min(c.passed_over, errorOf(last));
+  }
+  static void refuse(Choice& c, uint64_t key) {
+    if (key == c.best[0]) {
+      c.tried = key + 1;
+      c.best[0] = c.best[1];
+    }
+    c.best[1] = kNothing;
+    c.also_refused = std::min(c.also_refused, errorOf(std::max(key, c.refused)));
+    c.refused = std::min(key, c.refused);
+  }
+  void update(uint32_t v) {
+    const Choice& c = of_[v];
+    least_[v] = bitsOf(std::min(errorOf(c.best[0]), c.passed_over));
+  }
+  void reconsider(uint32_t v) {
+    Choice& c = of_[v];
+    woken_[v] = 0;
+    c.tried = 0;
+    c.passed_over = std::min(c.passed_over, c.also_refused);
+    c.also_refused = kInfinite;
+    const uint64_t key = c.refused;
+    c.refused = kNothing;
+    offer(c, key);
+    update(v);
+  }
+
+  size_t count_ = 0;
+  Array<Choice> of_;
+  Array<uint32_t> least_;  // bits of the errors
+  Array<uint8_t> woken_;
+};
+
+}  // namespace tetstream

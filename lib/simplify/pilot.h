@@ -1,0 +1,25 @@
+// simplify: what a first reading of the whole stream tells the second. Depends on nothing.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tetstream {
+
+// Of a run with the whole mesh in its window: the error at which the target is reached, and how the
+// cells that are left are spread over the stream.
+struct Pilot {
+  double bound = 0;           // in the report's unit
+  std::vector<double> share;  // share[k]: of all cells out, those of the first k / (size - 1) in
+
+  bool known() const { return bound > 0; }
+  // The share of the cells out that the first `part` (0 to 1) of the cells in leaves.
+  double shareOf(double part) const {
+    const double place = part * static_cast<double>(share.size() - 1);
+    const auto k = static_cast<size_t>(place);
+    if (k + 1 >= share.size()) return 1;
+    return share[k] + (place - static_cast<double>(k)) * (share[k + 1] - share[k]);
+  }
+};
+
+}  // namespace tetstream

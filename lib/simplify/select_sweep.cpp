@@ -1,0 +1,296 @@
+// simplify: patches swept at rising bounds. See select.h.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "choices.h"
+#include "select.h"
+#include "tiling.h"
+
+namespace tetstream {
+namespace {
+
+// Within a patch edges are taken at bounds rising to the pass's, nearly in order of their error.
+constexpr uint32_t kAlways = 0xffffffffu;  // a mark above all others
+constexpr float kFirstLevel = 1.0f / 256, kLevelStep = 2;
+// From pass to pass: errors rise with the number of cells n as n^(-7/3), in space, for a field
+// followed by linear interpolation; the last steps are small.
+constexpr double kLeastStep = 1.15, kLargestStep = 16;
+// When a target cannot be reached otherwise, the floor of the angles falls to this, in degrees.
+constexpr double kLastThinAngle = 0.05;
+
+template <class S>
+class SweepSelector final : public Selector {
+ public:
+  SweepSelector(Core<S>& core, Account& account)
+      : core_(core),
+        tiling_(core, account),
+        patch_(account, core.window),
+        collapser_(core, patch_, account),
+        exhaustive_(makeExhaustiveSelector(core, collapser_)),
+        choices_(account),
+        errors_(account),
+        neighbours_(account),
+        seen_(account),
+        z_(static_cast<size_t>(core.plan.dimension)) {}
+
+  void decimate(const Goal& goal, const std::function<void()>& tick) override {
+    goal_ = goal;
+    core_.error_reached = false;
+    sweep(tick);
+    if (!goal.last || mustStop(core_.window.liveCells())) return;
+    tryEverything(tick);
+    if (mustStop(core_.window.liveCells())) return;
+    core_.thin = ThinAngle(kLastThinAngle);
+    tryEverything(tick);
+  }
+
+  double bound() const override { return bound_; }
+
+ private:
+  bool reached() const { return core_.window.liveCells() <= goal_.cells; }
+  // The last goal is met exactly, and no goal undercut.
+  bool mustStop(int64_t live) const {
+    return (goal_.last && live <= goal_.cells) || live <= goal_.least_cells || core_.error_reached;
+  }
+  void sweep(const std::function<void()>& tick);
+  double stepFor() const;
+  double sampledBound();
+  bool pass(float bound, const std::function<void()>& tick);
+  template <class Work>
+  void onPatch(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count,
+               Work work);
+  void tryEverything(const std::function<void()>& tick);
+
+  bool sweepPatch(float bound);
+  void evaluateAll();
+  void addEdges(uint32_t v);
+  float sweepLevel(float level);
+  void collapseFrom(uint32_t v, float level);
+  void pushAfter(uint32_t u, uint32_t gone);
+  void listNeighbours(uint32_t v);
+  void measureNeighbours(uint32_t u);
+
+  Core<S>& core_;
+  Tiling<S> tiling_;
+  Patch<S> patch_;
+  Collapser<Patch<S>> collapser_;
+  std::unique_ptr<Selector> exhaustive_;
+  Choices choices_;
+  Array<S> errors_;
+  Array<uint32_t> neighbours_, seen_;  // seen_: per vertex, the mark_ of its last listing
+  std::vector<S> z_;
+  size_t count_ = 0;  // of the neighbours listed
+  uint32_t mark_ = 0;
+  Goal goal_{};
+  double bound_ = 0;
+  unsigned round_ = 0;
+};
+
+template <class S>
+void SweepSelector<S>::sweep(const std::function<void()>& tick) {
+  double bound = goal_.first_bound;
+  for (bool more = !mustStop(core_.window.liveCells()); more; bound *= stepFor()) {
+    tiling_.build(round_++);
+    if (!(bound > 0)) bound = sampledBound();
+    more = pass(static_cast<float>(std::min(bound, 1e38)), tick) && !reached() &&
+           core_.error < goal_.most_error;
+    bound_ = bound;
+  }
+}
+
+template <class S>
+double SweepSelector<S>::stepFor() const {
+  const auto live = static_cast<double>(core_.window.liveCells() - goal_.fixed);
+  const auto wanted = static_cast<double>(std::max<int64_t>(goal_.cells - goal_.fixed, 1));
+  const double by_count = std::pow(std::max(live, 1.0) / wanted, 7.0 / 3);
+  // The squared error rises as n^(-4/3).
+  const double by_error =
+      core_.error > 0
+          ? std::pow(std::min(goal_.most_error, core_.error_limit) / core_.error, 7.0 / 4)
+          : std::numeric_limits<double>::infinity();
+  return std::clamp(std::min(by_count, by_error), kLeastStep, kLargestStep);
+}
+
+// Works on a patch, or on its halves where it is too large for one.
+template <class S>
+template <class Work>
+void SweepSelector<S>::onPatch(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
+                               size_t cell_count, Work work) {
+  if (patch_.load(owned, owned_count, cells, cell_count)) {
+    work();
+    patch_.store();
+    return;
+  }
+  if (owned_count == 1) return;  // a star of that size is left alone
+  const size_t half = owned_count / 2;
+  onPatch(owned, half, cells, cell_count, work);
+  onPatch(owned + half, owned_count - half, cells, cell_count, work);
+}
+
+// Returns whether a higher bound, or another pass, could do more.
+template <class S>
+bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
+  bool more = false;
+  for (const TilePiece& tile : tiling_.tiles()) {
+    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
+            tile.cell_end - tile.cell_begin, [&] { more = sweepPatch(bound) || more; });
+    tick();
+    if (mustStop(core_.window.liveCells())) return false;
+  }
+  return more;
+}
+
+// The errors of a tenth of the vertices' best edges are below.
+template <class S>
+double SweepSelector<S>::sampledBound() {
+  std::vector<float> errors;
+  for (size_t i = 0; i < tiling_.tiles().size(); i += tiling_.tiles().size() / 4 + 1) {
+    const TilePiece& tile = tiling_.tiles()[i];
+    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
+            tile.cell_end - tile.cell_begin, [&] {
+              evaluateAll();
+              for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
+                if (std::isfinite(choices_.least(v))) errors.push_back(choices_.least(v));
+            });
+  }
+  if (errors.empty()) return std::numeric_limits<float>::min();
+  const size_t place = errors.size() / 10;
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(place),
+                   errors.end());
+  return std::max(errors[place], std::numeric_limits<float>::min());  // never 0: it would not rise
+}
+
+template <class S>
+void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
+  tiling_.build(round_++);
+  for (const TilePiece& tile : tiling_.tiles()) {
+    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
+            tile.cell_end - tile.cell_begin, [&] { exhaustive_->decimate(goal_, tick); });
+    if (reached()) return;
+  }
+}
+
+// ------------------------------------------------------------------------------- in a patch
+
+// v's neighbours that may be merged with it, each once.
+template <class S>
+void SweepSelector<S>::listNeighbours(uint32_t v) {
+  const uint32_t cells = patch_.starSize(v);
+  if (neighbours_.size() < 4 * size_t{cells} + 1) neighbours_.resize(8 * size_t{cells} + 1);
+  seen_[v] = ++mark_;
+  count_ = listVertices(patch_.corners(), patch_.starOf(v), cells, seen_.data(), mark_,
+                        neighbours_.data());
+}
+
+template <class S>
+void SweepSelector<S>::measureNeighbours(uint32_t u) {
+  if (errors_.size() < count_) errors_.resize(neighbours_.size());
+  const VertexTable<S> table = {patch_.allQuadrics(), patch_.allValues(),
+                                core_.window.shape().quadric, patch_.valueStride()};
+  core_.kernels.edgeErrors(table, u, neighbours_.data(), static_cast<int>(count_),
+                           core_.scale.data(), core_.plan.dimension, errors_.data());
+}
+
+// v's edges to later vertices, for both ends.
+template <class S>
+void SweepSelector<S>::addEdges(uint32_t v) {
+  listNeighbours(v);
+  size_t later = 0;
+  for (size_t i = 0; i < count_; ++i) {
+    neighbours_[later] = neighbours_[i];
+    later += neighbours_[i] > v;
+  }
+  count_ = later;
+  measureNeighbours(v);
+  for (size_t i = 0; i < count_; ++i)
+    choices_.add(v, neighbours_[i], static_cast<float>(errors_[i]));
+}
+
+template <class S>
+void SweepSelector<S>::evaluateAll() {
+  choices_.reset(patch_.ownedEnd());
+  // The rim and what dead cells hold count as seen, always.
+  if (seen_.size() == 0) seen_.resize(size_t{kGoneCorner} + 1);
+  std::fill_n(seen_.data(), patch_.ownedEnd(), 0u);
+  std::fill(seen_.data() + patch_.ownedEnd(), seen_.data() + patch_.vertexEnd(), kAlways);
+  seen_[kGoneCorner] = kAlways;
+  mark_ = 0;
+  for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) addEdges(v);
+}
+
+// The merged vertex measures its edges and tells its neighbours.
+template <class S>
+void SweepSelector<S>::pushAfter(uint32_t u, uint32_t gone) {
+  listNeighbours(u);
+  measureNeighbours(u);
+  choices_.forget(gone);
+  choices_.forget(u);
+  choices_.relist(u, errors_.data(), neighbours_.data(), count_);
+  for (size_t i = 0; i < count_; ++i)
+    choices_.replace(neighbours_[i], u, gone, static_cast<float>(errors_[i]));
+}
+
+// Tries v's edges of errors up to the level, best first, until one is collapsed.
+template <class S>
+void SweepSelector<S>::collapseFrom(uint32_t v, float level) {
+  while (choices_.least(v) <= level) {
+    if (choices_.mustLookAgain(v)) {
+      listNeighbours(v);
+      measureNeighbours(v);
+      choices_.relist(v, errors_.data(), neighbours_.data(), count_);
+      continue;
+    }
+    const uint32_t w = choices_.target(v);
+    const S error = core_.kernels.solveEdge(patch_.quadric(v), patch_.values(v), patch_.quadric(w),
+                                            patch_.values(w), core_.scale.data(),
+                                            core_.plan.dimension, z_.data());
+    if (collapser_.collapse(v, w, z_.data(), error, goal_.least_cells) == Outcome::kDone) {
+      pushAfter(v, w);
+      return;
+    }
+    choices_.refuse(v, w);
+  }
+}
+
+// Returns the least error of an edge that is left, infinity if none is.
+template <class S>
+float SweepSelector<S>::sweepLevel(float level) {
+  float least = std::numeric_limits<float>::infinity();
+  for (uint32_t block = 0; block < patch_.ownedEnd(); block += Choices::kBlock) {
+    if (choices_.leastOfBlock(block) <= level)
+      for (uint32_t v = block; v < block + Choices::kBlock; ++v) {
+        if (!(choices_.least(v) <= level)) continue;
+        collapseFrom(v, level);
+        if (mustStop(patch_.liveCells())) return std::numeric_limits<float>::infinity();
+      }
+    least = std::min(least, choices_.leastOfBlock(block));
+  }
+  return least;
+}
+
+template <class S>
+bool SweepSelector<S>::sweepPatch(float bound) {
+  evaluateAll();
+  float level = bound * kFirstLevel, least;
+  for (;;) {
+    choices_.reconsider();
+    do least = sweepLevel(level);
+    while (least <= level);
+    if (level >= bound || mustStop(patch_.liveCells())) break;
+    level = std::min(std::max(level * kLevelStep, least), bound);
+  }
+  return least < std::numeric_limits<float>::infinity();
+}
+
+}  // namespace
+
+template <class S>
+std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, Account& account) {
+  return std::make_unique<SweepSelector<S>>(core, account);
+}
+
+template std::unique_ptr<Selector> makeSweepSelector(Core<float>&, Account&);
+template std::unique_ptr<Selector> makeSweepSelector(Core<double>&, Account&);
+
+}  // namespace tetstream

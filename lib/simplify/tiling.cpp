@@ -1,0 +1,136 @@
+#include "tiling.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tetstream {
+
+template <class S>
+size_t Tiling<S>::listVertices() {
+  const Topology& mesh = core_.window.mesh;
+  if (vertices_.size() < mesh.vertexEnd()) vertices_.resize(mesh.vertexCapacity());
+  size_t count = 0;
+  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
+    vertices_[count] = v;
+    count += mesh.isFree(v);
+  }
+  return count;
+}
+
+template <class S>
+int Tiling<S>::longestSide(size_t begin, size_t end) const {
+  S low[3], high[3];
+  std::fill_n(low, 3, std::numeric_limits<S>::infinity());
+  std::fill_n(high, 3, -std::numeric_limits<S>::infinity());
+  for (size_t i = begin; i < end; ++i) {
+    const S* x = core_.window.values(vertices_[i]);
+    for (int a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], x[a]);
+      high[a] = std::max(high[a], x[a]);
+    }
+  }
+  int longest = 0;
+  for (int a = 1; a < 3; ++a)
+    if (high[a] - low[a] > high[longest] - low[longest]) longest = a;
+  return longest;
+}
+
+template <class S>
+void Tiling<S>::cut(size_t begin, size_t end, unsigned round) {
+  uint32_t* const list = vertices_.data();
+  if (end - begin <= static_cast<size_t>(tileVertices(core_.options))) {
+    std::sort(list + begin, list + end);
+    const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
+    for (size_t i = begin; i < end; ++i) core_.window.scratch()[list[i]] = tile;
+    tiles_.push_back({begin, end, 0, 0, 0});
+    return;
+  }
+  static constexpr double kShare[3] = {0.5, 0.36, 0.64};
+  const int axis = longestSide(begin, end);
+  const auto middle =
+      begin + static_cast<size_t>(kShare[round % 3] * static_cast<double>(end - begin));
+  std::nth_element(list + begin, list + middle, list + end, [this, axis](uint32_t a, uint32_t b) {
+    const S x = core_.window.values(a)[axis], y = core_.window.values(b)[axis];
+    return x != y ? x < y : a < b;
+  });
+  cut(begin, middle, round);
+  cut(middle, end, round);
+}
+
+// The tiles that own a vertex of the cell, each once.
+template <class S>
+size_t Tiling<S>::tilesOf(uint32_t cell, uint32_t tiles[4]) const {
+  const uint32_t* v = core_.window.mesh.corners(cell);
+  size_t count = 0;
+  for (int j = 0; j < 4; ++j) {
+    const uint32_t tile = core_.window.scratch()[v[j]];
+    bool known = tile == 0;
+    for (size_t k = 0; k < count; ++k) known |= tiles[k] == tile - 1;
+    if (!known) tiles[count++] = tile - 1;
+  }
+  return count;
+}
+
+template <class S>
+void Tiling<S>::meet(uint32_t a, uint32_t b) {
+  std::vector<uint32_t>& of = neighbours_[std::max(a, b)];
+  const uint32_t other = std::min(a, b);
+  if (std::find(of.begin(), of.end(), other) == of.end()) of.push_back(other);
+}
+
+template <class S>
+void Tiling<S>::listCells() {
+  const Topology& mesh = core_.window.mesh;
+  neighbours_.assign(tiles_.size(), {});
+  uint32_t tiles[4];
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    const size_t count = tilesOf(c, tiles);
+    for (size_t k = 0; k < count; ++k) ++tiles_[tiles[k]].cell_end;
+    for (size_t k = 1; k < count; ++k)
+      for (size_t l = 0; l < k; ++l) meet(tiles[k], tiles[l]);
+  }
+  size_t end = 0;
+  for (TilePiece& tile : tiles_) {
+    const size_t count = tile.cell_end;
+    tile.cell_begin = tile.cell_end = end;
+    end += count;
+  }
+  if (cells_.size() < end) cells_.resize(end + end / 8);
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    const size_t count = tilesOf(c, tiles);
+    for (size_t k = 0; k < count; ++k) cells_[tiles_[tiles[k]].cell_end++] = c;
+  }
+}
+
+// The lowest colour that no neighbour before it has.
+template <class S>
+void Tiling<S>::colour() {
+  std::vector<bool> taken;
+  for (size_t i = 0; i < tiles_.size(); ++i) {
+    taken.assign(neighbours_[i].size() + 1, false);
+    for (uint32_t n : neighbours_[i])
+      if (tiles_[n].colour < taken.size()) taken[tiles_[n].colour] = true;
+    tiles_[i].colour =
+        static_cast<uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
+  }
+  std::stable_sort(tiles_.begin(), tiles_.end(),
+                   [](const TilePiece& a, const TilePiece& b) { return a.colour < b.colour; });
+}
+
+template <class S>
+void Tiling<S>::build(unsigned round) {
+  tiles_.clear();
+  const size_t count = listVertices();
+  std::fill_n(core_.window.scratch(), core_.window.mesh.vertexEnd(), 0u);
+  if (count == 0) return;
+  cut(0, count, round);
+  listCells();
+  colour();
+}
+
+template class Tiling<float>;
+template class Tiling<double>;
+
+}  // namespace tetstream

@@ -1,0 +1,45 @@
+// simplify: the window's free vertices cut into tiles, each with the cells that a patch of it
+// needs, in an order that could run concurrently. Depends on core.h.
+#pragma once
+
+#include "core.h"
+
+namespace tetstream {
+
+// Pieces of the tiling's lists of vertices and cells. Tiles of one colour share no cell.
+struct TilePiece {
+  size_t vertex_begin, vertex_end;
+  size_t cell_begin, cell_end;
+  uint32_t colour;
+};
+
+template <class S>
+class Tiling {
+ public:
+  Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account), cells_(account) {}
+
+  // Cuts the free vertices in two along the longest side of their box, again and again, until a
+  // tile's cells and vertices fit the cache. `round` shifts the cuts: what lies on a seam of one
+  // round is inside a tile of another. Tiles come ordered by colour.
+  void build(unsigned round);
+
+  const std::vector<TilePiece>& tiles() const { return tiles_; }
+  const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
+  const uint32_t* cells(const TilePiece& t) const { return &cells_[t.cell_begin]; }
+
+ private:
+  size_t listVertices();
+  void cut(size_t begin, size_t end, unsigned round);
+  int longestSide(size_t begin, size_t end) const;
+  void listCells();
+  size_t tilesOf(uint32_t cell, uint32_t tiles[4]) const;
+  void meet(uint32_t a, uint32_t b);
+  void colour();
+
+  Core<S>& core_;
+  Array<uint32_t> vertices_, cells_;
+  std::vector<TilePiece> tiles_;
+  std::vector<std::vector<uint32_t>> neighbours_;  // of each tile: those with cells in common
+};
+
+}  // namespace tetstream

@@ -1,0 +1,432 @@
+// starShape against exact integers and the angles of single cells, the walks round a vertex against
+// a look at every cell, and the same from every build.
+#include "star_kernels.h"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "exact_reference.h"
+#include "random.h"
+#include "star_kernels.inl"
+#include "test_mesh.h"
+
+namespace tetstream {
+
+namespace test {
+namespace {
+
+constexpr size_t kStride = 4;  // a field behind each position
+
+int rounds() {
+  return slowRun() ? 20 : 400;
+}
+
+double random(Random& r, double size) {
+  return size * (2.0 * static_cast<double>(r.next() >> 11) * 0x1p-53 - 1);
+}
+
+// A centre, and cells over triangles of vertices of their own.
+template <class S>
+struct Fan {
+  std::array<double, 3> x;
+  std::vector<S> values;
+  std::vector<StarCell> cells;
+
+  void add(const std::array<std::array<double, 3>, 3>& triangle) {
+    const auto cell = static_cast<uint32_t>(cells.size());
+    cells.push_back({4 * cell, {3 * cell, 3 * cell + 1, 3 * cell + 2}});
+    for (const auto& p : triangle) {
+      for (double c : p) values.push_back(static_cast<S>(c));
+      values.push_back(std::numeric_limits<S>::quiet_NaN());  // no field is looked at
+    }
+  }
+  std::array<double, 3> corner(size_t cell, size_t k) const {
+    std::array<double, 3> p;
+    for (size_t i = 0; i < 3; ++i)
+      p[i] = static_cast<double>(values[kStride * cells[cell].t[k] + i]);
+    return p;
+  }
+  int signOf(size_t cell) const {
+    return referenceOrientation(x.data(), corner(cell, 0).data(), corner(cell, 1).data(),
+                                corner(cell, 2).data());
+  }
+  // In degrees, from normals as long as the areas: by the sine and the cosine.
+  double smallestAngle(size_t cell) const {
+    const std::array<double, 3> p[4] = {x, corner(cell, 0), corner(cell, 1), corner(cell, 2)};
+    Long normals[4];  // away from the fourth corner
+    for (size_t k = 0; k < 4; ++k) {
+      const Long a = edge(p[(k + 1) % 4], p[(k + 2) % 4]), b = edge(p[(k + 1) % 4], p[(k + 3) % 4]);
+      normals[k] = cross(a, b);
+      if (dot(normals[k], edge(p[(k + 1) % 4], p[k])) > 0)
+        for (long double& c : normals[k]) c = -c;
+    }
+    long double smallest = 180;
+    for (size_t k = 0; k < 4; ++k)
+      for (size_t l = 0; l < k; ++l) {
+        const Long sine = cross(normals[k], normals[l]);
+        const long double angle =
+            std::atan2(std::sqrt(dot(sine, sine)), -dot(normals[k], normals[l]));
+        smallest = std::min(smallest, angle * 180 / std::acos(-1.0L));
+      }
+    return static_cast<double>(smallest);
+  }
+  // Turns the cells that are negative.
+  void makePositive() {
+    for (size_t c = 0; c < cells.size(); ++c)
+      if (signOf(c) < 0) std::swap(cells[c].t[0], cells[c].t[1]);
+  }
+  StarShape shape(double degrees = 10) const {
+    return starShape(x.data(), values.data(), static_cast<int>(kStride), cells.data(), cells.size(),
+                     ThinAngle(degrees));
+  }
+  StarShape plainShape(double degrees = 10) const {
+    return starShapeOf(x.data(), values.data(), static_cast<int>(kStride), cells.data(),
+                       cells.size(), ThinAngle(degrees));
+  }
+
+ private:
+  using Long = std::array<long double, 3>;
+  static Long edge(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    Long e;
+    for (size_t i = 0; i < 3; ++i) e[i] = static_cast<long double>(b[i]) - a[i];
+    return e;
+  }
+  static Long cross(const Long& a, const Long& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+  static long double dot(const Long& a, const Long& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+};
+
+// A cell within a hair of the angle may count or not.
+template <class S>
+void expectTruth(const Fan<S>& fan) {
+  bool positive = true;
+  for (size_t c = 0; c < fan.cells.size(); ++c) positive = positive && fan.signOf(c) > 0;
+  for (const double degrees : {0.1, 1.0, 10.0, 40.0, 70.0}) {
+    size_t thin = 0, hair = 0;
+    for (size_t c = 0; c < fan.cells.size() && positive; ++c) {
+      const double angle = fan.smallestAngle(c);
+      thin += angle < degrees;
+      hair += std::fabs(angle - degrees) < 1e-6 * degrees;
+    }
+    const StarShape got = fan.shape(degrees);
+    EXPECT_EQ(got.positive, positive);
+    EXPECT_LE(got.thin, thin + hair) << degrees;
+    EXPECT_GE(got.thin + hair, thin) << degrees;
+  }
+}
+
+template <class S>
+Fan<S> randomFan(Random& r, size_t count, double size, double offset) {
+  Fan<S> fan;
+  for (double& c : fan.x) c = static_cast<double>(static_cast<S>(offset + random(r, size)));
+  for (size_t k = 0; k < count; ++k) {
+    std::array<std::array<double, 3>, 3> t;
+    for (auto& p : t)
+      for (double& c : p) c = offset + random(r, size);
+    fan.add(t);
+  }
+  return fan;
+}
+
+// Sometimes all right, sometimes one of up to 40 cells wrong at any place among the others.
+template <class S>
+void expectTruthOfRandomFans() {
+  Random r(1);
+  int wrong = 0;
+  for (int k = 0; k < rounds(); ++k) {
+    Fan<S> fan = randomFan<S>(r, 1 + r.below(40), 1, k % 3 ? 0 : 100);
+    fan.makePositive();
+    expectTruth(fan);
+    if (k % 2) continue;
+    StarCell& turned = fan.cells[r.below(static_cast<uint32_t>(fan.cells.size()))];
+    std::swap(turned.t[1], turned.t[2]);
+    EXPECT_FALSE(fan.shape().positive);
+    ++wrong;
+  }
+  EXPECT_GT(wrong, 0);
+}
+TEST(StarShape, IsThatOfAllItsCells) {
+  expectTruthOfRandomFans<float>();
+  expectTruthOfRandomFans<double>();
+}
+
+// A lattice: volumes are integers, and every tenth is exactly 0, which is not positive.
+TEST(StarShape, IsExactOnALattice) {
+  Random r(2);
+  int flat = 0, whole = 0;
+  for (int k = 0; k < 10 * rounds(); ++k) {
+    Fan<float> fan;
+    for (double& c : fan.x) c = static_cast<int>(r.below(5)) - 2;
+    const size_t count = 1 + r.below(6);
+    for (size_t cell = 0; cell < count; ++cell) {
+      std::array<std::array<double, 3>, 3> t;
+      for (auto& p : t)
+        for (double& c : p) c = static_cast<int>(r.below(5)) - 2;
+      fan.add(t);
+    }
+    fan.makePositive();
+    bool any_flat = false;
+    for (size_t c = 0; c < count; ++c) any_flat = any_flat || fan.signOf(c) == 0;
+    ++(any_flat ? flat : whole);
+    expectTruth(fan);
+  }
+  EXPECT_GT(flat, rounds());
+  EXPECT_GT(whole, rounds());
+}
+
+// The centre in the plane of a triangle but for rounding: what the filter cannot decide.
+TEST(StarShape, IsExactForNearlyFlatCells) {
+  Random r(3);
+  int positive = 0, other = 0;
+  for (int k = 0; k < 4 * rounds(); ++k) {
+    Fan<double> fan = randomFan<double>(r, 5, 1, k % 2 ? 1e5 : 0);
+    fan.makePositive();
+    const auto a = fan.corner(2, 0), b = fan.corner(2, 1), c = fan.corner(2, 2);
+    const double s = random(r, 0.5), t = random(r, 0.5);
+    for (size_t i = 0; i < 3; ++i) fan.x[i] = a[i] + s * (b[i] - a[i]) + t * (c[i] - a[i]);
+    for (size_t cell = 0; cell < 5; ++cell)  // the others stand right
+      if (cell != 2 && fan.signOf(cell) < 0) std::swap(fan.cells[cell].t[0], fan.cells[cell].t[1]);
+    ++(fan.signOf(2) > 0 ? positive : other);
+    EXPECT_EQ(fan.shape().positive, fan.signOf(2) > 0);
+  }
+  EXPECT_GT(positive, rounds() / 2);
+  EXPECT_GT(other, rounds() / 2);
+}
+
+// Powers of two change nothing, up to where a float64 ends; in the careful path, too.
+TEST(StarShape, DoesNotDependOnTheUnit) {
+  Random r(4);
+  for (int k = 0; k < rounds() / 4; ++k) {
+    Fan<double> fan = randomFan<double>(r, 7, 1, 0);
+    for (double& v : fan.values) v = std::isnan(v) ? v : std::round(1000 * v);
+    for (double& c : fan.x) c = std::round(1000 * c);
+    fan.makePositive();
+    const StarShape shape = fan.shape();
+    for (int exponent : {-1060, -500, -160, -150, -140, -20, 20, 140, 160, 170, 500, 1000}) {
+      Fan<double> scaled = fan;
+      for (double& v : scaled.values) v = std::ldexp(v, exponent);
+      for (double& c : scaled.x) c = std::ldexp(c, exponent);
+      const StarShape other = scaled.shape();
+      EXPECT_EQ(other.positive, shape.positive) << "times 2^" << exponent;
+      EXPECT_EQ(other.thin, shape.thin) << "times 2^" << exponent;
+    }
+  }
+}
+
+// The angles of the regular cell are acos(1/3), 70.53 degrees; of the corner of a cube 54.74 along
+// its far face; of a sixth of a cube 45 along its diagonal.
+TEST(StarShape, IsKnownForSimpleCells) {
+  const std::array<std::array<double, 3>, 3> triangles[3] = {
+      {{{1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}},  // seen from (1, 1, 1)
+      {{{2, 1, 1}, {1, 2, 1}, {1, 1, 2}}},
+      {{{2, 1, 1}, {2, 2, 1}, {2, 2, 2}}}};
+  const double angles[3] = {70.528779, 54.735610, 45};
+  for (size_t k = 0; k < 3; ++k) {
+    Fan<float> fan;
+    fan.x = {1, 1, 1};
+    fan.add(triangles[k]);
+    fan.makePositive();
+    EXPECT_NEAR(fan.smallestAngle(0), angles[k], 1e-6);
+    if (k > 0) {  // no cell has only larger angles than the regular one
+      EXPECT_EQ(fan.shape(angles[k] + 1e-5).thin, 1u);
+    }
+    EXPECT_EQ(fan.shape(angles[k] - 1e-5).thin, 0u);
+    EXPECT_TRUE(fan.shape().positive);
+  }
+}
+
+TEST(StarShape, OfNoCellsIsPositive) {
+  const Fan<float> none = {{0, 0, 0}, {0, 0, 0, 0}, {}};
+  EXPECT_TRUE(none.shape().positive);
+  EXPECT_EQ(none.shape().thin, 0u);
+}
+
+// A needle beside which its triangle is huge: thin, however far its numbers are apart.
+TEST(StarShape, IsThinForNeedlesOfAnyLength) {
+  for (double length : {1e3, 1e30, 1e55, 1e70, 1e80, 1e100, 1e120, 1e150}) {
+    Fan<double> fan;
+    fan.x = {0, 0, 0};
+    fan.add({{{1, 0, 0}, {0, length, 0}, {0, 0, length}}});
+    EXPECT_TRUE(fan.shape().positive) << length;
+    EXPECT_EQ(fan.shape().thin, 1u) << length;
+  }
+}
+
+// Slivers, wedges, caps, needles of all degrees, many of them thin.
+TEST(StarShape, FindsThinCellsOfEveryKind) {
+  Random r(8);
+  for (int k = 0; k < rounds(); ++k) {
+    Fan<double> fan;
+    fan.x = {0, 0, 0};
+    for (int cell = 0; cell < 9; ++cell) {
+      const double h = std::exp2(-static_cast<double>(r.below(12)));
+      const double a = random(r, 1), b = random(r, 1), c = random(r, 1), d = random(r, 1);
+      switch (r.below(4)) {
+        case 0:  // flat: all four near a plane
+          fan.add({{{1, 0, h * a}, {0, 1, h * b}, {c, d, h}}});
+          break;
+        case 1:  // a short edge
+          fan.add({{{h * a, h * b, h * c}, {1, 0.2, d}, {0.1, 1, 0.3}}});
+          break;
+        case 2:  // two short edges, far from each other
+          fan.add({{{h * a, h, h * b}, {1, h * c, h * d}, {1, -h, 2 * h}}});
+          break;
+        default:  // a vertex near the middle of a face
+          fan.add({{{1 + a, h, 0}, {-1, 1 + b, h}, {-1, -1 + c, -h}}});
+      }
+    }
+    fan.makePositive();
+    expectTruth(fan);
+  }
+}
+
+// starShape takes the build for this processor; starShapeOf is the plain one, built here.
+template <class S>
+void expectSameBits(const Fan<S>& fan) {
+  const StarShape a = fan.shape(), b = fan.plainShape();
+  EXPECT_EQ(a.positive, b.positive);
+  EXPECT_EQ(a.thin, b.thin);
+}
+TEST(StarShape, IsTheSameFromEveryBuild) {
+  Random r(5);
+  for (int k = 0; k < rounds(); ++k)
+    for (double size : {1.0, 1e-3, 0x1p100}) {
+      Fan<float> single = randomFan<float>(r, 1 + r.below(30), size, k % 2 ? 0 : 10 * size);
+      if (k % 3) single.makePositive();
+      expectSameBits(single);
+      Fan<double> fan = randomFan<double>(r, 1 + r.below(30), size * size, 0);
+      if (k % 3) fan.makePositive();
+      expectSameBits(fan);
+    }
+}
+
+// ------------------------------------------------------------------------------------- walks
+
+// Cells of a few vertices, some of them dead.
+struct Cells {
+  explicit Cells(Random& r) {
+    const size_t count = 1 + r.below(50);
+    for (size_t c = 0; c < count; ++c) {
+      std::set<uint16_t> chosen;
+      while (chosen.size() < 4) chosen.insert(static_cast<uint16_t>(r.below(12)));
+      std::vector<uint16_t> cell(chosen.begin(), chosen.end());
+      for (size_t i = 0; i < 4; ++i) std::swap(cell[i], cell[i + r.below(4 - uint32_t(i))]);
+      if (r.below(6) == 0) cell.assign(4, kGoneCorner);
+      corners.insert(corners.end(), cell.begin(), cell.end());
+    }
+  }
+  bool has(size_t cell, uint16_t v) const {
+    return std::count(&corners[4 * cell], &corners[4 * cell] + 4, v) > 0;
+  }
+  bool live(size_t cell) const { return corners[4 * cell] != kGoneCorner; }
+  // Those that hold v or are dead, as the list of a vertex does.
+  std::vector<uint16_t> listOf(uint16_t v) const {
+    std::vector<uint16_t> list;
+    for (size_t c = 0; c < corners.size() / 4; ++c)
+      if (has(c, v) || !live(c)) list.push_back(static_cast<uint16_t>(c));
+    return list;
+  }
+  std::vector<uint16_t> corners;
+};
+
+bool sameCell(const StarCell& a, const StarCell& b) {
+  return a.corner == b.corner && std::equal(a.t, a.t + 3, b.t);
+}
+
+int parityOf(const uint16_t* cell, const std::array<uint32_t, 4>& seen) {
+  int swaps = 0;
+  std::array<uint32_t, 4> places;
+  for (size_t i = 0; i < 4; ++i)
+    places[i] = static_cast<uint32_t>(std::find(cell, cell + 4, seen[i]) - cell);
+  for (size_t i = 0; i < 4; ++i)
+    for (size_t j = i + 1; j < 4; ++j) swaps += places[i] > places[j];
+  return swaps % 2;
+}
+
+using LookRound = StarCounts (*)(const uint16_t*, uint16_t*, uint32_t, uint16_t, uint16_t,
+                                 StarCell*, StarCell*);
+void expectLook(LookRound look, const Cells& cells, uint16_t v, uint16_t other) {
+  std::vector<uint16_t> list = cells.listOf(v), wanted;
+  size_t rings = 0;
+  for (uint16_t c : list)
+    if (cells.live(c)) {
+      wanted.push_back(c);
+      rings += cells.has(c, other);
+    }
+  std::vector<StarCell> star(list.size()), ring(list.size());
+  const StarCounts counts =
+      look(cells.corners.data(), list.data(), static_cast<uint32_t>(list.size()), v, other,
+           star.data(), ring.data());
+  ASSERT_EQ(counts.ring, rings);
+  ASSERT_EQ(counts.star + counts.ring, wanted.size());
+  list.resize(wanted.size());
+  EXPECT_TRUE(list == wanted);  // the dead are taken out
+  star.resize(counts.star);
+  star.insert(star.end(), ring.begin(), ring.begin() + counts.ring);
+  for (size_t i = 0; i < star.size(); ++i) {
+    const StarCell& s = star[i];
+    const uint16_t* cell = &cells.corners[4 * s.cell()];
+    EXPECT_EQ(cell[s.corner % 4], v);
+    EXPECT_EQ(cells.has(s.cell(), other), i >= counts.star);
+    EXPECT_EQ(parityOf(cell, {v, s.t[0], s.t[1], s.t[2]}), 0);
+  }
+}
+
+TEST(LookRound, GivesTheLiveCellsOfAVertexInBothBuilds) {
+  Random r(6);
+  for (int k = 0; k < rounds(); ++k) {
+    const Cells cells(r);
+    const auto v = static_cast<uint16_t>(r.below(12));
+    const auto other = r.below(5) ? static_cast<uint16_t>((v + 1 + r.below(11)) % 12) : kGoneCorner;
+    expectLook(lookRound, cells, v, other);
+    expectLook(lookRoundOf, cells, v, other);
+    std::vector<uint16_t> list = cells.listOf(v), same = list;
+    std::vector<StarCell> star(list.size()), ring(list.size()), star2 = star, ring2 = ring;
+    const auto count = static_cast<uint32_t>(list.size());
+    const StarCounts n =
+        lookRound(cells.corners.data(), list.data(), count, v, other, star.data(), ring.data());
+    lookRoundOf(cells.corners.data(), same.data(), count, v, other, star2.data(), ring2.data());
+    EXPECT_TRUE(std::equal(star.begin(), star.begin() + n.star, star2.begin(), sameCell));
+    EXPECT_TRUE(std::equal(ring.begin(), ring.begin() + n.ring, ring2.begin(), sameCell));
+  }
+}
+
+TEST(ListVertices, GivesEachOnceThatWasNotSeen) {
+  Random r(7);
+  for (int k = 0; k < rounds(); ++k) {
+    Cells cells(r);
+    for (uint16_t& corner : cells.corners) corner = corner == kGoneCorner ? 11 : corner;
+    std::vector<uint16_t> list;
+    for (size_t c = 0; c < cells.corners.size() / 4; c += 2)
+      list.push_back(static_cast<uint16_t>(c));
+    std::vector<uint32_t> seen(12, 3), out(4 * list.size() + 1);
+    seen[4] = 0xffffffffu;  // one that never counts
+    seen[5] = 7;
+    std::set<uint32_t> wanted;
+    for (uint16_t c : list) wanted.insert(&cells.corners[4 * c], &cells.corners[4 * c] + 4);
+    wanted.erase(4);
+    wanted.erase(5);
+    std::vector<uint32_t> seen2 = seen, out2 = out;
+    const auto count = static_cast<uint32_t>(list.size());
+    const size_t n =
+        listVertices(cells.corners.data(), list.data(), count, seen.data(), 7, out.data());
+    ASSERT_EQ(n, wanted.size());
+    EXPECT_EQ(std::set<uint32_t>(out.begin(), out.begin() + static_cast<long>(n)), wanted);
+    for (uint32_t v : wanted) EXPECT_EQ(seen[v], 7u);
+    listVerticesOf(cells.corners.data(), list.data(), count, seen2.data(), 7, out2.data());
+    EXPECT_TRUE(seen == seen2);
+    EXPECT_TRUE(std::equal(out.begin(), out.begin() + static_cast<long>(n), out2.begin()));
+  }
+}
+
+}  // namespace
+}  // namespace test
+}  // namespace tetstream

@@ -1,0 +1,198 @@
+// The best edges of a vertex against a list of all of them.
+#include "choices.h"
+
+#include <gtest/gtest.h>
+#include <map>
+#include <set>
+
+#include "random.h"
+#include "test_mesh.h"
+
+namespace tetstream::test {
+namespace {
+
+constexpr float kInf = std::numeric_limits<float>::infinity();
+
+struct Counted {
+  Account account;
+};
+class ChoicesOf : Counted, public Choices {
+ public:
+  explicit ChoicesOf(size_t vertices) : Choices(account) { reset(vertices); }
+};
+
+// Vertex 0 with edges to others, all of which it looks at.
+void look(Choices& c, const std::map<uint32_t, float>& edges) {
+  std::vector<uint32_t> others;
+  std::vector<float> errors;
+  for (const auto& [v, error] : edges) {
+    others.push_back(v);
+    errors.push_back(error);
+  }
+  c.relist(0, errors.data(), others.data(), others.size());
+}
+
+TEST(Choices, KnowTheTwoBestAndTheLeastOfTheOthers) {
+  ChoicesOf c(60);
+  EXPECT_EQ(c.least(0), kInf);
+  c.add(0, 50, 5);
+  c.add(30, 0, 3);
+  c.add(0, 40, 4);
+  c.add(0, 10, 1);
+  EXPECT_EQ(c.least(0), 1);
+  EXPECT_EQ(c.target(0), 10u);
+  EXPECT_FALSE(c.mustLookAgain(0));
+  EXPECT_EQ(c.least(40), 4);  // both ends know
+  EXPECT_EQ(c.target(40), 0u);
+  c.refuse(0, 10);
+  EXPECT_EQ(c.least(0), 3);
+  EXPECT_EQ(c.target(0), 30u);
+  EXPECT_FALSE(c.mustLookAgain(0));
+  EXPECT_EQ(c.least(10), kInf);
+  c.refuse(0, 30);  // 4 and 5 are there still, whoever they are
+  EXPECT_EQ(c.least(0), 4);
+  EXPECT_TRUE(c.mustLookAgain(0));
+  look(c, {{10, 1}, {30, 3}, {40, 4}, {50, 5}});  // what was refused is not listed again
+  EXPECT_EQ(c.target(0), 40u);
+  EXPECT_EQ(c.least(0), 4);
+  EXPECT_FALSE(c.mustLookAgain(0));
+  EXPECT_EQ(c.least(1), kInf);
+}
+
+TEST(Choices, AreOrderedByTheOtherEndWhereErrorsAreEqual) {
+  ChoicesOf c(10);
+  for (uint32_t other : {7u, 3u, 9u}) c.add(0, other, 0);
+  EXPECT_EQ(c.target(0), 3u);
+  c.refuse(0, 3);
+  EXPECT_EQ(c.target(0), 7u);
+}
+
+TEST(Choices, TakeNoErrorThatIsNoNumber) {
+  ChoicesOf c(4);
+  c.add(0, 1, std::numeric_limits<float>::quiet_NaN());
+  c.add(0, 2, kInf);
+  EXPECT_EQ(c.least(0), kInf);
+  EXPECT_EQ(c.least(1), kInf);
+  c.add(0, 3, std::numeric_limits<float>::max());
+  EXPECT_EQ(c.target(0), 3u);
+}
+
+TEST(Choices, ForgetARefusalWhenANeighbourIsReplaced) {
+  ChoicesOf c(6);
+  c.add(0, 2, 1);
+  c.add(0, 1, 2);
+  c.add(0, 4, 3);
+  c.refuse(0, 2);
+  c.reconsider();  // nothing has changed round it
+  EXPECT_EQ(c.target(0), 1u);
+  c.replace(0, 4, 5, 3);  // 5 was merged into 4
+  c.reconsider();
+  EXPECT_EQ(c.least(0), 1);
+  EXPECT_EQ(c.target(0), 2u);
+  EXPECT_FALSE(c.mustLookAgain(0));
+}
+
+// What was known of either of the two that were merged is void, refused or not.
+TEST(Choices, KnowNothingOfWhatWasReplaced) {
+  ChoicesOf c(8);
+  c.add(0, 1, 1);
+  c.add(0, 2, 2);
+  c.refuse(0, 1);
+  c.replace(0, 2, 1, 7);
+  c.reconsider();
+  if (c.mustLookAgain(0)) look(c, {{2, 7}});
+  EXPECT_EQ(c.target(0), 2u);
+  EXPECT_EQ(c.least(0), 7);
+}
+
+TEST(Choices, OfAVertexThatIsForgottenAreNone) {
+  ChoicesOf c(3);
+  c.add(0, 1, 1);
+  c.refuse(0, 1);
+  c.add(0, 2, 2);
+  c.replace(0, 2, 1, 3);
+  c.forget(0);
+  c.reconsider();
+  EXPECT_EQ(c.least(0), kInf);
+}
+
+// A neighbour collapsed: its new edge is better than one that was refused before.
+TEST(Choices, TakeANewEdgeThatIsBetterThanARefusedOne) {
+  ChoicesOf c(6);
+  c.add(0, 3, 5);
+  c.refuse(0, 3);
+  c.replace(0, 2, 4, 1);
+  c.reconsider();
+  EXPECT_LE(c.least(0), 1);
+}
+
+// The edges of one vertex as a list, taken best first as a sweep does.
+class Model {
+ public:
+  Model() : choices(13) {}
+  void replace(uint32_t u, uint32_t v, float error) {
+    for (uint32_t gone : {u, v}) {
+      all_.erase(gone);
+      refused_.erase(gone);
+    }
+    all_[u] = error;
+    woken_ = true;
+    choices.replace(0, u, v, error);
+  }
+  void reconsider() {
+    if (woken_) refused_.clear();
+    woken_ = false;
+    choices.reconsider();
+  }
+  // Refuses the best, if there is one.
+  void refuseBest() {
+    if (choices.least(0) == kInf) return;
+    while (choices.mustLookAgain(0)) look(choices, all_);
+    if (choices.least(0) == kInf) return;
+    const uint32_t best = choices.target(0);
+    ASSERT_TRUE(all_.count(best));
+    EXPECT_EQ(all_[best], choices.least(0));
+    EXPECT_LE(all_[best], leastLeft());  // less: tried once more, which costs time only
+    refused_.insert(best);
+    choices.refuse(0, best);
+  }
+  float leastLeft() const {
+    float least = kInf;
+    for (const auto& [v, error] : all_)
+      if (!refused_.count(v)) least = std::min(least, error);
+    return least;
+  }
+  ChoicesOf choices;
+
+ private:
+  std::map<uint32_t, float> all_;
+  std::set<uint32_t> refused_;
+  bool woken_ = false;
+};
+
+// Any edges come and go and are refused: no edge is ever below `least`, the best one is the best,
+// and once it says that there is none there is none.
+TEST(Choices, AreThoseOfAListAfterAnySteps) {
+  for (uint64_t seed = 0; seed < (slowRun() ? 5u : 300u); ++seed) {
+    SCOPED_TRACE(seed);
+    Random r(seed);
+    Model m;
+    for (int step = 0; step < 60 && !::testing::Test::HasFailure(); ++step) {
+      const uint32_t u = 1 + r.below(12), v = 1 + (u + r.below(11)) % 12;
+      const uint32_t what = r.below(10);
+      if (what < 4)
+        m.replace(u, v, static_cast<float>(13 * r.below(8) + u));  // no two alike
+      else if (what < 5)
+        m.reconsider();
+      else
+        m.refuseBest();
+      ASSERT_LE(m.choices.least(0), m.leastLeft()) << "step " << step;
+    }
+    for (int k = 0; k < 40; ++k) m.refuseBest();
+    EXPECT_EQ(m.leastLeft(), kInf);
+    EXPECT_EQ(m.choices.least(0), kInf);
+  }
+}
+
+}  // namespace
+}  // namespace tetstream::test

@@ -1,0 +1,225 @@
+// The controller of the bound that is common to the stream, on a model of a stream whose cells are
+// known at every bound.
+#include <gtest/gtest.h>
+#include <cmath>
+#include <deque>
+
+#include "budget.h"
+#include "test_mesh.h"
+
+namespace tetstream::test {
+namespace {
+
+constexpr double kDecay = 3.0 / 7;
+
+// A piece of the stream: cells in, cells now, and cells left at a bound of 1.
+struct Piece {
+  double in, now, at_1;
+  void simplify(double bound) { now = std::min(now, at_1 * std::pow(bound, -kDecay)); }
+};
+
+struct Model {
+  int pieces = 400;
+  double cells = 1000;                                     // of a piece
+  double (*detail)(double) = [](double) { return 50.0; };  // at a place between 0 and 1
+  int front = 4, window = 16;                              // pieces
+};
+
+// What there is when the last goal is set; `at_bound`: if all were simplified up to its bound.
+struct Run {
+  double in = 0, left = 0, at_bound = 0, goal = 0, least = 0, written = 0;
+};
+
+double sumOf(const std::deque<Piece>& pieces) {
+  double sum = 0;
+  for (const Piece& p : pieces) sum += p.now;
+  return sum;
+}
+
+// Works as the loop of the simplifier does: fill, simplify what is not of the front, write the
+// oldest half.
+class Simulation {
+ public:
+  Simulation(const Model& model, Budget& budget) : model_(model), budget_(budget) {}
+
+  Run run() {
+    const double capacity = model_.window * model_.cells;
+    for (int i = 0; i < model_.pieces; ++i) {
+      if (live() + model_.cells > capacity) turn(capacity);
+      const double place = (i + 0.5) / model_.pieces;
+      window_.push_back({model_.cells, model_.cells, model_.detail(place)});
+      read_ += model_.cells;
+    }
+    const Goal last = budget_.lastGoal(ledger(0));
+    EXPECT_TRUE(last.last);
+    const double left = live() + written_;
+    for (Piece& piece : window_) piece.simplify(last.first_bound);
+    return {read_,
+            left,
+            live() + written_,
+            static_cast<double>(last.cells) + written_,
+            static_cast<double>(last.least_cells) + written_,
+            written_};
+  }
+
+ private:
+  double live() const { return sumOf(window_); }
+  size_t simplified() const {
+    const auto front = static_cast<size_t>(model_.front);
+    return window_.size() < front ? 0 : window_.size() - front;
+  }
+  Ledger ledger(double front) const {
+    Ledger l;
+    l.read = static_cast<int64_t>(read_);
+    l.written = static_cast<int64_t>(written_);
+    l.front = static_cast<int64_t>(front);
+    l.live = static_cast<int64_t>(live());
+    l.keep = static_cast<int64_t>(model_.window * model_.cells / 2);
+    return l;
+  }
+  void turn(double capacity) {
+    const double front = model_.front * model_.cells;
+    const Ledger before = ledger(front);
+    const Goal goal = budget_.goalOf(before);
+    EXPECT_FALSE(goal.last);
+    ASSERT_FALSE(std::isnan(goal.first_bound));
+    double bound = goal.first_bound > 0 ? goal.first_bound : 1e-6;
+    for (;; bound *= 1.05) {
+      for (size_t i = 0; i < simplified(); ++i) window_[i].simplify(bound);
+      if (live() <= static_cast<double>(goal.cells)) break;
+      ASSERT_LT(bound, 1e30) << "a goal of " << goal.cells;
+    }
+    const Ledger after = ledger(front);
+    double wrote = 0;
+    while (simplified() > 0 && live() > capacity / 2) {
+      wrote += window_.front().now;
+      window_.pop_front();
+    }
+    written_ += wrote;
+    budget_.learn(bound, before, after, static_cast<int64_t>(wrote));
+  }
+
+  const Model& model_;
+  Budget& budget_;
+  std::deque<Piece> window_;
+  double read_ = 0, written_ = 0;
+};
+
+// At the end there is something left to do, since what is simplified too far cannot be brought
+// back; the rest comes near the target at the common bound, and never more has been written than
+// may be.
+void expectSteered(const Model& model, double ratio, const Pilot& pilot, bool say_total,
+                   double off) {
+  SCOPED_TRACE(ratio);
+  const double in = model.pieces * model.cells;
+  CommonBound budget({ratio, 0, 0}, say_total ? static_cast<int64_t>(in) : -1, pilot);
+  const Run run = Simulation(model, budget).run();
+  EXPECT_EQ(run.in, in);
+  EXPECT_NEAR(run.goal, ratio * in, 1);
+  EXPECT_GE(run.least, ratio * in - std::max(10.0, 0.002 * ratio * in) - 1);
+  EXPECT_GE(run.left, run.least) << "simplified too far";
+  EXPECT_LE(run.at_bound, run.goal * off);
+  EXPECT_GE(run.at_bound, run.goal / off);
+  EXPECT_LT(run.written, run.goal) << "more is written than was asked for";
+}
+
+TEST(CommonBound, SteersALongStreamToItsTarget) {
+  for (double ratio : {0.5, 0.1, 0.05}) expectSteered({}, ratio, {}, true, 1.2);
+}
+
+TEST(CommonBound, SteersAStreamThatDoesNotSayItsLength) {
+  for (double ratio : {0.5, 0.1, 0.05}) expectSteered({}, ratio, {}, false, 1.5);
+}
+
+TEST(CommonBound, SteersAStreamWhoseDetailChanges) {
+  Model model;
+  model.detail = [](double place) { return 30 + 30 * std::sin(12 * place); };
+  expectSteered(model, 0.1, {}, true, 1.3);
+  model.detail = [](double place) { return place < 0.5 ? 20.0 : 60.0; };
+  expectSteered(model, 0.1, {}, true, 1.3);
+}
+
+// A few windows are all the stream there is: what the first ones write must leave room.
+TEST(CommonBound, SteersAShortStream) {
+  Model model;
+  model.pieces = 50;
+  for (double ratio : {0.5, 0.1, 0.02}) expectSteered(model, ratio, {}, true, 2.5);
+}
+
+// The pilot gives the bound and the shares of a run in core; also one that is somewhat wrong.
+TEST(CommonBound, FollowsAPilot) {
+  Model model;
+  model.pieces = 50;
+  model.detail = [](double place) { return place < 0.5 ? 20.0 : 60.0; };
+  for (double ratio : {0.5, 0.1, 0.02})
+    for (double off : {1.0, 1.5, 0.67}) {
+      SCOPED_TRACE(off);
+      Pilot pilot;
+      // The bound at which all pieces together have ratio * cells.
+      std::deque<Piece> all;
+      double bound = 1e-9;
+      for (double left = model.cells; left > ratio * model.cells; bound *= 1.001) {
+        left = 0;
+        for (double detail : {20.0, 60.0})
+          left += 0.5 * std::min(model.cells, detail * std::pow(bound, -kDecay));
+      }
+      pilot.bound = off * bound;
+      const double first = std::min(model.cells, 20 * std::pow(bound, -kDecay)),
+                   second = std::min(model.cells, 60 * std::pow(bound, -kDecay));
+      for (int k = 0; k <= 64; ++k)
+        pilot.share.push_back((first * std::min(k, 32) + second * std::max(k - 32, 0)) /
+                              (32 * (first + second)));
+      expectSteered(model, ratio, pilot, true, 1.2);
+    }
+}
+
+// A window that is smaller than the front has nothing to simplify, and nothing to learn from.
+TEST(CommonBound, KeepsItsBoundWhenAllCellsAreOfTheFront) {
+  CommonBound budget({0.1, 0, 0}, 1000, {});
+  const Ledger full = {64, 0, 64, 64, 32, 1};
+  budget.goalOf(full);
+  budget.learn(1e-3, full, full, 0);
+  const double bound = budget.goalOf(full).first_bound;
+  EXPECT_GE(bound, 1e-4);
+  EXPECT_LE(bound, 1e-2);
+}
+
+// Nothing to divide by: one cell, none, all of them, a stream of which nothing is known.
+TEST(CommonBound, GivesNumbersWhateverItIsTold) {
+  int wrong = 0;  // some are enough
+  for (double ratio : {1.0, 1e-18, 0.1})
+    for (int64_t total : {int64_t{-1}, int64_t{0}, int64_t{1}, int64_t{1} << 62})
+      for (int64_t cells : {int64_t{0}, int64_t{1}, int64_t{1} << 62})
+        for (double pilot_bound : {0.0, 1e-45, 1e38}) {
+          Pilot pilot;
+          if (pilot_bound > 0) pilot = {pilot_bound, {0, 0.5, 1}};
+          CommonBound budget({ratio, 0, cells}, total, pilot);
+          for (Ledger l : {Ledger{}, Ledger{1, 0, 1, 1}, Ledger{1, 1, 0, 0}, Ledger{5, 0, 0, 5}})
+            for (double bound : {0.0, 1e-45, 1.0, 1e38}) {
+              const Goal goal = budget.goalOf(l);
+              budget.learn(bound, l, l, 0);
+              const Goal last = budget.lastGoal(l);
+              EXPECT_LE(last.least_cells, last.cells);
+              EXPECT_LE(last.cells, l.read);
+              if ((goal.first_bound >= 0 && last.first_bound >= 0) || ++wrong > 5) continue;
+              ADD_FAILURE() << "bounds of " << goal.first_bound << " and " << last.first_bound
+                            << ": ratio " << ratio << ", total " << total << ", cells " << cells
+                            << ", pilot " << pilot_bound << ", next learnt " << bound;
+            }
+        }
+}
+
+TEST(Pilot, SharesGrowFromNothingToAll) {
+  const Pilot pilot = {1, {0, 0.1, 0.1, 0.7, 1}};
+  EXPECT_TRUE(pilot.known());
+  EXPECT_FALSE(Pilot().known());
+  EXPECT_EQ(pilot.shareOf(0), 0);
+  EXPECT_EQ(pilot.shareOf(1), 1);
+  EXPECT_NEAR(pilot.shareOf(0.125), 0.05, 1e-15);
+  EXPECT_NEAR(pilot.shareOf(0.625), 0.4, 1e-15);
+  for (double part = 0; part < 1; part += 0.01)
+    EXPECT_LE(pilot.shareOf(part), pilot.shareOf(part + 0.01));
+}
+
+}  // namespace
+}  // namespace tetstream::test
