@@ -32,12 +32,12 @@ static std::string rejectionText(const tetstream_report& r) {
          " other";
 }
 
-std::string reportText(const tetstream_report& r, bool counted) {
+std::string reportText(const tetstream_report& r) {
   std::string ratio;
   if (r.cells_in > 0)
     ratio =
         textOf(", ratio %.4g", static_cast<double>(r.cells_out) / static_cast<double>(r.cells_in));
-  const std::string target = counted ? ", target " + countText(r.target_cells) : "";
+  const std::string target = r.target_cells > 0 ? ", target " + countText(r.target_cells) : "";
   std::string text =
       row("cells", reductionText(r.cells_in, r.cells_out) + ratio + target) +
       row("vertices", reductionText(r.vertices_in, r.vertices_out)) +

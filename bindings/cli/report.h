@@ -7,8 +7,7 @@
 
 namespace tetstream::cli {
 
-// `counted`: a number of cells was asked for, as a ratio or as such.
-std::string reportText(const tetstream_report& report, bool counted);
+std::string reportText(const tetstream_report& report);
 // One object with every member of tetstream_report by its name, and the status.
 std::string reportJson(const tetstream_report& report, tetstream_status status);
 

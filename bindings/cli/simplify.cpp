@@ -24,9 +24,8 @@ static void needTarget(const Arguments& arguments, const tetstream_options* opti
 static void printReport(const Arguments& arguments, const tetstream_report& report,
                         tetstream_status status) {
   if (arguments.quiet && arguments.report.empty()) return;
-  const bool counted = arguments.options.has("ratio") || arguments.options.has("cells");
   const std::string text =
-      arguments.report == "json" ? reportJson(report, status) : reportText(report, counted);
+      arguments.report == "json" ? reportJson(report, status) : reportText(report);
   if (isStandardOutput(arguments.out))
     printError(text);
   else

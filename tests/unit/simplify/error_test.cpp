@@ -179,6 +179,7 @@ TEST(SimplifierErrorBound, AloneIsNeverMissed) {
         const Result result = simplified(mesh, toError(percent, window));
         EXPECT_EQ(result.out.problem, "");
         EXPECT_EQ(result.report.limited_by, "");
+        EXPECT_EQ(result.report.target_cells, 0);
         EXPECT_TRUE(result.report.reached == "error" || result.report.reached.empty());
         EXPECT_LE(result.report.estimated_error, percent);
       }
