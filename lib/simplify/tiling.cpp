@@ -61,9 +61,14 @@ void Tiling<S>::cut(size_t begin, size_t end, unsigned round) {
 template <class S>
 size_t Tiling<S>::tilesOf(uint32_t cell, uint32_t tiles[4]) const {
   const uint32_t* v = core_.window.mesh.corners(cell);
+  const uint32_t* of = core_.window.scratch();
+  if (of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]]) {  // most cells
+    tiles[0] = of[v[0]] - 1;
+    return of[v[0]] != 0;
+  }
   size_t count = 0;
   for (int j = 0; j < 4; ++j) {
-    const uint32_t tile = core_.window.scratch()[v[j]];
+    const uint32_t tile = of[v[j]];
     bool known = tile == 0;
     for (size_t k = 0; k < count; ++k) known |= tiles[k] == tile - 1;
     if (!known) tiles[count++] = tile - 1;
