@@ -34,7 +34,6 @@ class Patch {
   uint32_t vertexOf(uint32_t c, uint32_t j) const { return corner_[4 * size_t{c} + j]; }
   int64_t liveCells() const { return live_; }  // of the whole window
 
-  bool isOwned(uint32_t v) const { return v < owned_; }
   bool isFree(uint32_t v) const { return v < owned_ && !(flags_[v] & kCollapsed); }
   bool isBoundary(uint32_t v) const { return flags_[v] & kBoundary; }
 
@@ -79,8 +78,7 @@ class Patch {
   int64_t live_ = 0;
   Array<uint16_t> local_of_;  // per vertex of the window, kGoneCorner outside this patch
   Array<uint32_t> global_vertex_, global_cell_;
-  Array<uint16_t>
-      corner_;  // four to a cell, so ordered that its volume is positive; kGoneCorner: dead
+  Array<uint16_t> corner_;  // four to a cell, its volume positive; kGoneCorner: dead
   Array<uint8_t> flags_;
   Array<S> values_, quadrics_;
   Array<List> star_of_;  // of owned vertices

@@ -10,10 +10,10 @@ namespace tetstream {
 constexpr double kDecay = 3.0 / 7;
 // The first window is not simplified further than this: its own detail says little of the rest.
 constexpr double kFirstRatio = 0.25;
-// Cells are not written ahead of their share, but for this factor.
-constexpr double kAhead = 1.0;
 // What a pilot says weighs as much as this share of the stream.
 constexpr double kTrust = 0.2;
+// Share of the cells to come that the bound leaves for the end: what is simplified too far cannot
+// be brought back.
 constexpr double kReserve = 0.02;
 // With a bound on the error the first window makes this share of what it allows.
 constexpr double kFirstError = 0.7, kBackOff = 0.6;
@@ -46,8 +46,7 @@ double CommonBound::boundForCells(const Ledger& ledger) const {
   const double more = (so_far + trust * expected) / ((share + trust) * expected);
   const double to_come = (1 - share) * expected * more;
   // With x = (new bound / bound)^-kDecay: what is kept and what is to come shrink alike,
-  // (kept + to come) x = wanted - written; but only what is to come can grow. A little is left for
-  // the end, since what is simplified too far cannot be brought back.
+  // (kept + to come) x = wanted - written; but only what is to come can grow.
   const double left = std::max(all - written_, 1.0) * (1 + kReserve);
   const double x = left < kept_ + to_come ? left / std::max(kept_ + to_come, 1.0)
                                           : (left - kept_) / std::max(to_come, 1.0);
@@ -74,15 +73,24 @@ int64_t CommonBound::leastOf(const Ledger& ledger) const {
   return all - slack - ledger.written - to_come;
 }
 
+// What was learnt in the units of the last window, in those of this one.
+void CommonBound::changeUnits(double rescaled) {
+  bound_ *= rescaled;
+  pilot_bound_ *= rescaled;
+  written_at_1_ *= std::pow(rescaled, kDecay);
+}
+
 Goal CommonBound::goalOf(const Ledger& ledger) {
+  changeUnits(ledger.rescaled);
   const double seen = static_cast<double>(ledger.read - ledger.front);
   // Cells that are written are lost for the target: not many more than are due by now.
-  const double due = kAhead * wanted(ledger) * shareOf(seen, ledger);
+  const double due = wanted(ledger) * shareOf(seen, ledger);
   const double may_go = std::max(due - static_cast<double>(ledger.written), 0.0);
-  Goal goal{ledger.keep + static_cast<int64_t>(may_go), leastOf(ledger), false, ledger.front};
+  // In a window of less than two fronts the front alone is more than what may stay.
+  const int64_t may_stay = std::max(ledger.keep, ledger.front);
+  Goal goal{may_stay + static_cast<int64_t>(may_go), leastOf(ledger), false, ledger.front};
   // An error bound is not passed to make room: what comes first would use it up.
   if (target_.error > 0) goal.most_error = 0;
-  bound_ *= ledger.rescaled;
   if (bound_ > 0) {
     goal.first_bound = nextBound(ledger);
   } else if (pilot_.known()) {
@@ -98,6 +106,7 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
 }
 
 Goal CommonBound::lastGoal(const Ledger& ledger) {
+  changeUnits(ledger.rescaled);
   Goal goal = Budget::lastGoal(ledger);
   goal.first_bound = bound_;
   return goal;

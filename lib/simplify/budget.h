@@ -84,6 +84,7 @@ class CommonBound final : public Budget {
   void learn(double bound, const Ledger& before, const Ledger& after, int64_t written) override;
 
  private:
+  void changeUnits(double rescaled);
   double wanted(const Ledger& ledger) const;
   double total(const Ledger& ledger) const;
   double shareOf(double seen, const Ledger& ledger) const;

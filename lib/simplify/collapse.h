@@ -40,9 +40,6 @@ class Collapser {
   // z of an end.
   void endOf(uint32_t u, uint32_t v, bool at_v, S* z) const;
 
-  // The last edge that was tried. After a collapse its ring is gone.
-  const Stars& stars() const { return stars_; }
-
  private:
   Outcome test(uint32_t u, uint32_t v, int64_t least_cells);
   double growth(uint32_t u, uint32_t v, S error);

@@ -38,6 +38,10 @@ constexpr RowBytes rowBytes(Mode mode) {
   return mode == Mode::kPaper ? RowBytes{37, 21} : RowBytes{24, 23};
 }
 
+// No cell needs to be thinner than this smallest dihedral angle, in degrees: rounding, or another
+// program's arithmetic, may turn it over.
+constexpr double kLeastFloor = 0.05;
+
 // Vertices of a patch: with its cells and stars they should fit a core's L2 cache, and its seams
 // should be few. A memory budget may want less.
 constexpr int64_t kTileVertices = 4096;
@@ -56,7 +60,6 @@ struct Core {
         options(the_options),
         kernels(quadricKernels<S>(the_plan.dimension)),
         window(account, shapeOf(the_plan), cells, vertices, the_options.mode == Mode::kPaper),
-
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
         inverse_scale(scale),

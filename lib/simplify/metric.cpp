@@ -1,7 +1,6 @@
 #include "metric.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 
 #include "orient.h"
@@ -10,9 +9,9 @@ namespace tetstream {
 
 // Cells with a dihedral angle below the floor harm a solver: as few as the input has are made. The
 // floor is the largest of these, in degrees, that hardly any cell of the input is below: stretched
-// meshes would lose their field for angles that they never had. The paper's mode only avoids cells
-// that rounding or another program's arithmetic may turn over.
-constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, 0.05};
+// meshes would lose their field for angles that they never had. The paper's mode has the least
+// only.
+constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
 constexpr double kShareBelow = 0.01;
 constexpr int64_t kCellsPerSample = 16;
 
@@ -26,9 +25,10 @@ Metric<S>::Metric(Core<S>& core)
       low_(static_cast<size_t>(core.plan.dimension), std::numeric_limits<double>::infinity()),
       high_(low_.size(), -std::numeric_limits<double>::infinity()),
       used_range_(low_.size(), -1) {
-  for (double degrees : kFloors)
-    if (core.options.mode != Mode::kPaper || degrees == kFloors[std::size(kFloors) - 1])
-      floors_.emplace_back(degrees);
+  if (core.options.mode == Mode::kPaper)
+    floors_.emplace_back(kLeastFloor);
+  else
+    for (double degrees : kFloors) floors_.emplace_back(degrees);
   below_.assign(floors_.size(), 0);
   core.thin = floors_.back();
   if (!box_known_) return;

@@ -26,6 +26,11 @@ inline uint64_t area(const Numbers& a, const Numbers& b, const Numbers& c) {
 }
 }  // namespace
 
+// A vertex that is final and not resolved, without a branch: kResolved is 32 times kFinal.
+static unsigned isNew(unsigned flags) {
+  return flags & ~(flags / (kResolved / kFinal)) & kFinal;
+}
+
 template <class S>
 void Resolver<S>::addToLinks(uint32_t cell) {
   const Topology& mesh = core_.window.mesh;
@@ -33,7 +38,7 @@ void Resolver<S>::addToLinks(uint32_t cell) {
   const Numbers n[4] = {numbersOf(v[0]), numbersOf(v[1]), numbersOf(v[2]), numbersOf(v[3])};
   const bool negative = mesh.cellFlags(cell) & kNegative;
   for (int j = 0; j < 4; ++j) {
-    if ((mesh.vertexFlags(v[j]) & (kFinal | kResolved)) != kFinal) continue;
+    if (!isNew(mesh.vertexFlags(v[j]))) continue;
     const uint8_t* t = kOpposite[j];
     const uint64_t sum = area(n[t[0]], n[t[1]], n[t[2]]);
     core_.window.outRank(v[j]) += negative ? -sum : sum;
@@ -57,11 +62,7 @@ int64_t Resolver<S>::sumLinks() {
                            mesh.vertexFlags(v[3])};
     const unsigned all_final = f[0] & f[1] & f[2] & f[3] & kFinal;
     front += !all_final;
-    // note: some vertex is final and not resolved: kResolved is 32 times kFinal.
-    const auto is_new = [](unsigned flags) {
-      return flags & ~(flags / (kResolved / kFinal)) & kFinal;
-    };
-    if (is_new(f[0]) | is_new(f[1]) | is_new(f[2]) | is_new(f[3])) addToLinks(c);
+    if (isNew(f[0]) | isNew(f[1]) | isNew(f[2]) | isNew(f[3])) addToLinks(c);
   }
   return front;
 }

@@ -1,7 +1,7 @@
 // simplify: patches swept at rising bounds. See select.h.
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <limits>
 
 #include "choices.h"
 #include "select.h"
@@ -10,14 +10,13 @@
 namespace tetstream {
 namespace {
 
-// Within a patch edges are taken at bounds rising to the pass's, nearly in order of their error.
 constexpr uint32_t kAlways = 0xffffffffu;  // a mark above all others
+// Within a patch edges are taken at bounds rising to the pass's, nearly in order of their error.
 constexpr float kFirstLevel = 1.0f / 256, kLevelStep = 2;
 // From pass to pass: errors rise with the number of cells n as n^(-7/3), in space, for a field
 // followed by linear interpolation; the last steps are small.
 constexpr double kLeastStep = 1.15, kLargestStep = 16;
-// When a target cannot be reached otherwise, the floor of the angles falls to this, in degrees.
-constexpr double kLastThinAngle = 0.05;
+constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
 template <class S>
 class SweepSelector final : public Selector {
@@ -41,7 +40,7 @@ class SweepSelector final : public Selector {
     if (!goal.last || mustStop(core_.window.liveCells())) return;
     tryEverything(tick);
     if (mustStop(core_.window.liveCells())) return;
-    core_.thin = ThinAngle(kLastThinAngle);
+    core_.thin = ThinAngle(kLeastFloor);  // rather than to miss the target
     tryEverything(tick);
   }
 
@@ -93,7 +92,7 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   for (bool more = !mustStop(core_.window.liveCells()); more; bound *= stepFor()) {
     tiling_.build(round_++);
     if (!(bound > 0)) bound = sampledBound();
-    more = pass(static_cast<float>(std::min(bound, 1e38)), tick) && !reached() &&
+    more = pass(static_cast<float>(std::min(bound, kLargestBound)), tick) && !reached() &&
            core_.error < goal_.most_error;
     bound_ = bound;
   }
@@ -161,14 +160,19 @@ double SweepSelector<S>::sampledBound() {
   return std::max(errors[place], std::numeric_limits<float>::min());  // never 0: it would not rise
 }
 
+// Until a round, whose seams lie elsewhere, finds nothing more.
 template <class S>
 void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
-  tiling_.build(round_++);
-  for (const TilePiece& tile : tiling_.tiles()) {
-    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
-            tile.cell_end - tile.cell_begin, [&] { exhaustive_->decimate(goal_, tick); });
-    if (reached()) return;
-  }
+  int64_t live;
+  do {
+    live = core_.window.liveCells();
+    tiling_.build(round_++);
+    for (const TilePiece& tile : tiling_.tiles()) {
+      onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
+              tile.cell_end - tile.cell_begin, [&] { exhaustive_->decimate(goal_, tick); });
+      if (mustStop(core_.window.liveCells())) return;
+    }
+  } while (core_.window.liveCells() < live);
 }
 
 // ------------------------------------------------------------------------------- in a patch
