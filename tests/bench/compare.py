@@ -18,7 +18,6 @@ the input's and, with --vtk-here, that of VTK's run.
 Speed is the wall time of the whole process, .tets file to .tets file, against that of VTK's filter
 alone, for the same ratio: medians of --rounds rounds in which both run in turn.
 """
-import argparse
 import csv
 import hashlib
 import json
@@ -40,13 +39,20 @@ HEAD = ("mesh", "field", "ratio", "mode", "asked", "got", "RMS % (VTK)", "max % 
         "max / VTK", "Hausdorff / VTK", "speed / VTK")
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build/release", help="the folder of the build")
-    parser.add_argument("--rows", nargs="+", metavar="MESH:FIELD", help="default: all; MESH is a "
-                        "name in TETSTREAM_MESHES or a path")
+def judged_parser(description):
+    """The arguments of all that judges rows."""
+    parser = harness.bench_parser(description)
+    parser.add_argument("--rows", nargs="+", type=harness.mesh_and_field, default=harness.ROWS,
+                        metavar="MESH:FIELD", help="default: all; MESH is a name in "
+                        "TETSTREAM_MESHES or a path")
     parser.add_argument("--ratios", nargs="+", type=float, default=[0.1], metavar="R")
+    parser.add_argument("--samples", type=int, default=200000, help="of the judge")
+    parser.add_argument("--json", metavar="FILE", help="also write all that was found there")
+    return parser
+
+
+def arguments():
+    parser = judged_parser(__doc__)
     parser.add_argument("--modes", nargs="+", default=["default"], metavar="MODE",
                         help="of simplify; default: the one that it has if none is named")
     parser.add_argument("--fronts", type=float, metavar="N",
@@ -55,9 +61,6 @@ def arguments():
     parser.add_argument("--vtk-here", action="store_true", help="run and judge VTK's filter here")
     parser.add_argument("--no-vtk-time", action="store_true", help="do not run VTK for its time")
     parser.add_argument("--work", default="build/bench", help="where VTK's verdicts are kept")
-    parser.add_argument("--samples", type=int, default=200000, help="of the judge")
-    parser.add_argument("--json", metavar="FILE", help="also write all verdicts there")
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
 
@@ -129,13 +132,30 @@ def shapes(described):
     return {name: described[name] for name in SHAPES}
 
 
+def quotients(ours, theirs):
+    """Errors divided by others, both raised to what counts as the same."""
+    return {k: max(ours[k], FLOOR) / max(theirs[k], FLOOR) for k in ERRORS}
+
+
 def against(ours, runs):
     """The errors of VTK's run, and ours divided by them."""
     if not runs:
         return {}, {}
     theirs = dict(min(runs, key=lambda run: run["rms"]))
     theirs["hausdorff"] = min(run["hausdorff"] for run in runs)
-    return theirs, {k: max(ours[k], FLOOR) / max(theirs[k], FLOOR) for k in ERRORS}
+    return theirs, quotients(ours, theirs)
+
+
+def window_of(fronts, info):
+    """Cells of a window that holds so many fronts of a mesh."""
+    return math.ceil(fronts * info["front_cells"])
+
+
+def save(path, results):
+    """For --json, if it was given."""
+    if path:
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(results, file, indent=1)
 
 
 # ------------------------------------------------------------------------------------- one line
@@ -151,46 +171,33 @@ class Comparison:
         stream = self.tetstream.convert(path, self.tetstream.path("in.tets"))
         if not self.args.fronts:
             return stream, []
-        front = self.tetstream.info(stream)["front_cells"]
-        return stream, ["--window", math.ceil(self.args.fronts * front)]
-
-    def timed_runs(self, words, path, field, ratio, variant):
-        """The report of the last run, the times of all, those of VTK in turn with them."""
-        ours, theirs = [], []
-        for _ in range(self.args.rounds):
-            report = self.tetstream.simplify(*words)
-            ours.append(report["measured"])
-            if self.vtk.timed and variant:
-                theirs.append(self.vtk.program.decimate(path, field, ratio, variant))
-        return report, ours, theirs
+        return stream, ["--window", window_of(self.args.fronts, self.tetstream.info(stream))]
 
     def line(self, name, path, field, ratio, mode, stream, window):
         out = self.tetstream.path("out.tets")
         words = [stream, out, "--ratio", ratio, "--field", field, *window,
                  *([] if mode == "default" else ["--mode", mode]), *self.args.options]
         runs = self.vtk.runs(name, path, field, ratio)
-        theirs = min(runs, key=lambda run: run["rms"]) if runs else {}
-        report, times, vtk_times = self.timed_runs(words, path, field, ratio, theirs.get("run"))
+        variant = min(runs, key=lambda run: run["rms"])["run"] if runs else None
+        report, times, _, vtk_times = harness.timed_in_turn(
+            self.args.rounds, lambda: self.tetstream.simplify(*words),
+            variant and self.vtk.timed
+            and (lambda: self.vtk.program.decimate(path, field, ratio, variant)))
         verdict = self.judge(path, self.tetstream.convert(out, self.tetstream.path("out.vtu")),
                              field)
         ours = errors(verdict)
         theirs, ratios = against(ours, runs)
-        wall = statistics.median(t["wall"] for t in times)
         result = {"mesh": name, "field": field, "ratio": ratio, "mode": mode,
                   "asked": report["target_cells"], "got": report["cells_out"], **ours,
                   "shapes": shapes(verdict["simplified"]),
                   "shapes_of_input": shapes(verdict["original"]),
                   "vtk": theirs, "to_vtk": ratios, "valid": verdict["valid"],
                   "topology_kept": verdict["reduction"]["topology_kept"],
-                  "new_non_manifold": harness.new_non_manifold(verdict), "seconds": wall,
-                  "cpu_seconds": statistics.median(t["user"] + t["system"] for t in times),
-                  "cells_per_second": report["cells_in"] / wall, "report": report,
-                  "peak_bytes": max(t["peak_bytes"] for t in times)}
+                  "new_non_manifold": harness.new_non_manifold(verdict), **times,
+                  "cells_per_second": report["cells_in"] / times["seconds"], "report": report}
         if vtk_times:
-            result["vtk_seconds"] = statistics.median(t["seconds"] for t in vtk_times)
-            result["vtk_cpu_seconds"] = statistics.median(t["cpu_seconds"] for t in vtk_times)
-            result["vtk_peak_bytes"] = max(t["measured"]["peak_bytes"] for t in vtk_times)
-            result["to_vtk"]["speed"] = result["vtk_seconds"] / wall
+            result.update({"vtk_" + name: value for name, value in vtk_times.items()})
+            result["to_vtk"]["speed"] = vtk_times["seconds"] / times["seconds"]
         return result
 
 
@@ -230,11 +237,10 @@ def print_means(results, ratio, mode):
 
 def main():
     args = arguments()
-    rows = [row.rsplit(":", 1) for row in args.rows] if args.rows else harness.ROWS
     comparison = Comparison(args)
     harness.print_head(HEAD)
     results = []
-    for name, field in rows:
+    for name, field in args.rows:
         path = harness.mesh_path(name)
         stream, window = comparison.stream_of(path)
         for ratio in args.ratios:
@@ -244,9 +250,7 @@ def main():
     for ratio in args.ratios:
         for mode in args.modes:
             print_means(results, ratio, mode)
-    if args.json:
-        with open(args.json, "w", encoding="utf-8") as file:
-            json.dump(results, file, indent=1)
+    save(args.json, results)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ With --slope: what a cell of the window takes. Streams that the program `stream`
 makes are simplified with the smaller and the larger of --windows; the slope is the difference of
 the peaks over that of the windows. The larger one is filled --fills times.
 """
-import argparse
 import math
 import os
 import subprocess
@@ -38,9 +37,7 @@ SLOPE_HEAD = ("stream", "cells", "front cells", "window cells", "peak MB", "byte
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build/release", help="the folder of the build")
+    parser = harness.bench_parser(__doc__)
     parser.add_argument("--kinds", nargs="+", default=["fluid"], metavar="KIND")
     parser.add_argument("--cells", nargs="+", type=float, default=[2e6, 2e7], metavar="N")
     parser.add_argument("--slope", action="store_true", help="between two windows")
@@ -50,7 +47,6 @@ def arguments():
     parser.add_argument("--window", type=int, metavar="CELLS", help="the same for all sizes")
     parser.add_argument("--compress", choices=("yes", "no"), default="yes", help="OUT.tets")
     parser.add_argument("--limit", type=float, metavar="MB", help="more than this is a failure")
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
 

@@ -7,9 +7,7 @@ With VTK's filter (built when VTK was found), its time for the same mesh and rat
 turn, medians of --rounds. VTK is left out above --vtk-cells, since it holds the mesh in memory.
 With --calibrate two lines below the table say how fast the machine's memory was before and after.
 """
-import argparse
 import os
-import statistics
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
@@ -20,18 +18,16 @@ HEAD = ("mesh", "cells", "ratio", "got / asked", "s", "CPU s", "M cells/s", "ns 
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build/release", help="the folder of the build")
+    parser = harness.bench_parser(__doc__)
     parser.add_argument("--kinds", nargs="+", default=["fluid", "ball"], metavar="KIND")
     parser.add_argument("--cells", nargs="+", type=float, default=[1e5, 1e6, 1e7], metavar="N")
-    parser.add_argument("--mesh", nargs="+", default=[], metavar="MESH:FIELD", help="real meshes, "
-                        "too: a name in TETSTREAM_MESHES or a path")
+    parser.add_argument("--mesh", nargs="+", type=harness.mesh_and_field, default=[],
+                        metavar="MESH:FIELD", help="real meshes, too: a name in TETSTREAM_MESHES "
+                        "or a path")
     parser.add_argument("--ratio", nargs="+", type=float, default=[0.1], metavar="R")
     parser.add_argument("--rounds", type=int, default=3, help="runs for the time; 5 is fair")
     parser.add_argument("--vtk-cells", type=float, default=4e6)
     parser.add_argument("--calibrate", action="store_true", help="measure the memory, too")
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
 
@@ -48,24 +44,19 @@ class Speed:
         """`mesh` is the .vtu of `stream`, or None: VTK is left out."""
         words = [stream, self.tetstream.path("out.tets"), "--ratio", ratio, "--field", field,
                  *self.args.options]
-        ours, theirs = [], []
-        for _ in range(self.args.rounds):
-            report = self.tetstream.simplify(*words)
-            ours.append(report["measured"])
-            if mesh:
-                theirs.append(self.vtk.decimate(mesh, field, ratio, "scaled"))
-        wall = statistics.median(t["wall"] for t in ours)
-        cpu = statistics.median(t["user"] + t["system"] for t in ours)
+        report, ours, run, theirs = harness.timed_in_turn(
+            self.args.rounds, lambda: self.tetstream.simplify(*words),
+            mesh and (lambda: self.vtk.decimate(mesh, field, ratio, "scaled")))
+        wall, cpu = ours["seconds"], ours["cpu_seconds"]
         line = [name, report["cells_in"], f"{ratio:g}",
                 f"{report['cells_out'] / report['target_cells']:.4f}", f"{wall:.3f}", f"{cpu:.3f}",
                 f"{report['cells_in'] / wall / 1e6:.3f}", f"{1e9 * cpu / report['cells_in']:.0f}",
-                f"{harness.megabytes(max(t['peak_bytes'] for t in ours)):.1f}"]
+                f"{harness.megabytes(ours['peak_bytes']):.1f}"]
         if theirs:
-            vtk_wall = statistics.median(t["seconds"] for t in theirs)
-            line += [f"{theirs[0]['cells_out'] / report['target_cells']:.4f}", f"{vtk_wall:.3f}",
-                     f"{statistics.median(t['cpu_seconds'] for t in theirs):.3f}",
-                     f"{harness.megabytes(max(t['measured']['peak_bytes'] for t in theirs)):.1f}",
-                     f"{vtk_wall / wall:.2f}"]
+            line += [f"{run['cells_out'] / report['target_cells']:.4f}",
+                     f"{theirs['seconds']:.3f}", f"{theirs['cpu_seconds']:.3f}",
+                     f"{harness.megabytes(theirs['peak_bytes']):.1f}",
+                     f"{theirs['seconds'] / wall:.2f}"]
         else:
             line += ["-"] * 5
         harness.print_row(line)
@@ -88,8 +79,8 @@ def main():
     speed = Speed(args)
     before = harness.calibration(args.build) if args.calibrate else ""
     harness.print_head(HEAD)
-    for row in args.mesh:
-        speed.real(*row.rsplit(":", 1))
+    for name, field in args.mesh:
+        speed.real(name, field)
     for kind in args.kinds:
         for cells in args.cells:
             speed.generated(kind, cells)

@@ -5,9 +5,6 @@ divided by that of the same simplification in core (a window that holds all cell
 Rows, ratios and errors are those of compare.py; ratios are taken after raising both sides to
 0.001 %. Where the window of so many fronts holds the whole mesh, the two runs are the same.
 """
-import argparse
-import json
-import math
 import os
 import statistics
 import sys
@@ -23,16 +20,8 @@ HEAD = ("mesh", "field", "ratio", "window", "window cells / cells", "got / asked
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", default="build/release", help="the folder of the build")
-    parser.add_argument("--rows", nargs="+", metavar="MESH:FIELD", help="default: all; MESH is a "
-                        "name in TETSTREAM_MESHES or a path")
-    parser.add_argument("--ratios", nargs="+", type=float, default=[0.1], metavar="R")
+    parser = compare.judged_parser(__doc__)
     parser.add_argument("--fronts", nargs="+", type=float, default=[1, 2, 4, 8], metavar="N")
-    parser.add_argument("--samples", type=int, default=200000, help="of the judge")
-    parser.add_argument("--json", metavar="FILE", help="also write all lines there")
-    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
     return parser.parse_args()
 
 
@@ -56,14 +45,13 @@ class Windows:
         stream = self.tetstream.convert(path, self.tetstream.path("in.tets"))
         info = self.tetstream.info(stream)
         windows = {IN_CORE: info["cells"]}
-        windows.update({f"{n:g}": math.ceil(n * info["front_cells"]) for n in self.args.fronts})
+        windows.update({f"{n:g}": compare.window_of(n, info) for n in self.args.fronts})
         for ratio in self.args.ratios:
             base = None
             for window, cells in windows.items():
                 result = self.result(path, field, ratio, stream, cells)
                 base = base or result
-                result["to_core"] = {k: max(result[k], compare.FLOOR) / max(base[k], compare.FLOOR)
-                                     for k in compare.ERRORS}
+                result["to_core"] = compare.quotients(result, base)
                 yield {"mesh": name, "field": field, "ratio": ratio, "window": window, **result}
 
 
@@ -87,18 +75,15 @@ def print_means(results):
 
 def main():
     args = arguments()
-    rows = [row.rsplit(":", 1) for row in args.rows] if args.rows else harness.ROWS
     windows = Windows(args)
     harness.print_head(HEAD)
     results = []
-    for name, field in rows:
+    for name, field in args.rows:
         for result in windows.row(name, field):
             results.append(result)
             harness.print_row(cells_of(result))
     print_means(results)
-    if args.json:
-        with open(args.json, "w", encoding="utf-8") as file:
-            json.dump(results, file, indent=1)
+    compare.save(args.json, results)
 
 
 if __name__ == "__main__":

@@ -4,9 +4,11 @@ Real meshes come from the folder TETSTREAM_MESHES; the independent judge of resu
 the folder TETSTREAM_JUDGE. Both are environment variables; what needs one that is not set is "not
 run": exit code 77.
 """
+import argparse
 import importlib.util
 import json
 import os
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -148,6 +150,43 @@ def bench_path(build, name):
     if not os.path.isfile(path):
         sys.exit(f"there is no program {path}")
     return path
+
+
+def bench_parser(description):
+    """The arguments that every measurement has."""
+    parser = argparse.ArgumentParser(description=description,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", default="build/release", help="the folder of the build")
+    parser.add_argument("options", nargs="*", metavar="-- OPTION", help="more words for simplify")
+    return parser
+
+
+def mesh_and_field(word):
+    """An argument MESH:FIELD; MESH is a name in TETSTREAM_MESHES or a path."""
+    mesh, field = word.rsplit(":", 1)
+    return mesh, field
+
+
+def median_times(runs):
+    """Of runs (wall seconds, processor seconds, peak): medians, and the largest peak."""
+    walls, cpus, peaks = zip(*runs)
+    return {"seconds": statistics.median(walls), "cpu_seconds": statistics.median(cpus),
+            "peak_bytes": max(peaks)}
+
+
+def timed_in_turn(rounds, simplify, decimate=None):
+    """Runs both in turn. Of each: what the last run says, and the times of all; of VTK's filter
+    None without `decimate`."""
+    ours, theirs = [], []
+    run = None
+    for _ in range(rounds):
+        report = simplify()
+        taken = report["measured"]
+        ours.append((taken["wall"], taken["user"] + taken["system"], taken["peak_bytes"]))
+        if decimate:
+            run = decimate()
+            theirs.append((run["seconds"], run["cpu_seconds"], run["measured"]["peak_bytes"]))
+    return report, median_times(ours), run, median_times(theirs) if theirs else None
 
 
 def calibration(build):
