@@ -1,7 +1,8 @@
 #include "tiles.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "median_cut.h"
 
 namespace tetstream {
 
@@ -25,44 +26,13 @@ void Tiles<S>::build() {
     for (int j = 0; j < 4; ++j) free += mesh.isFree(mesh.corners(c)[j]);
     if (free >= 2) cells_[count++] = c;
   }
-  if (count > 0) cut(0, count, cellsPerTile());
-}
-
-template <class S>
-int Tiles<S>::longestSide(size_t begin, size_t end) const {
-  double low[3], high[3];
-  std::fill_n(low, 3, std::numeric_limits<double>::infinity());
-  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
-  for (size_t i = begin; i < end; ++i) {
-    const S* x = core_.window.values(core_.window.mesh.corners(cells_[i])[0]);
-    for (int a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], static_cast<double>(x[a]));
-      high[a] = std::max(high[a], static_cast<double>(x[a]));
-    }
-  }
-  int longest = 0;
-  for (int a = 1; a < 3; ++a)
-    if (high[a] - low[a] > high[longest] - low[longest]) longest = a;
-  return longest;
-}
-
-template <class S>
-void Tiles<S>::cut(size_t begin, size_t end, size_t most) {
-  if (end - begin <= most) {
-    std::sort(cells_.data() + begin, cells_.data() + end);
-    tiles_.push_back({begin, end});
-    return;
-  }
-  const int axis = longestSide(begin, end);
-  const size_t middle = begin + (end - begin) / 2;
-  const auto before = [this, axis](uint32_t a, uint32_t b) {
-    const S xa = core_.window.values(core_.window.mesh.corners(a)[0])[axis];
-    const S xb = core_.window.values(core_.window.mesh.corners(b)[0])[axis];
-    return xa != xb ? xa < xb : a < b;
+  if (count == 0) return;
+  const auto at = [this](uint32_t cell, int axis) {
+    return static_cast<double>(core_.window.values(core_.window.mesh.corners(cell)[0])[axis]);
   };
-  std::nth_element(cells_.data() + begin, cells_.data() + middle, cells_.data() + end, before);
-  cut(begin, middle, most);
-  cut(middle, end, most);
+  medianCut(cells_.data(), 0, count, {0.5, cellsPerTile()}, at, [this](size_t begin, size_t end) {
+    tiles_.push_back({begin, end});
+  });
 }
 
 template class Tiles<float>;

@@ -27,8 +27,6 @@ class Tiles {
 
  private:
   size_t cellsPerTile() const;
-  void cut(size_t begin, size_t end, size_t most);
-  int longestSide(size_t begin, size_t end) const;
 
   Core<S>& core_;
   Array<uint32_t> cells_;

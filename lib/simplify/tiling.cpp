@@ -1,7 +1,8 @@
 #include "tiling.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "median_cut.h"
 
 namespace tetstream {
 
@@ -18,43 +19,15 @@ size_t Tiling<S>::listVertices() {
 }
 
 template <class S>
-int Tiling<S>::longestSide(size_t begin, size_t end) const {
-  S low[3], high[3];
-  std::fill_n(low, 3, std::numeric_limits<S>::infinity());
-  std::fill_n(high, 3, -std::numeric_limits<S>::infinity());
-  for (size_t i = begin; i < end; ++i) {
-    const S* x = core_.window.values(vertices_[i]);
-    for (int a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], x[a]);
-      high[a] = std::max(high[a], x[a]);
-    }
-  }
-  int longest = 0;
-  for (int a = 1; a < 3; ++a)
-    if (high[a] - low[a] > high[longest] - low[longest]) longest = a;
-  return longest;
-}
-
-template <class S>
-void Tiling<S>::cut(size_t begin, size_t end, unsigned round) {
-  uint32_t* const list = vertices_.data();
-  if (end - begin <= static_cast<size_t>(tileVertices(core_.options))) {
-    std::sort(list + begin, list + end);
-    const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
-    for (size_t i = begin; i < end; ++i) core_.window.scratch()[list[i]] = tile;
-    tiles_.push_back({begin, end, 0, 0, 0});
-    return;
-  }
+void Tiling<S>::cut(size_t count, unsigned round) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
-  const int axis = longestSide(begin, end);
-  const auto middle =
-      begin + static_cast<size_t>(kShare[round % 3] * static_cast<double>(end - begin));
-  std::nth_element(list + begin, list + middle, list + end, [this, axis](uint32_t a, uint32_t b) {
-    const S x = core_.window.values(a)[axis], y = core_.window.values(b)[axis];
-    return x != y ? x < y : a < b;
+  const CutRule rule{kShare[round % 3], static_cast<size_t>(tileVertices(core_.options))};
+  const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
+  medianCut(vertices_.data(), 0, count, rule, at, [this](size_t begin, size_t end) {
+    const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
+    for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = tile;
+    tiles_.push_back({begin, end, 0, 0, 0});
   });
-  cut(begin, middle, round);
-  cut(middle, end, round);
 }
 
 // The tiles that own a vertex of the cell, each once.
@@ -130,7 +103,7 @@ void Tiling<S>::build(unsigned round) {
   const size_t count = listVertices();
   std::fill_n(core_.window.scratch(), core_.window.mesh.vertexEnd(), 0u);
   if (count == 0) return;
-  cut(0, count, round);
+  cut(count, round);
   listCells();
   colour();
 }

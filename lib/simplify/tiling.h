@@ -29,8 +29,7 @@ class Tiling {
 
  private:
   size_t listVertices();
-  void cut(size_t begin, size_t end, unsigned round);
-  int longestSide(size_t begin, size_t end) const;
+  void cut(size_t count, unsigned round);
   void listCells();
   size_t tilesOf(uint32_t cell, uint32_t tiles[4]) const;
   void meet(uint32_t a, uint32_t b);
