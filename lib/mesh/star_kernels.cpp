@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "processor.h"
 #include "star_kernels.inl"
 #include "star_kernels_v3.h"
 
 namespace tetstream {
 
 #ifdef TETSTREAM_V3_KERNELS
-static const bool has_v3 =
-    __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("bmi2") != 0;
+static const bool has_v3 = processorHasV3();
 #define TETSTREAM_BEST(kernel, ...) (has_v3 ? v3::kernel(__VA_ARGS__) : kernel##Of(__VA_ARGS__))
 #else
 #define TETSTREAM_BEST(kernel, ...) kernel##Of(__VA_ARGS__)

@@ -1,25 +1,22 @@
+// quadric: the choice between the builds of the kernels. Depends on processor.h.
 #include "kernels.h"
 
 #include "kernel_builds.h"
+#include "processor.h"
 
 namespace tetstream {
 
-static bool hasV3() {
-#ifdef TETSTREAM_V3_KERNELS
-  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2");
-#else
-  return false;
-#endif
-}
-
 const char* kernelBuild() {
-  return hasV3() ? "x86-64-v3" : "plain";
+#ifdef TETSTREAM_V3_KERNELS
+  if (processorHasV3()) return "x86-64-v3";
+#endif
+  return "plain";
 }
 
 template <>
 const QuadricKernels<float>& quadricKernels<float>(int n) {
 #ifdef TETSTREAM_V3_KERNELS
-  if (hasV3()) return v3KernelsFloat(n);
+  if (processorHasV3()) return v3KernelsFloat(n);
 #endif
   return plainKernelsFloat(n);
 }
@@ -27,7 +24,7 @@ const QuadricKernels<float>& quadricKernels<float>(int n) {
 template <>
 const QuadricKernels<double>& quadricKernels<double>(int n) {
 #ifdef TETSTREAM_V3_KERNELS
-  if (hasV3()) return v3KernelsDouble(n);
+  if (processorHasV3()) return v3KernelsDouble(n);
 #endif
   return plainKernelsDouble(n);
 }
