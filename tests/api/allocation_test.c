@@ -3,8 +3,7 @@
  * glibc's, and so counts what the library and its C++ run time take and give back. */
 #include <stdlib.h>
 
-#include "check.h"
-#include "hostile.h"
+#include "rig.h"
 
 #define NOT_RUN 77
 
@@ -262,13 +261,7 @@ static void fails_cleanly_wherever_memory_ends(const char* name, small_run run) 
 }
 
 static void make_bytes(int i, tetstream_writer** writer) {
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
-  tetstream_reader* reader = NULL;
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  tetstream_reader* reader = arrays_of(mesh);
   CHECK_EQUAL(tetstream_writer_create_memory(names[i], writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_convert(reader, *writer, NULL, NULL, NULL), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_writer_get_memory(*writer, &bytes[i], &sizes[i]), TETSTREAM_OK);

@@ -13,51 +13,11 @@
 #include <string>
 #include <vector>
 
+#include "pipes.h"
 #include "registry.h"
 #include "status.h"
 
 namespace tetstream::test {
-
-using Bytes = std::vector<unsigned char>;
-
-// Gives a few bytes at a time and cannot seek.
-class PipeSource final : public ByteSource {
- public:
-  PipeSource(const Bytes& data, size_t step, const std::string& name)
-      : ByteSource(name), data_(data), step_(step) {}
-  size_t read(void* out, size_t size) override {
-    const size_t got = std::min({size, step_, data_.size() - place_});
-    std::copy_n(data_.begin() + static_cast<std::ptrdiff_t>(place_), got,
-                static_cast<unsigned char*>(out));
-    place_ += got;
-    return got;
-  }
-  size_t readAt(uint64_t, void*, size_t) override {
-    ADD_FAILURE() << "a pipe was asked to seek";
-    return 0;
-  }
-  bool seekable() const override { return false; }
-  uint64_t size() const override { return 0; }
-
- private:
-  const Bytes& data_;
-  size_t step_, place_ = 0;
-};
-
-class PipeSink final : public ByteSink {
- public:
-  explicit PipeSink(Bytes& out) : ByteSink("pipe"), out_(out) { out_.clear(); }
-  void write(const void* data, size_t size) override {
-    const unsigned char* bytes = static_cast<const unsigned char*>(data);
-    out_.insert(out_.end(), bytes, bytes + size);
-  }
-  void writeAt(uint64_t, const void*, size_t) override { ADD_FAILURE() << "a pipe cannot seek"; }
-  bool seekable() const override { return false; }
-  void commit() override {}
-
- private:
-  Bytes& out_;
-};
 
 // A mesh and its stream. Columns are one vector per field or cell array, all values as double.
 struct Event {
@@ -325,6 +285,19 @@ inline std::vector<std::vector<double>> sortedCells(const SvMesh& m) {
   }
   std::sort(rows.begin(), rows.end());
   return rows;
+}
+
+// However the pipe cuts the bytes, the mesh comes back.
+inline void expectSameThroughPipes(Open open, Create create, const SvMesh& m,
+                                   std::initializer_list<size_t> steps) {
+  for (bool post_order : {false, true}) {
+    const Bytes data = writeBytes(create, m, post_order);
+    for (size_t step : steps) {
+      const SvMesh r = readPipe(open, data, step);
+      EXPECT_EQ(r.positions, m.positions);
+      EXPECT_EQ(sortedCells(r), sortedCells(m));
+    }
+  }
 }
 
 // Every truncation and every flipped bit: an Error that names the file and says more, or a mesh

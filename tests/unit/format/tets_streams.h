@@ -8,48 +8,12 @@
 #include <map>
 
 #include "meshes.h"
+#include "pipes.h"
 #include "registry.h"
 #include "status.h"
 #include "tets_layout.h"
 
 namespace tetstream::test {
-
-using Bytes = std::vector<unsigned char>;
-
-// A byte source that cannot seek and gives odd numbers of bytes.
-class PipeSource final : public ByteSource {
- public:
-  explicit PipeSource(const Bytes& bytes) : ByteSource("pipe"), bytes_(bytes) {}
-  size_t read(void* out, size_t size) override {
-    turn_ = turn_ % 97 + 1;
-    const size_t got = std::min({size, bytes_.size() - at_, turn_ * 7});
-    if (got) std::memcpy(out, bytes_.data() + at_, got);
-    at_ += got;
-    return got;
-  }
-  size_t readAt(uint64_t, void*, size_t) override { fail(Status::kInternal, "no seeking here"); }
-  bool seekable() const override { return false; }
-  uint64_t size() const override { fail(Status::kInternal, "no size here"); }
-
- private:
-  const Bytes& bytes_;
-  size_t at_ = 0, turn_ = 0;
-};
-
-class PipeSink final : public ByteSink {
- public:
-  explicit PipeSink(Bytes& out) : ByteSink("pipe"), out_(out) { out_.clear(); }
-  void write(const void* data, size_t size) override {
-    const unsigned char* bytes = static_cast<const unsigned char*>(data);
-    out_.insert(out_.end(), bytes, bytes + size);
-  }
-  void writeAt(uint64_t, const void*, size_t) override { fail(Status::kInternal, "no seeking"); }
-  bool seekable() const override { return false; }
-  void commit() override {}
-
- private:
-  Bytes& out_;
-};
 
 // What a stream says, without regard to batches: the events with their places.
 struct Events {
@@ -220,7 +184,7 @@ inline Events read(const Bytes& bytes, Schema* schema = nullptr) {
 }
 
 inline Events readPiped(const Bytes& bytes, Schema* schema = nullptr) {
-  return readFrom(std::make_unique<PipeSource>(bytes), schema);
+  return readFrom(std::make_unique<PipeSource>(bytes, 0), schema);
 }
 
 // The sentence with which reading fails; its status, too.

@@ -448,7 +448,7 @@ TEST(Tets, CanBeReadAgainWhereBytesCan) {
     ASSERT_EQ(::lseek(::fileno(file), 0, SEEK_SET), 0);
     expectReadAgain(openDescriptor(::fileno(file), "file"), events);
     std::fclose(file);
-    const Input piped = openTets(std::make_unique<PipeSource>(bytes), {});
+    const Input piped = openTets(std::make_unique<PipeSource>(bytes, 0), {});
     EXPECT_EQ(piped.stream->again(), nullptr);
   }
 }

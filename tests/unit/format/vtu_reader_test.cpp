@@ -7,6 +7,7 @@
 #include <random>
 
 #include "meshes.h"
+#include "pipes.h"
 #include "status.h"
 #include "vtu_encode.h"
 #include "vtu_read.h"
@@ -242,27 +243,10 @@ TEST(VtuReader, ReadsFilesWithoutCellsOrPoints) {
   }
 }
 
-// A source that gives three bytes at a time and cannot seek, as a pipe.
-class Drip final : public ByteSource {
- public:
-  explicit Drip(const std::string& bytes) : ByteSource("drip"), bytes_(bytes) {}
-  size_t read(void* out, size_t size) override {
-    const size_t n = bytes_.copy(static_cast<char*>(out), std::min<size_t>(size, 3), place_);
-    place_ += n;
-    return n;
-  }
-  size_t readAt(uint64_t, void*, size_t) override { fail(Status::kInternal, "a pipe was sought"); }
-  bool seekable() const override { return false; }
-  uint64_t size() const override { return 0; }
-
- private:
-  const std::string& bytes_;
-  size_t place_ = 0;
-};
-
 TEST(VtuReader, SpoolsAPipe) {
   const std::string file = makeVtu({twoCellPiece()}, {VtuCoding::kAppendedRaw, true});
-  const Input input = openVtu(std::make_unique<Drip>(file), {});
+  const Bytes bytes(file.begin(), file.end());
+  const Input input = openVtu(std::make_unique<PipeSource>(bytes, 3), {});
   int64_t cells[8];
   input.indexed->readCells(0, 2, cells);
   EXPECT_EQ(cells[7], 4);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "meshes.h"
+#include "pipes.h"
 #include "status.h"
 #include "vtu_read.h"
 
@@ -67,33 +68,15 @@ struct Written {
   }
 };
 
-// Bytes in memory, but not to be written at an offset: a pipe.
-class PipeSink final : public ByteSink {
- public:
-  PipeSink(std::string& out, int& commits) : ByteSink("pipe"), out_(out), commits_(commits) {}
-  void write(const void* data, size_t size) override {
-    out_.append(static_cast<const char*>(data), size);
-  }
-  void writeAt(uint64_t, const void*, size_t) override {
-    fail(Status::kInternal, "a pipe was sought");
-  }
-  bool seekable() const override { return false; }
-  void commit() override { ++commits_; }
-
- private:
-  std::string& out_;
-  int& commits_;
-};
-
 std::string writeWith(Written& mesh, size_t step, bool compress) {
-  std::string file;
+  Bytes file;
   int commits = 0;
   WriteOptions options;
   options.compress = compress;
-  const std::unique_ptr<Sink> sink = createVtu(std::make_unique<PipeSink>(file, commits), options);
+  const std::unique_ptr<Sink> sink = createVtu(std::make_unique<PipeSink>(file, &commits), options);
   mesh.write(*sink, step);
   EXPECT_EQ(commits, 1);
-  return file;
+  return std::string(file.begin(), file.end());
 }
 
 TEST(VtuWriter, GivesBackEveryArrayBitForBit) {
@@ -183,10 +166,10 @@ TEST(VtuWriter, SaysOnceWhatItDrops) {
 }
 
 TEST(VtuWriter, CommitsNothingUnlessItFinishes) {
-  std::string file;
+  Bytes file;
   int commits = 0;
   {
-    const std::unique_ptr<Sink> sink = createVtu(std::make_unique<PipeSink>(file, commits), {});
+    const std::unique_ptr<Sink> sink = createVtu(std::make_unique<PipeSink>(file, &commits), {});
     sink->begin(Schema());
   }
   EXPECT_EQ(commits, 0);
