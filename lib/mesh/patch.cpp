@@ -97,14 +97,15 @@ void Patch<S>::listStars() {
 template <class S>
 void Patch<S>::forget() {
   for (uint32_t v = 0; v < vertices_; ++v) local_of_[global_vertex_[v]] = kGoneCorner;
+  vertices_ = cells_ = 0;
 }
 
 template <class S>
 bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
                     size_t cell_count) {
   if (cell_count > kMostCells || owned_count > kMostVertices) return false;
+  forget();
   sizeFor(owned_count, cell_count);
-  vertices_ = cells_ = 0;
   for (size_t i = 0; i < owned_count; ++i) {
     loadVertex(owned[i]);
     std::copy_n(window_.quadric(owned[i]), quadric_stride_, quadric(static_cast<uint32_t>(i)));
@@ -144,7 +145,6 @@ void Patch<S>::store() {
     std::copy_n(values(v), value_stride_, window_.values(slot));
     std::copy_n(quadric(v), quadric_stride_, window_.quadric(slot));
   }
-  forget();
 }
 
 template <class S>

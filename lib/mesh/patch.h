@@ -24,7 +24,7 @@ class Patch {
   // `cells`: at least all live cells that touch an owned vertex; dead ones are passed over. False
   // if the piece is too large: nothing is loaded then.
   bool load(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count);
-  // Puts what was changed into the window.
+  // Puts what was changed into the window. The patch can still be looked at, until the next load.
   void store();
 
   uint32_t ownedEnd() const { return owned_; }
@@ -36,6 +36,8 @@ class Patch {
 
   bool isFree(uint32_t v) const { return v < owned_ && !(flags_[v] & kCollapsed); }
   bool isBoundary(uint32_t v) const { return flags_[v] & kBoundary; }
+  // Owned by another patch: on a seam.
+  bool isFreeElsewhere(uint32_t v) const { return v >= owned_ && isFreeVertex(flags_[v]); }
 
   // Values of all vertices, quadrics of the owned ones.
   S* values(uint32_t v) { return &values_[v * value_stride_]; }

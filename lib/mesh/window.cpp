@@ -7,9 +7,9 @@ namespace tetstream {
 template <class S>
 void Window<S>::sizeVertices() {
   const size_t n = mesh.vertexCapacity();
-  // note: one number more: positions are read four numbers at a time.
-  values_.resize(checkedMultiply(n, static_cast<size_t>(shape_.values)) + 1);
-  quadrics_.resize(checkedMultiply(n, static_cast<size_t>(shape_.quadric)));
+  // note: three numbers more: rows are read four numbers at a time.
+  values_.resize(checkedMultiply(n, static_cast<size_t>(shape_.values)) + 3);
+  quadrics_.resize(checkedMultiply(n, static_cast<size_t>(shape_.quadric)) + 3);
   picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.picks)));
   out_rank_.resize(n);
   remap_.resize(n);

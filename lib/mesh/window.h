@@ -58,6 +58,7 @@ class Window {
   bool isFree(uint32_t v) const { return mesh.isFree(v); }
   bool isBoundary(uint32_t v) const { return mesh.vertexFlags(v) & kBoundary; }
   const S* allValues() const { return values_.data(); }
+  const S* allQuadrics() const { return quadrics_.data(); }
   const uint8_t* allFlags() const { return mesh.allVertexFlags(); }
   int valueStride() const { return shape_.values; }
   uint32_t slotOf(uint32_t v) const { return v; }

@@ -15,6 +15,8 @@ constexpr double kTrust = 0.2;
 // Share of the cells to come that the bound leaves for the end: what is simplified too far cannot
 // be brought back.
 constexpr double kReserve = 0.02;
+// A window that had to pass its bound to make room shows where the next one will end, too.
+constexpr double kAgain = 0.8;
 // With a bound on the error the first window makes this share of what it allows.
 constexpr double kFirstError = 0.7, kBackOff = 0.6;
 // Share of a correction that is made at once, and the largest step.
@@ -93,6 +95,7 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
   if (target_.error > 0) goal.most_error = 0;
   if (bound_ > 0) {
     goal.first_bound = nextBound(ledger);
+    if (forced_) goal.first_bound = std::max(goal.first_bound, kAgain * bound_);
   } else if (pilot_.known()) {
     goal.first_bound = pilot_bound_ = pilot_.bound / ledger.error_unit;
   } else {
@@ -102,6 +105,7 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
     goal.cells = std::min(goal.cells, ledger.front + static_cast<int64_t>(kept));
     if (target_.error > 0) goal.most_error = kFirstError * ledger.error_limit;
   }
+  first_bound_ = goal.first_bound;
   return goal;
 }
 
@@ -114,6 +118,7 @@ Goal CommonBound::lastGoal(const Ledger& ledger) {
 
 void CommonBound::learn(double bound, const Ledger& before, const Ledger& after, int64_t written) {
   bound_ = bound;
+  forced_ = first_bound_ > 0 && bound > first_bound_;
   written_ = static_cast<double>(after.written + written);
   kept_ = static_cast<double>(after.live - after.front - written);
   limit_met_ = after.error_met;

@@ -56,6 +56,16 @@ class Choices {
     of_[v] = c;
     update(v);
   }
+  // Of the edges of v only this is known; all of them are added where that is not enough.
+  void know(uint32_t v, float least, bool refused) {
+    of_[v].passed_over = least;
+    of_[v].also_refused = refused ? 0 : kInfinite;
+    update(v);
+  }
+  // Whether edges of v were refused, and not offered again.
+  bool hasRefused(uint32_t v) const {
+    return of_[v].also_refused < kInfinite || errorOf(of_[v].refused) < kInfinite;
+  }
   // One edge more, at both its ends.
   void add(uint32_t v, uint32_t w, float error) {
     offer(of_[v], keyOf(error, w));

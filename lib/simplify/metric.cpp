@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "orient.h"
+#include "settled.h"
 
 namespace tetstream {
 
@@ -153,6 +154,7 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
     for (size_t i = 0; i < factor.size(); ++i)
       for (size_t j = 0; j <= i; ++j) *a++ *= weight * (factor[i] * factor[j]);
     *a *= weight;
+    if (!(core_.window.mesh.vertexFlags(v) & kWritten)) unsettle(core_.window, v);
   }
   core_.error *= static_cast<double>(weight);
   core_.rescaled *= static_cast<double>(weight);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "settled.h"
+
 namespace tetstream {
 
 static uint64_t mix(uint64_t x) {
@@ -120,6 +122,7 @@ int64_t Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
       ++core_.locked.interfaces;
     }
     if (window.outRank(v) == 0) mesh.flagVertex(v, kResolved);
+    unsettle(window, v);
   }
   std::fill_n(window.scratch(), mesh.vertexEnd(), 0u);
   for (size_t done = 0; done < open;) {

@@ -1,21 +1,26 @@
 // simplify: patches swept at rising bounds. See select.h.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "choices.h"
 #include "select.h"
+#include "settled.h"
 #include "tiling.h"
 
 namespace tetstream {
 namespace {
 
-constexpr uint32_t kAlways = 0xffffffffu;  // a mark above all others
+constexpr uint32_t kAlways = 0xffffffffu, kAtSeam = kAlways - 1;  // marks above all others
 // Within a patch edges are taken at bounds rising to the pass's, nearly in order of their error.
 constexpr float kFirstLevel = 1.0f / 256, kLevelStep = 2;
-// From pass to pass: errors rise with the number of cells n as n^(-7/3), in space, for a field
-// followed by linear interpolation; the last steps are small.
-constexpr double kLeastStep = 1.15, kLargestStep = 16;
+// From pass to pass; larger steps make the tiles uneven, smaller ones take time.
+constexpr double kLeastStep = 1.15, kLargestStep = 4;
+// Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
+// of what is learnt from a pass for the next.
+constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
+constexpr int64_t kSlackShare = 50;
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
 template <class S>
@@ -31,6 +36,8 @@ class SweepSelector final : public Selector {
         errors_(account),
         neighbours_(account),
         seen_(account),
+        looks_(account),
+        changed_(account),
         z_(static_cast<size_t>(core.plan.dimension)) {}
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
@@ -47,13 +54,18 @@ class SweepSelector final : public Selector {
   double bound() const override { return bound_; }
 
  private:
-  bool reached() const { return core_.window.liveCells() <= goal_.cells; }
-  // The last goal is met exactly, and no goal undercut.
+  // The last goal is met exactly; for others another pass must be worth its time.
+  bool reached() const {
+    const int64_t slack = goal_.last ? 0 : (goal_.cells - goal_.fixed) / kSlackShare;
+    return core_.window.liveCells() <= goal_.cells + slack;
+  }
+  // No goal is undercut.
   bool mustStop(int64_t live) const {
     return (goal_.last && live <= goal_.cells) || live <= goal_.least_cells || core_.error_reached;
   }
   void sweep(const std::function<void()>& tick);
-  double stepFor() const;
+  double stepFor(double bound, double yield);
+  double boundToTake(double cells, double yield);
   double sampledBound();
   bool pass(float bound, const std::function<void()>& tick);
   template <class Work>
@@ -62,7 +74,10 @@ class SweepSelector final : public Selector {
   void tryEverything(const std::function<void()>& tick);
 
   bool sweepPatch(float bound);
-  void evaluateAll();
+  void evaluateAll(float bound);
+  void settleAll();
+  void findSeams();
+  float leastAcrossSeam(uint32_t v);
   void addEdges(uint32_t v);
   float sweepLevel(float level);
   void collapseFrom(uint32_t v, float level);
@@ -78,6 +93,7 @@ class SweepSelector final : public Selector {
   Choices choices_;
   Array<S> errors_;
   Array<uint32_t> neighbours_, seen_;  // seen_: per vertex, the mark_ of its last listing
+  Array<uint8_t> looks_, changed_;     // owned vertices: at all its edges; merged with another
   std::vector<S> z_;
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
@@ -88,21 +104,43 @@ class SweepSelector final : public Selector {
 
 template <class S>
 void SweepSelector<S>::sweep(const std::function<void()>& tick) {
-  double bound = goal_.first_bound;
-  for (bool more = !mustStop(core_.window.liveCells()); more; bound *= stepFor()) {
-    tiling_.build(round_++);
+  double bound = goal_.first_bound, yield = kFirstYield;
+  bool first = true;
+  for (bool more = !mustStop(core_.window.liveCells()); more; bound *= stepFor(bound, yield)) {
+    const auto largest = static_cast<float>(std::min(bound, kLargestBound));
+    tiling_.build(round_++, bound > 0 ? largest : std::numeric_limits<float>::infinity());
     if (!(bound > 0)) bound = sampledBound();
-    more = pass(static_cast<float>(std::min(bound, kLargestBound)), tick) && !reached() &&
-           core_.error < goal_.most_error;
+    const auto before = core_.window.liveCells();
+    more = pass(static_cast<float>(std::min(bound, kLargestBound)), tick) || tiling_.othersWait();
+    if (!first && tiling_.looking() > 0)
+      yield = std::clamp(static_cast<double>(before - core_.window.liveCells()) /
+                             static_cast<double>(tiling_.looking()),
+                         kLeastYield, kLargestYield);
+    first = false;
+    more = more && !reached() && core_.error < goal_.most_error;
     bound_ = bound;
   }
 }
 
+// The bound below which there are so many edges that a pass should take these cells.
 template <class S>
-double SweepSelector<S>::stepFor() const {
-  const auto live = static_cast<double>(core_.window.liveCells() - goal_.fixed);
-  const auto wanted = static_cast<double>(std::max<int64_t>(goal_.cells - goal_.fixed, 1));
-  const double by_count = std::pow(std::max(live, 1.0) / wanted, 7.0 / 3);
+double SweepSelector<S>::boundToTake(double cells, double yield) {
+  uint32_t* const leasts = core_.window.scratch();
+  size_t count = 0;
+  for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v) {
+    if (!core_.window.isFree(v)) continue;
+    leasts[count++] = std::bit_cast<uint32_t>(settledOf(core_.window, v).least);
+  }
+  const auto place = static_cast<size_t>(cells / yield);
+  if (place >= count) return std::numeric_limits<double>::infinity();
+  std::nth_element(leasts, leasts + place, leasts + count);  // bits order as the errors do
+  return static_cast<double>(std::bit_cast<float>(leasts[place]));
+}
+
+template <class S>
+double SweepSelector<S>::stepFor(double bound, double yield) {
+  const auto cells = static_cast<double>(core_.window.liveCells() - goal_.cells);
+  const double by_count = boundToTake(std::max(cells, 0.0), yield) / bound;
   // The squared error rises as n^(-4/3).
   const double by_error =
       core_.error > 0
@@ -118,7 +156,6 @@ void SweepSelector<S>::onPatch(const uint32_t* owned, size_t owned_count, const 
                                size_t cell_count, Work work) {
   if (patch_.load(owned, owned_count, cells, cell_count)) {
     work();
-    patch_.store();
     return;
   }
   if (owned_count == 1) return;  // a star of that size is left alone
@@ -133,7 +170,11 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   bool more = false;
   for (const TilePiece& tile : tiling_.tiles()) {
     onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
-            tile.cell_end - tile.cell_begin, [&] { more = sweepPatch(bound) || more; });
+            tile.cell_end - tile.cell_begin, [&] {
+              more = sweepPatch(bound) || more;
+              patch_.store();
+              settleAll();
+            });
     tick();
     if (mustStop(core_.window.liveCells())) return false;
   }
@@ -148,7 +189,7 @@ double SweepSelector<S>::sampledBound() {
     const TilePiece& tile = tiling_.tiles()[i];
     onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
             tile.cell_end - tile.cell_begin, [&] {
-              evaluateAll();
+              evaluateAll(std::numeric_limits<float>::infinity());
               for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
                 if (std::isfinite(choices_.least(v))) errors.push_back(choices_.least(v));
             });
@@ -166,10 +207,13 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
   int64_t live;
   do {
     live = core_.window.liveCells();
-    tiling_.build(round_++);
+    tiling_.build(round_++, std::numeric_limits<float>::infinity());
     for (const TilePiece& tile : tiling_.tiles()) {
       onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
-              tile.cell_end - tile.cell_begin, [&] { exhaustive_->decimate(goal_, tick); });
+              tile.cell_end - tile.cell_begin, [&] {
+                exhaustive_->decimate(goal_, tick);
+                patch_.store();
+              });
       if (mustStop(core_.window.liveCells())) return;
     }
   } while (core_.window.liveCells() < live);
@@ -196,14 +240,14 @@ void SweepSelector<S>::measureNeighbours(uint32_t u) {
                            core_.scale.data(), core_.plan.dimension, errors_.data());
 }
 
-// v's edges to later vertices, for both ends.
+// v's edges to later vertices, and to those that do not look at theirs, for both ends.
 template <class S>
 void SweepSelector<S>::addEdges(uint32_t v) {
   listNeighbours(v);
   size_t later = 0;
   for (size_t i = 0; i < count_; ++i) {
     neighbours_[later] = neighbours_[i];
-    later += neighbours_[i] > v;
+    later += neighbours_[i] > v || !looks_[neighbours_[i]];
   }
   count_ = later;
   measureNeighbours(v);
@@ -212,15 +256,26 @@ void SweepSelector<S>::addEdges(uint32_t v) {
 }
 
 template <class S>
-void SweepSelector<S>::evaluateAll() {
+void SweepSelector<S>::evaluateAll(float bound) {
   choices_.reset(patch_.ownedEnd());
+  if (looks_.size() < patch_.ownedEnd()) {
+    looks_.resize(patch_.ownedEnd() + 1024);
+    changed_.resize(looks_.size());
+  }
+  for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
+    const Settled s = settledOf(core_.window, patch_.slotOf(v));
+    looks_[v] = s.least <= bound;
+    changed_[v] = 0;
+    if (!looks_[v]) choices_.know(v, s.least, s.refused);
+  }
   // The rim and what dead cells hold count as seen, always.
   if (seen_.size() == 0) seen_.resize(size_t{kGoneCorner} + 1);
   std::fill_n(seen_.data(), patch_.ownedEnd(), 0u);
   std::fill(seen_.data() + patch_.ownedEnd(), seen_.data() + patch_.vertexEnd(), kAlways);
   seen_[kGoneCorner] = kAlways;
   mark_ = 0;
-  for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) addEdges(v);
+  for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
+    if (looks_[v]) addEdges(v);
 }
 
 // The merged vertex measures its edges and tells its neighbours.
@@ -228,6 +283,7 @@ template <class S>
 void SweepSelector<S>::pushAfter(uint32_t u, uint32_t gone) {
   listNeighbours(u);
   measureNeighbours(u);
+  changed_[u] = 1;
   choices_.forget(gone);
   choices_.forget(u);
   choices_.relist(u, errors_.data(), neighbours_.data(), count_);
@@ -275,7 +331,7 @@ float SweepSelector<S>::sweepLevel(float level) {
 
 template <class S>
 bool SweepSelector<S>::sweepPatch(float bound) {
-  evaluateAll();
+  evaluateAll(bound);
   float level = bound * kFirstLevel, least;
   for (;;) {
     choices_.reconsider();
@@ -285,6 +341,56 @@ bool SweepSelector<S>::sweepPatch(float bound) {
     level = std::min(std::max(level * kLevelStep, least), bound);
   }
   return least < std::numeric_limits<float>::infinity();
+}
+
+// The least error of v's edges to vertices of other patches. Those that had refused edges must
+// look at them again if v changed.
+template <class S>
+float SweepSelector<S>::leastAcrossSeam(uint32_t v) {
+  listNeighbours(v);
+  Window<S>& window = core_.window;
+  for (size_t i = 0; i < count_; ++i) {
+    neighbours_[i] = patch_.slotOf(neighbours_[i]);
+    if (changed_[v] && settledOf(window, neighbours_[i]).refused) unsettle(window, neighbours_[i]);
+  }
+  if (errors_.size() < count_) errors_.resize(neighbours_.size());
+  const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
+                                window.shape().values};
+  core_.kernels.edgeErrors(table, patch_.slotOf(v), neighbours_.data(), static_cast<int>(count_),
+                           core_.scale.data(), core_.plan.dimension, errors_.data());
+  S least = std::numeric_limits<S>::infinity();
+  for (size_t i = 0; i < count_; ++i) least = errors_[i] < least ? errors_[i] : least;  // no NaN
+  return static_cast<float>(least);
+}
+
+// Seen, from now on, are all but the free vertices of other patches; those of this one that share a
+// cell with such a vertex are marked.
+template <class S>
+void SweepSelector<S>::findSeams() {
+  std::fill_n(seen_.data(), patch_.ownedEnd(), kAlways);
+  for (uint32_t x = patch_.ownedEnd(); x < patch_.vertexEnd(); ++x)
+    if (patch_.isFreeElsewhere(x)) seen_[x] = 0;
+  for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
+    bool at_seam = false;
+    for (uint32_t j = 0; j < 4; ++j) at_seam |= seen_[patch_.vertexOf(c, j)] == 0;
+    if (!at_seam) continue;
+    for (uint32_t j = 0; j < 4; ++j)
+      if (patch_.vertexOf(c, j) < patch_.ownedEnd()) seen_[patch_.vertexOf(c, j)] = kAtSeam;
+  }
+}
+
+// What is known now is kept for the next sweep, in the window.
+template <class S>
+void SweepSelector<S>::settleAll() {
+  choices_.reconsider();
+  findSeams();
+  for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
+    if (!patch_.isFree(v)) continue;
+    float least = choices_.least(v);
+    if (seen_[v] == kAtSeam && (looks_[v] || changed_[v]))
+      least = std::min(least, leastAcrossSeam(v));
+    settle(core_.window, patch_.slotOf(v), {least, choices_.hasRefused(v)});
+  }
 }
 
 }  // namespace

@@ -3,17 +3,42 @@
 #include <algorithm>
 
 #include "median_cut.h"
+#include "settled.h"
 
 namespace tetstream {
+
+// In scratch: 1 for a vertex with an edge to be looked at, 2 for its neighbours.
+template <class S>
+void Tiling<S>::markVertices(float bound) {
+  const Topology& mesh = core_.window.mesh;
+  uint32_t* const mark = core_.window.scratch();
+  others_wait_ = false;
+  looking_ = 0;
+  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
+    const float least = settledOf(core_.window, v).least;
+    const bool free = mesh.isFree(v);
+    mark[v] = free && least <= bound;
+    looking_ += mark[v];
+    others_wait_ |= free && least > bound && least < std::numeric_limits<float>::infinity();
+  }
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    const uint32_t* v = mesh.corners(c);
+    if (((mark[v[0]] | mark[v[1]] | mark[v[2]] | mark[v[3]]) & 1) == 0) continue;
+    for (int j = 0; j < 4; ++j) mark[v[j]] |= 2;
+  }
+}
 
 template <class S>
 size_t Tiling<S>::listVertices() {
   const Topology& mesh = core_.window.mesh;
+  uint32_t* const mark = core_.window.scratch();
   if (vertices_.size() < mesh.vertexEnd()) vertices_.resize(mesh.vertexCapacity());
   size_t count = 0;
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     vertices_[count] = v;
-    count += mesh.isFree(v);
+    count += mark[v] != 0 && mesh.isFree(v);
+    mark[v] = 0;
   }
   return count;
 }
@@ -98,10 +123,10 @@ void Tiling<S>::colour() {
 }
 
 template <class S>
-void Tiling<S>::build(unsigned round) {
+void Tiling<S>::build(unsigned round, float bound) {
   tiles_.clear();
+  markVertices(bound);
   const size_t count = listVertices();
-  std::fill_n(core_.window.scratch(), core_.window.mesh.vertexEnd(), 0u);
   if (count == 0) return;
   cut(count, round);
   listCells();

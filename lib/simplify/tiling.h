@@ -18,16 +18,22 @@ class Tiling {
  public:
   Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account), cells_(account) {}
 
-  // Cuts the free vertices in two along the longest side of their box, again and again, until a
-  // tile's cells and vertices fit the cache. `round` shifts the cuts: what lies on a seam of one
-  // round is inside a tile of another. Tiles come ordered by colour.
-  void build(unsigned round);
+  // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
+  // two along the longest side of their box, again and again, until a tile's cells and vertices fit
+  // the cache. `round` shifts the cuts: what lies on a seam of one round is inside a tile of
+  // another. Tiles come ordered by colour.
+  void build(unsigned round, float bound);
 
+  // Of the vertices listed, those whose edges may have errors up to the bound.
+  int64_t looking() const { return looking_; }
+  // Whether edges of free vertices that were not listed have errors above the bound.
+  bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
   const uint32_t* cells(const TilePiece& t) const { return &cells_[t.cell_begin]; }
 
  private:
+  void markVertices(float bound);
   size_t listVertices();
   void cut(size_t count, unsigned round);
   void listCells();
@@ -38,6 +44,8 @@ class Tiling {
   Core<S>& core_;
   Array<uint32_t> vertices_, cells_;
   std::vector<TilePiece> tiles_;
+  int64_t looking_ = 0;
+  bool others_wait_ = false;
   std::vector<std::vector<uint32_t>> neighbours_;  // of each tile: those with cells in common
 };
 

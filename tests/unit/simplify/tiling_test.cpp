@@ -74,7 +74,7 @@ void expectTilings() {
   }
   Tiling<S> tiling(w.core, w.account);
   for (unsigned round : {0u, 1u, 2u, 3u}) {
-    tiling.build(round);
+    tiling.build(round, std::numeric_limits<float>::infinity());
     EXPECT_GT(tiling.tiles().size(), slowRun() ? 1u : 4u);
     expectTiling(w.core, tiling);
   }
@@ -89,7 +89,7 @@ TEST(Tiling, CutsElsewhereInEachRound) {
   WholeWindow<float> w(fullGrid(side(), side(), side()));
   Tiling<float> tiling(w.core, w.account);
   const auto seam = [&](unsigned round) {
-    tiling.build(round);
+    tiling.build(round, std::numeric_limits<float>::infinity());
     std::vector<int> tiles(w.core.window.cellEnd(), 0);
     for (const TilePiece& t : tiling.tiles())
       for (size_t i = 0; i < t.cell_end - t.cell_begin; ++i) ++tiles[tiling.cells(t)[i]];
@@ -110,7 +110,7 @@ TEST(Tiling, OfNoFreeVerticesIsEmpty) {
   mesh.locked.assign(mesh.vertexCount(), 1);
   WholeWindow<double> w(mesh);
   Tiling<double> tiling(w.core, w.account);
-  tiling.build(0);
+  tiling.build(0, std::numeric_limits<float>::infinity());
   EXPECT_TRUE(tiling.tiles().empty());
 }
 
@@ -121,7 +121,7 @@ TEST(Tiling, CutsWhereAllPlacesAreEqualOrTheirDifferenceOverflows) {
     for (uint32_t v = 0; v < w.core.window.mesh.vertexEnd(); ++v)
       for (int i = 0; i < 3; ++i) w.core.window.values(v)[i] *= size;
     Tiling<double> tiling(w.core, w.account);
-    tiling.build(1);
+    tiling.build(1, std::numeric_limits<float>::infinity());
     expectTiling(w.core, tiling);
   }
 }
