@@ -62,6 +62,12 @@ class Choices {
     of_[v].also_refused = refused ? 0 : kInfinite;
     update(v);
   }
+  // The edges of v are added; of those below `least`, all that are legal are known at their other
+  // ends.
+  void passOver(uint32_t v, float least, bool refused) {
+    of_[v].tried = keyOf(kRounding * least, 0);
+    of_[v].also_refused = refused ? 0 : kInfinite;
+  }
   // Whether edges of v were refused, and not offered again.
   bool hasRefused(uint32_t v) const {
     return of_[v].also_refused < kInfinite || errorOf(of_[v].refused) < kInfinite;
@@ -106,6 +112,7 @@ class Choices {
   }
 
  private:
+  static constexpr float kRounding = 1 - 1e-5f;  // errors seen from the other end
   static constexpr float kInfinite = std::numeric_limits<float>::infinity();
   static constexpr uint64_t kErrorMask = 0xffffffff00000000ull;
   static constexpr uint64_t kNothing = uint64_t{0x7f800000} << 32 | 0xffffffffu;

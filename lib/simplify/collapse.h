@@ -42,6 +42,7 @@ class Collapser {
 
  private:
   Outcome test(uint32_t u, uint32_t v, int64_t least_cells);
+  bool isFarther(uint32_t u, uint32_t v) const;
   double growth(uint32_t u, uint32_t v, S error);
   void placeAt(uint32_t u, uint32_t v, const S* z);
   StarShape shapeFrom(const S* place, const Star& star) const;

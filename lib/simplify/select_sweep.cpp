@@ -266,7 +266,10 @@ void SweepSelector<S>::evaluateAll(float bound) {
     const Settled s = settledOf(core_.window, patch_.slotOf(v));
     looks_[v] = s.least <= bound;
     changed_[v] = 0;
-    if (!looks_[v]) choices_.know(v, s.least, s.refused);
+    if (!looks_[v])
+      choices_.know(v, s.least, s.refused);
+    else if (s.least > 0)
+      choices_.passOver(v, s.least, s.refused);
   }
   // The rim and what dead cells hold count as seen, always.
   if (seen_.size() == 0) seen_.resize(size_t{kGoneCorner} + 1);
