@@ -24,9 +24,9 @@ ThinAngle::ThinAngle(double degrees) {
 }
 
 template <class S>
-StarShape starShape(const double x[3], const S* values, int stride, const StarCell* cells,
-                    size_t count, const ThinAngle& thin) {
-  return TETSTREAM_BEST(starShape, x, values, stride, cells, count, thin);
+StarShape starShape(const double x[3], const S* values, int stride, double scale,
+                    const StarCell* cells, size_t count, const ThinAngle& thin) {
+  return TETSTREAM_BEST(starShape, x, values, stride, scale, cells, count, thin);
 }
 
 StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
@@ -39,9 +39,9 @@ size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t cou
   return TETSTREAM_BEST(listVertices, corners, cells, count, seen, mark, out);
 }
 
-template StarShape starShape(const double[3], const float*, int, const StarCell*, size_t,
+template StarShape starShape(const double[3], const float*, int, double, const StarCell*, size_t,
                              const ThinAngle&);
-template StarShape starShape(const double[3], const double*, int, const StarCell*, size_t,
+template StarShape starShape(const double[3], const double*, int, double, const StarCell*, size_t,
                              const ThinAngle&);
 
 }  // namespace tetstream

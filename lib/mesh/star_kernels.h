@@ -21,13 +21,14 @@ struct StarShape {
 };
 
 // The cells (x, t0, t1, t2) of a star. Coordinates of vertex v: the first three numbers at
-// values + v * stride; four must be readable.
+// values + v * stride; four must be readable. x: of the values' type. With float32 values it is
+// fastest where `scale`, a power of two, brings edges near 1.
 //
 // Angles are only measured where 432 V^2 / (mean squared edge)^3, the cube of the mean ratio, 1 for
 // the regular cell, is small: it is at most 4 sin^2 of the smallest angle.
 template <class S>
-StarShape starShape(const double x[3], const S* values, int stride, const StarCell* cells,
-                    size_t count, const ThinAngle& thin);
+StarShape starShape(const double x[3], const S* values, int stride, double scale,
+                    const StarCell* cells, size_t count, const ThinAngle& thin);
 
 // Cells with 16-bit corners, four to a cell, ordered so that volumes are positive; a dead cell has
 // kGoneCorner in their place.

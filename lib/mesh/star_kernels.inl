@@ -9,94 +9,153 @@
 namespace tetstream {
 namespace {
 
-typedef double Lanes __attribute__((vector_size(32)));
-typedef float FloatLanes __attribute__((vector_size(16)));
-typedef long long LaneMask __attribute__((vector_size(32)));
-constexpr int kLanes = 4;
+// As many cells at a time as a 32-byte vector holds of the values' type. Products that underflow
+// are outside the filter's bound, and squares of determinants must not over- or underflow: beyond
+// these limits of determinants and sums of squared edges the careful path is taken.
+template <class S>
+struct Wide;
+template <>
+struct Wide<double> {
+  typedef double Lanes __attribute__((vector_size(32)));
+  static constexpr size_t kLanes = 4;
+  static constexpr double kBound = kOrientationBound;
+  static constexpr double kLeastDeterminant = 1e-110, kLeastSum = 1e-70, kLargestSum = 1e74;
+};
+template <>
+struct Wide<float> {
+  typedef float Lanes __attribute__((vector_size(32)));
+  static constexpr size_t kLanes = 8;
+  static constexpr float kBound = 8.0f / (1 << 24);  // as kOrientationBound
+  static constexpr float kLeastDeterminant = 1e-30f, kLeastSum = 1e-12f, kLargestSum = 1e12f;
+};
+template <class S>
+using LanesOf = typename Wide<S>::Lanes;
+typedef float Point __attribute__((vector_size(16)));
 
 // (6 V of the regular cell of edge 1)^2 = 1 / 2; the sum of its six squared edges, cubed: 216.
 constexpr double kRegular = 432;
+constexpr double kRounding = 1.001;  // more than what squares and cubes lose in float32
 
-// Products that underflow are outside the filter's bound, and squares of determinants must not
-// over- or underflow: beyond these the careful path is taken.
-constexpr double kLeastDeterminant = 1e-110, kLargestSum = 1e74;
-
-inline Lanes loadPoint(const float* p) {
-  FloatLanes v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return __builtin_convertvector(v, Lanes);
-}
-inline Lanes loadPoint(const double* p) {
-  Lanes v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-inline Lanes magnitude(Lanes v) {
+template <class L>
+inline L magnitude(L v) {
   return v < 0 ? -v : v;
 }
 
-// Coordinate by coordinate, of one corner of four cells, relative to x.
+// Coordinate by coordinate, of one corner of several cells, relative to x.
+template <class L>
 struct Corner {
-  Lanes x, y, z;
+  L x, y, z;
 };
-template <class S>
-inline Corner corner(const S* values, size_t stride, const StarCell* const c[kLanes], int k,
-                     const double x[3]) {
-  const Lanes p0 = loadPoint(values + c[0]->t[k] * stride);
-  const Lanes p1 = loadPoint(values + c[1]->t[k] * stride);
-  const Lanes p2 = loadPoint(values + c[2]->t[k] * stride);
-  const Lanes p3 = loadPoint(values + c[3]->t[k] * stride);
-  const Lanes low01 = __builtin_shufflevector(p0, p1, 0, 4, 2, 6);   // x0 x1 z0 z1
-  const Lanes low23 = __builtin_shufflevector(p2, p3, 0, 4, 2, 6);   // x2 x3 z2 z3
-  const Lanes high01 = __builtin_shufflevector(p0, p1, 1, 5, 3, 7);  // y0 y1 . .
-  const Lanes high23 = __builtin_shufflevector(p2, p3, 1, 5, 3, 7);
+inline LanesOf<double> pointAt(const double* p) {
+  LanesOf<double> v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+inline LanesOf<float> pointsAt(const float* p, const float* q) {
+  Point a, b;
+  __builtin_memcpy(&a, p, sizeof a);
+  __builtin_memcpy(&b, q, sizeof b);
+  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+inline Corner<LanesOf<double>> corner(const double* values, size_t stride, const StarCell* const* c,
+                                      int k, const double x[3]) {
+  const auto p0 = pointAt(values + c[0]->t[k] * stride), p1 = pointAt(values + c[1]->t[k] * stride),
+             p2 = pointAt(values + c[2]->t[k] * stride), p3 = pointAt(values + c[3]->t[k] * stride);
+  const auto low01 = __builtin_shufflevector(p0, p1, 0, 4, 2, 6);   // x0 x1 z0 z1
+  const auto low23 = __builtin_shufflevector(p2, p3, 0, 4, 2, 6);   // x2 x3 z2 z3
+  const auto high01 = __builtin_shufflevector(p0, p1, 1, 5, 3, 7);  // y0 y1 . .
+  const auto high23 = __builtin_shufflevector(p2, p3, 1, 5, 3, 7);
   return {__builtin_shufflevector(low01, low23, 0, 1, 4, 5) - x[0],
           __builtin_shufflevector(high01, high23, 0, 1, 4, 5) - x[1],
           __builtin_shufflevector(low01, low23, 2, 3, 6, 7) - x[2]};
 }
+inline Corner<LanesOf<float>> corner(const float* values, size_t stride, const StarCell* const* c,
+                                     int k, const double x[3]) {
+  const auto at = [&](int i) { return values + c[i]->t[k] * stride; };
+  const auto p0 = pointsAt(at(0), at(4)), p1 = pointsAt(at(1), at(5)), p2 = pointsAt(at(2), at(6)),
+             p3 = pointsAt(at(3), at(7));
+  const auto xy01 = __builtin_shufflevector(p0, p1, 0, 8, 1, 9, 4, 12, 5, 13);  // x0 x1 y0 y1 x4 ..
+  const auto xy23 = __builtin_shufflevector(p2, p3, 0, 8, 1, 9, 4, 12, 5, 13);
+  const auto z01 = __builtin_shufflevector(p0, p1, 2, 10, 3, 11, 6, 14, 7, 15);  // z0 z1 . . z4 ..
+  const auto z23 = __builtin_shufflevector(p2, p3, 2, 10, 3, 11, 6, 14, 7, 15);
+  return {
+      __builtin_shufflevector(xy01, xy23, 0, 1, 8, 9, 4, 5, 12, 13) - static_cast<float>(x[0]),
+      __builtin_shufflevector(xy01, xy23, 2, 3, 10, 11, 6, 7, 14, 15) - static_cast<float>(x[1]),
+      __builtin_shufflevector(z01, z23, 0, 1, 8, 9, 4, 5, 12, 13) - static_cast<float>(x[2])};
+}
 
-inline Lanes squares(Lanes a, Lanes b, Lanes c) {
+template <class L>
+inline L squares(L a, L b, L c) {
   return a * a + b * b + c * c;
 }
 
-inline Lanes squaredDistance(const Corner& a, const Corner& b) {
+template <class L>
+inline L squaredDistance(const Corner<L>& a, const Corner<L>& b) {
   return squares(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 // Twice the area of a face as a vector, out of the cell.
-inline Corner normal(const Corner& a, const Corner& b) {
+template <class L>
+inline Corner<L> normal(const Corner<L>& a, const Corner<L>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-inline Lanes inner(const Corner& a, const Corner& b) {
+template <class L>
+inline L inner(const Corner<L>& a, const Corner<L>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 // Whether the angle between two faces of squared areas a2, b2 is smaller.
-inline LaneMask anglesBelow(const Corner& a, Lanes a2, const Corner& b, Lanes b2, double cos2) {
-  const Lanes c = inner(a, b);
+template <class L>
+inline auto anglesBelow(const Corner<L>& a, L a2, const Corner<L>& b, L b2, double cos2) {
+  const L c = inner(a, b);
   return (c < 0) & (c * c > cos2 * (a2 * b2));
 }
 
 // Of the cells (0, p, q, r).
-inline LaneMask thinCells(const Corner& p, const Corner& q, const Corner& r, double cos2) {
-  const Corner qp = {q.x - p.x, q.y - p.y, q.z - p.z}, rp = {r.x - p.x, r.y - p.y, r.z - p.z};
-  const Corner a = normal(q, p), b = normal(r, q), c = normal(p, r), d = normal(qp, rp);
-  const Lanes a2 = inner(a, a), b2 = inner(b, b), c2 = inner(c, c), d2 = inner(d, d);
+template <class L>
+inline auto thinCells(const Corner<L>& p, const Corner<L>& q, const Corner<L>& r, double cos2) {
+  const Corner<L> qp = {q.x - p.x, q.y - p.y, q.z - p.z}, rp = {r.x - p.x, r.y - p.y, r.z - p.z};
+  const Corner<L> a = normal(q, p), b = normal(r, q), c = normal(p, r), d = normal(qp, rp);
+  const L a2 = inner(a, a), b2 = inner(b, b), c2 = inner(c, c), d2 = inner(d, d);
   return anglesBelow(a, a2, b, b2, cos2) | anglesBelow(b, b2, c, c2, cos2) |
          anglesBelow(c, c2, a, a2, cos2) | anglesBelow(a, a2, d, d2, cos2) |
          anglesBelow(b, b2, d, d2, cos2) | anglesBelow(c, c2, d, d2, cos2);
 }
 
-inline size_t countLanes(const LaneMask& mask, size_t lanes) {
-  size_t count = 0;
-  for (size_t k = 0; k < lanes; ++k) count += mask[k] != 0;
-  return count;
+// One bit per lane.
+template <class M>
+inline unsigned bitsOf(const M& mask) {
+  constexpr unsigned kLanes = sizeof(M) / sizeof(mask[0]);
+#ifdef __AVX2__
+  if constexpr (kLanes == 4)
+    return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(mask)));
+  else
+    return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#else
+  unsigned bits = 0;
+  for (unsigned k = 0; k < kLanes; ++k) bits |= unsigned{mask[k] != 0} << k;
+  return bits;
+#endif
 }
 
-inline bool anyLane(const LaneMask& mask) {
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
+inline size_t countThin(const Corner<LanesOf<double>>& p, const Corner<LanesOf<double>>& q,
+                        const Corner<LanesOf<double>>& r, const ThinAngle& thin, unsigned lanes) {
+  return static_cast<size_t>(__builtin_popcount(bitsOf(thinCells(p, q, r, thin.cos2)) & lanes));
+}
+// Angles need doubles: 1 - cos^2 of the smallest floor is no more than float32 resolves.
+template <int first>
+inline Corner<LanesOf<double>> halfOf(const Corner<LanesOf<float>>& c) {
+  const auto half = [](LanesOf<float> v) {
+    return __builtin_convertvector(
+        __builtin_shufflevector(v, v, first, first + 1, first + 2, first + 3), LanesOf<double>);
+  };
+  return {half(c.x), half(c.y), half(c.z)};
+}
+inline size_t countThin(const Corner<LanesOf<float>>& p, const Corner<LanesOf<float>>& q,
+                        const Corner<LanesOf<float>>& r, const ThinAngle& thin, unsigned lanes) {
+  return countThin(halfOf<0>(p), halfOf<0>(q), halfOf<0>(r), thin, lanes & 15) +
+         countThin(halfOf<4>(p), halfOf<4>(q), halfOf<4>(r), thin, lanes >> 4);
 }
 
 // One cell that the filter could not decide, or of a size whose products it cannot hold.
@@ -108,41 +167,52 @@ inline bool carefully(const double x[3], const S* values, size_t stride, const S
     for (size_t j = 0; j < 3; ++j) t[i][j] = static_cast<double>(values[cell.t[i] * stride + j]);
   if (orientation(x, t[0], t[1], t[2]) <= 0) return false;
   const double scale = 1 / largestDifference(x, t[0], t[1], t[2]);
-  Corner c[3];
+  Corner<LanesOf<double>> c[3];
   for (int i = 0; i < 3; ++i)
-    c[i] = {Lanes{} + (t[i][0] - x[0]) * scale, Lanes{} + (t[i][1] - x[1]) * scale,
-            Lanes{} + (t[i][2] - x[2]) * scale};
-  *count += thinCells(c[0], c[1], c[2], thin.cos2)[0] != 0;
+    c[i] = {LanesOf<double>{} + (t[i][0] - x[0]) * scale,
+            LanesOf<double>{} + (t[i][1] - x[1]) * scale,
+            LanesOf<double>{} + (t[i][2] - x[2]) * scale};
+  *count += countThin(c[0], c[1], c[2], thin, 1);
   return true;
 }
 
 template <class S>
-inline StarShape starShapeOf(const double x[3], const S* values, int stride_given,
+inline StarShape starShapeOf(const double x[3], const S* values, int stride_given, double scale,
                              const StarCell* cells, size_t count, const ThinAngle& thin) {
+  using W = Wide<S>;
+  using L = LanesOf<S>;
   const size_t stride = static_cast<size_t>(stride_given);
+  const S unit = static_cast<S>(scale), shape = static_cast<S>(kRounding * thin.shape);
+  const auto scaled = [unit](const Corner<L>& c) {
+    return Corner<L>{c.x * unit, c.y * unit, c.z * unit};
+  };
   size_t thin_cells = 0;
-  for (size_t first = 0; first < count; first += kLanes) {
-    const size_t filled = count - first < kLanes ? count - first : kLanes;
-    const StarCell* c[kLanes];  // the lanes left over repeat the last cell
-    for (size_t k = 0; k < kLanes; ++k) c[k] = cells + first + (k < filled ? k : filled - 1);
-    const Corner p = corner(values, stride, c, 0, x), q = corner(values, stride, c, 1, x),
-                 r = corner(values, stride, c, 2, x);
-    const Lanes p1 = q.y * r.z, p2 = q.z * r.y, p3 = q.z * r.x, p4 = q.x * r.z, p5 = q.x * r.y,
-                p6 = q.y * r.x;
-    const Lanes det = p.x * (p1 - p2) + p.y * (p3 - p4) + p.z * (p5 - p6);
-    const Lanes bound = kOrientationBound * (magnitude(p.x) * (magnitude(p1) + magnitude(p2)) +
-                                             magnitude(p.y) * (magnitude(p3) + magnitude(p4)) +
-                                             magnitude(p.z) * (magnitude(p5) + magnitude(p6)));
-    const Lanes sum = squares(p.x, p.y, p.z) + squares(q.x, q.y, q.z) + squares(r.x, r.y, r.z) +
-                      squaredDistance(p, q) + squaredDistance(q, r) + squaredDistance(r, p);
-    const LaneMask held = sum < kLargestSum;
-    if (anyLane((det < -bound) & (det < -kLeastDeterminant) & held)) return {false, 0};
-    const LaneMask sure = (det > bound) & (det > kLeastDeterminant) & held;
-    const LaneMask suspect = sure & (kRegular * (det * det) < thin.shape * (sum * sum * sum));
-    if (anyLane(suspect)) thin_cells += countLanes(suspect & thinCells(p, q, r, thin.cos2), filled);
-    if (!anyLane(~sure)) continue;
-    for (size_t k = 0; k < filled; ++k)
-      if (!sure[k] && !carefully(x, values, stride, *c[k], thin, &thin_cells)) return {false, 0};
+  for (size_t first = 0; first < count; first += W::kLanes) {
+    const size_t filled = count - first < W::kLanes ? count - first : W::kLanes;
+    const StarCell* c[W::kLanes];  // the lanes left over repeat the last cell
+    for (size_t k = 0; k < W::kLanes; ++k) c[k] = cells + first + (k < filled ? k : filled - 1);
+    const Corner<L> p = scaled(corner(values, stride, c, 0, x)),
+                    q = scaled(corner(values, stride, c, 1, x)),
+                    r = scaled(corner(values, stride, c, 2, x));
+    const L p1 = q.y * r.z, p2 = q.z * r.y, p3 = q.z * r.x, p4 = q.x * r.z, p5 = q.x * r.y,
+            p6 = q.y * r.x;
+    const L det = p.x * (p1 - p2) + p.y * (p3 - p4) + p.z * (p5 - p6);
+    const L bound = W::kBound * (magnitude(p.x) * (magnitude(p1) + magnitude(p2)) +
+                                 magnitude(p.y) * (magnitude(p3) + magnitude(p4)) +
+                                 magnitude(p.z) * (magnitude(p5) + magnitude(p6)));
+    const L sum = squares(p.x, p.y, p.z) + squares(q.x, q.y, q.z) + squares(r.x, r.y, r.z) +
+                  squaredDistance(p, q) + squaredDistance(q, r) + squaredDistance(r, p);
+    const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum);
+    if (bitsOf((det < -bound) & (det < -W::kLeastDeterminant) & held)) return {false, 0};
+    const auto sure = (det > bound) & (det > W::kLeastDeterminant) & held;
+    const auto suspect = sure & (S(kRegular) * (det * det) < shape * (sum * sum * sum));
+    const unsigned lanes = (1u << filled) - 1;
+    if (const unsigned which = bitsOf(suspect) & lanes)
+      thin_cells += countThin(p, q, r, thin, which);
+    const unsigned unsure = ~bitsOf(sure) & lanes;
+    for (size_t k = 0; unsure >> k; ++k)
+      if ((unsure >> k & 1) && !carefully(x, values, stride, *c[k], thin, &thin_cells))
+        return {false, 0};
   }
   return {true, thin_cells};
 }

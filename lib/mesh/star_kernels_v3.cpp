@@ -5,13 +5,13 @@
 
 namespace tetstream::v3 {
 
-StarShape starShape(const double x[3], const float* values, int stride, const StarCell* cells,
-                    size_t count, const ThinAngle& thin) {
-  return starShapeOf(x, values, stride, cells, count, thin);
+StarShape starShape(const double x[3], const float* values, int stride, double scale,
+                    const StarCell* cells, size_t count, const ThinAngle& thin) {
+  return starShapeOf(x, values, stride, scale, cells, count, thin);
 }
-StarShape starShape(const double x[3], const double* values, int stride, const StarCell* cells,
-                    size_t count, const ThinAngle& thin) {
-  return starShapeOf(x, values, stride, cells, count, thin);
+StarShape starShape(const double x[3], const double* values, int stride, double scale,
+                    const StarCell* cells, size_t count, const ThinAngle& thin) {
+  return starShapeOf(x, values, stride, scale, cells, count, thin);
 }
 StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
                      uint16_t other, StarCell* star, StarCell* ring) {

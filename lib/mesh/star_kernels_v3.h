@@ -5,10 +5,10 @@
 
 namespace tetstream::v3 {
 
-StarShape starShape(const double x[3], const float* values, int stride, const StarCell* cells,
-                    size_t count, const ThinAngle& thin);
-StarShape starShape(const double x[3], const double* values, int stride, const StarCell* cells,
-                    size_t count, const ThinAngle& thin);
+StarShape starShape(const double x[3], const float* values, int stride, double scale,
+                    const StarCell* cells, size_t count, const ThinAngle& thin);
+StarShape starShape(const double x[3], const double* values, int stride, double scale,
+                    const StarCell* cells, size_t count, const ThinAngle& thin);
 StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
                      uint16_t other, StarCell* star, StarCell* ring);
 size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t count, uint32_t* seen,

@@ -37,8 +37,8 @@ template <class Mesh>
 StarShape Collapser<Mesh>::shapeFrom(const S* place, const Star& star) const {
   const double x[3] = {static_cast<double>(place[0]), static_cast<double>(place[1]),
                        static_cast<double>(place[2])};
-  return starShape(x, mesh_.allValues(), mesh_.valueStride(), star.begin(), star.size(),
-                   core_.thin);
+  return starShape(x, mesh_.allValues(), mesh_.valueStride(), static_cast<double>(core_.scale[0]),
+                   star.begin(), star.size(), core_.thin);
 }
 
 // Whether the share of thin cells in the two stars would not grow, so that in the end it is no

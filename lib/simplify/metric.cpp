@@ -208,8 +208,8 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
     double x[3];
     positionOf(core_.window, mesh.corners(c)[0], x);
     for (size_t i = 0; i < floors_.size(); ++i) {
-      const StarShape shape =
-          starShape(x, core_.window.allValues(), core_.window.valueStride(), &cell, 1, floors_[i]);
+      const StarShape shape = starShape(x, core_.window.allValues(), core_.window.valueStride(),
+                                        static_cast<double>(core_.scale[0]), &cell, 1, floors_[i]);
       if (shape.thin == 0) break;
       ++below_[i];
     }

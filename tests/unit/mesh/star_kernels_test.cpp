@@ -36,6 +36,7 @@ struct Fan {
   std::array<double, 3> x;
   std::vector<S> values;
   std::vector<StarCell> cells;
+  double scale = 1;
 
   void add(const std::array<std::array<double, 3>, 3>& triangle) {
     const auto cell = static_cast<uint32_t>(cells.size());
@@ -81,11 +82,11 @@ struct Fan {
       if (signOf(c) < 0) std::swap(cells[c].t[0], cells[c].t[1]);
   }
   StarShape shape(double degrees = 10) const {
-    return starShape(x.data(), values.data(), static_cast<int>(kStride), cells.data(), cells.size(),
-                     ThinAngle(degrees));
+    return starShape(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
+                     cells.size(), ThinAngle(degrees));
   }
   StarShape plainShape(double degrees = 10) const {
-    return starShapeOf(x.data(), values.data(), static_cast<int>(kStride), cells.data(),
+    return starShapeOf(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
                        cells.size(), ThinAngle(degrees));
   }
 
