@@ -18,6 +18,7 @@ constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
+constexpr int64_t kLongStream = 10;  // windows
 // A header that claims more is not believed: the window grows when such a front comes.
 constexpr int64_t kWidestFront = 1 << 23;
 // Of a memory budget, not for cells and vertices: stars, lists; a patch beside.
@@ -96,6 +97,7 @@ class WindowedEngine final : public Simplifier::Engine {
         capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_, options.mode))),
         core_(plan_, options_, account_, static_cast<size_t>(capacity_),
               static_cast<size_t>(capacity_) / kCellsPerVertex + 64, expectedSpan(plan_.schema)),
+        knows_pilot_(pilot.known()),
         budget_(makeBudget(plan_.schema, options, pilot)),
         intake_(core_, account_),
         regions_(core_),
@@ -181,7 +183,7 @@ class WindowedEngine final : public Simplifier::Engine {
     l.read = static_cast<int64_t>(intake_.cellsRead());
     l.written = static_cast<int64_t>(release_.cellsWritten());
     l.live = mesh().liveCells();
-    l.keep = capacity_ / 2;
+    l.keep = keptCells();
     l.rescaled = core_.rescaled;
     l.error_unit = core_.error_unit;
     l.error = core_.error;
@@ -189,6 +191,15 @@ class WindowedEngine final : public Simplifier::Engine {
     l.error_met = core_.error_reached;
     l.front = front_cells_;
     return l;
+  }
+
+  // Cells that may stay in the window. Simplified ones wait there for their neighbours, and even out
+  // what is simplified more and what less, but are loaded again at every turn: in a stream of many
+  // windows, or one that a pilot knows, as many as the front has are enough.
+  int64_t keptCells() const {
+    const bool is_long = knows_pilot_ || plan_.schema.cell_count >= kLongStream * capacity_;
+    if (options_.mode == Mode::kPaper || !is_long) return capacity_ / 2;
+    return std::min(capacity_ / 2, front_cells_ + std::max(front_cells_, capacity_ / 8));
   }
 
   // A window that was not asked for follows the front; one that was grows only when it is stuck.
@@ -306,6 +317,7 @@ class WindowedEngine final : public Simplifier::Engine {
   Pilot pilot_;
   double told_ = 0;  // the last fraction of the progress
   Core<S> core_;
+  bool knows_pilot_;
   std::unique_ptr<Budget> budget_;
   Intake<S> intake_;
   Regions<S> regions_;

@@ -32,31 +32,67 @@ void look(Choices& c, const std::map<uint32_t, float>& edges) {
   c.relist(0, errors.data(), others.data(), others.size());
 }
 
-TEST(Choices, KnowTheTwoBestAndTheLeastOfTheOthers) {
+TEST(Choices, KnowTheFourBestAndTheLeastOfTheOthers) {
   ChoicesOf c(60);
   EXPECT_EQ(c.least(0), kInf);
   c.add(0, 50, 5);
   c.add(30, 0, 3);
   c.add(0, 40, 4);
+  c.add(0, 55, 6);
+  c.add(0, 20, 2);
   c.add(0, 10, 1);
   EXPECT_EQ(c.least(0), 1);
   EXPECT_EQ(c.target(0), 10u);
-  EXPECT_FALSE(c.mustLookAgain(0));
   EXPECT_EQ(c.least(40), 4);  // both ends know
   EXPECT_EQ(c.target(40), 0u);
-  c.refuse(0, 10);
-  EXPECT_EQ(c.least(0), 3);
-  EXPECT_EQ(c.target(0), 30u);
-  EXPECT_FALSE(c.mustLookAgain(0));
-  EXPECT_EQ(c.least(10), kInf);
-  c.refuse(0, 30);  // 4 and 5 are there still, whoever they are
-  EXPECT_EQ(c.least(0), 4);
+  for (uint32_t error = 1; error <= 4; ++error) {
+    EXPECT_EQ(c.least(0), static_cast<float>(error));
+    EXPECT_EQ(c.target(0), 10 * error);
+    EXPECT_FALSE(c.mustLookAgain(0));
+    c.refuse(0, 10 * error);
+    EXPECT_EQ(c.least(10 * error), kInf);
+  }
+  EXPECT_EQ(c.least(0), 5);  // 5 and 6 are there still, whoever they are
   EXPECT_TRUE(c.mustLookAgain(0));
-  look(c, {{10, 1}, {30, 3}, {40, 4}, {50, 5}});  // what was refused is not listed again
-  EXPECT_EQ(c.target(0), 40u);
-  EXPECT_EQ(c.least(0), 4);
+  // What was refused is not listed again.
+  look(c, {{10, 1}, {20, 2}, {30, 3}, {40, 4}, {50, 5}, {55, 6}});
+  EXPECT_EQ(c.target(0), 50u);
+  EXPECT_EQ(c.least(0), 5);
   EXPECT_FALSE(c.mustLookAgain(0));
   EXPECT_EQ(c.least(1), kInf);
+}
+
+// Whichever of the best it is, and from whichever end.
+TEST(Choices, ForgetAnyOfTheBestThatTheOtherEndRefuses) {
+  for (uint32_t refused = 1; refused <= 4; ++refused) {
+    ChoicesOf c(60);
+    for (uint32_t error = 1; error <= 4; ++error) c.add(0, 10 * error, static_cast<float>(error));
+    c.refuse(10 * refused, 0);
+    for (uint32_t error = 1; error <= 4; ++error) {
+      if (error == refused) continue;
+      EXPECT_EQ(c.target(0), 10 * error);
+      EXPECT_EQ(c.least(0), static_cast<float>(error));
+      c.refuse(0, 10 * error);
+    }
+    EXPECT_EQ(c.least(0), kInf);
+  }
+}
+
+TEST(Choices, LeaveOutWhatIsKnownElsewhere) {
+  ChoicesOf c(60);
+  c.know(1, 7, false);
+  EXPECT_EQ(c.least(1), 7);
+  EXPECT_TRUE(c.mustLookAgain(1));
+  c.passOver(2, 3, true);
+  c.add(2, 5, 2);
+  c.add(2, 6, 4);
+  EXPECT_EQ(c.target(2), 6u);
+  EXPECT_EQ(c.target(5), 2u);  // the other end knows it
+  EXPECT_TRUE(c.hasRefused(2));
+  c.replace(2, 6, 9, 4);  // something changed: all are looked at again
+  c.reconsider();
+  EXPECT_TRUE(c.mustLookAgain(2));
+  EXPECT_EQ(c.least(2), 0);
 }
 
 TEST(Choices, AreOrderedByTheOtherEndWhereErrorsAreEqual) {
