@@ -44,34 +44,34 @@ class Choices {
       if (woken_[v]) reconsider(v);
   }
   // Whether the vertex must look at its edges, all of them, for its best.
-  bool mustLookAgain(uint32_t v) const { return of_[v].passed_over < errorOf(of_[v].best[0]); }
-  uint32_t target(uint32_t v) const { return static_cast<uint32_t>(of_[v].best[0]); }
+  bool mustLookAgain(uint32_t v) const { return of_[v].passed_over < of_[v].best[0]; }
+  uint32_t target(uint32_t v) const { return otherOf(of_[v].best[0]); }
 
   // The edges of v, all of them, in place of what was known.
   template <class S>
   void relist(uint32_t v, const S* errors, const uint32_t* others, size_t count) {
     Choice c = of_[v];
     std::fill_n(c.best, kBest, kNothing);
-    c.passed_over = kInfinite;
+    c.passed_over = kNothing;
     for (size_t i = 0; i < count; ++i) offer(c, keyOf(static_cast<float>(errors[i]), others[i]));
     of_[v] = c;
     update(v);
   }
   // Of the edges of v only this is known; all of them are added where that is not enough.
   void know(uint32_t v, float least, bool refused) {
-    of_[v].passed_over = least;
-    of_[v].also_refused = refused ? 0 : kInfinite;
+    of_[v].passed_over = keyOf(least, 0);
+    of_[v].also_refused = refused ? 0 : kNothing;
     update(v);
   }
   // The edges of v are added; of those below `least`, all that are legal are known at their other
   // ends.
   void passOver(uint32_t v, float least, bool refused) {
     of_[v].tried = keyOf(kRounding * least, 0);
-    of_[v].also_refused = refused ? 0 : kInfinite;
+    of_[v].also_refused = refused ? 0 : kNothing;
   }
   // Whether edges of v were refused, and not offered again.
   bool hasRefused(uint32_t v) const {
-    return of_[v].also_refused < kInfinite || errorOf(of_[v].refused) < kInfinite;
+    return std::min(of_[v].also_refused, of_[v].refused) < kNothing;
   }
   // One edge more, at both its ends.
   void add(uint32_t v, uint32_t w, float error) {
@@ -83,10 +83,8 @@ class Choices {
   // v was merged into u: what x knew of either is void, and its other edges may be legal again.
   void replace(uint32_t x, uint32_t u, uint32_t v, float error) {
     Choice& c = of_[x];
-    const auto is_void = [u, v](uint64_t key) {
-      return (static_cast<uint32_t>(key) == u) | (static_cast<uint32_t>(key) == v);
-    };
-    for (uint64_t& key : c.best) key = is_void(key) ? kNothing : key;
+    const auto is_void = [u, v](double key) { return (otherOf(key) == u) | (otherOf(key) == v); };
+    for (double& key : c.best) key = is_void(key) ? kNothing : key;
     moveUp(c);
     moveUp(c);
     c.refused = is_void(c.refused) ? kNothing : c.refused;
@@ -98,16 +96,16 @@ class Choices {
   // v is gone, or another vertex now.
   void forget(uint32_t v) {
     of_[v] = Choice{};
-    least_[v] = bitsOf(kInfinite);
+    least_[v] = std::bit_cast<uint32_t>(kInfinite);
     woken_[v] = 0;
   }
   // v's best edge, to w, is not legal.
   void refuse(uint32_t v, uint32_t w) {
-    const uint64_t key = of_[v].best[0], back = (key & kErrorMask) | v;
+    const double key = of_[v].best[0], back = keyOf(errorOf(key), v);
     refuse(of_[v], key);
     update(v);
     bool known = false;
-    for (uint64_t other : of_[w].best) known |= other == back;
+    for (double other : of_[w].best) known |= other == back;
     if (!known) return;
     refuse(of_[w], back);
     update(w);
@@ -116,59 +114,60 @@ class Choices {
  private:
   static constexpr float kRounding = 1 - 1e-5f;  // errors seen from the other end
   static constexpr float kInfinite = std::numeric_limits<float>::infinity();
-  static constexpr uint64_t kErrorMask = 0xffffffff00000000ull;
-  static constexpr uint64_t kNothing = uint64_t{0x7f800000} << 32 | 0xffffffffu;
+  static constexpr double kNothing = std::numeric_limits<double>::infinity();
   static constexpr int kBest = 4;
+  // Edges by keys: the error, with the other end in the bits that float32 leaves free. They order
+  // by the error, then by the end, and the processor has minima of them.
   struct Choice {
-    uint64_t best[kBest] = {kNothing, kNothing, kNothing, kNothing};  // rising
-    uint64_t refused = kNothing;
-    uint64_t tried = 0;  // edges below were refused or are listed
-    float passed_over = kInfinite, also_refused = kInfinite;
+    double best[kBest] = {kNothing, kNothing, kNothing, kNothing};  // rising
+    double refused = kNothing;
+    double tried = 0;  // edges below were refused or are listed
+    double passed_over = kNothing, also_refused = kNothing;
   };
 
-  static float errorOf(uint64_t key) {
-    return std::bit_cast<float>(static_cast<uint32_t>(key >> 32));
+  static float errorOf(double key) { return static_cast<float>(key); }
+  static uint32_t otherOf(double key) {
+    return static_cast<uint32_t>(std::bit_cast<uint64_t>(key) & 0xffff);
   }
-  // Errors are not negative: their bits order as they do.
-  static uint32_t bitsOf(float error) { return std::bit_cast<uint32_t>(error); }
-  static uint64_t keyOf(float error, uint32_t other) {
-    return error < kInfinite ? uint64_t{bitsOf(error)} << 32 | other : kNothing;
+  static double keyOf(float error, uint32_t other) {
+    const auto bits = std::bit_cast<uint64_t>(static_cast<double>(error));
+    return error < kInfinite ? std::bit_cast<double>(bits | other) : kNothing;
   }
-  static void offer(Choice& c, uint64_t key) {
+  static void offer(Choice& c, double key) {
     if (key < c.tried) key = kNothing;
-    for (uint64_t& best : c.best) {
-      const uint64_t worse = std::max(key, best);
+    for (double& best : c.best) {
+      const double worse = std::max(key, best);
       best = std::min(key, best);
       key = worse;
     }
-    c.passed_over = std::min(c.passed_over, errorOf(key));
+    c.passed_over = std::min(c.passed_over, key);
   }
   // Takes one that is nothing, wherever it stands, to the end.
   static void moveUp(Choice& c) {
     for (int i = 1; i < kBest; ++i) {
-      const uint64_t worse = std::max(c.best[i - 1], c.best[i]);
+      const double worse = std::max(c.best[i - 1], c.best[i]);
       c.best[i - 1] = std::min(c.best[i - 1], c.best[i]);
       c.best[i] = worse;
     }
   }
-  static void refuse(Choice& c, uint64_t key) {
-    if (key == c.best[0]) c.tried = key + 1;
-    for (uint64_t& best : c.best) best = best == key ? kNothing : best;
+  static void refuse(Choice& c, double key) {
+    if (key == c.best[0]) c.tried = std::bit_cast<double>(std::bit_cast<uint64_t>(key) + 1);
+    for (double& best : c.best) best = best == key ? kNothing : best;
     moveUp(c);
-    c.also_refused = std::min(c.also_refused, errorOf(std::max(key, c.refused)));
+    c.also_refused = std::min(c.also_refused, std::max(key, c.refused));
     c.refused = std::min(key, c.refused);
   }
   void update(uint32_t v) {
     const Choice& c = of_[v];
-    least_[v] = bitsOf(std::min(errorOf(c.best[0]), c.passed_over));
+    least_[v] = std::bit_cast<uint32_t>(errorOf(std::min(c.best[0], c.passed_over)));
   }
   void reconsider(uint32_t v) {
     Choice& c = of_[v];
     woken_[v] = 0;
     c.tried = 0;
     c.passed_over = std::min(c.passed_over, c.also_refused);
-    c.also_refused = kInfinite;
-    const uint64_t key = c.refused;
+    c.also_refused = kNothing;
+    const double key = c.refused;
     c.refused = kNothing;
     offer(c, key);
     update(v);
@@ -176,7 +175,7 @@ class Choices {
 
   size_t count_ = 0;
   Array<Choice> of_;
-  Array<uint32_t> least_;  // bits of the errors
+  Array<uint32_t> least_;  // bits of the errors: they order as these do
   Array<uint8_t> woken_;
 };
 
