@@ -39,6 +39,11 @@ size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t cou
   return TETSTREAM_BEST(listVertices, corners, cells, count, seen, mark, out);
 }
 
+size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_t mark,
+                    uint32_t* out) {
+  return TETSTREAM_BEST(listVertices, cells, count, seen, mark, out);
+}
+
 template StarShape starShape(const double[3], const float*, int, double, const StarCell*, size_t,
                              const ThinAngle&);
 template StarShape starShape(const double[3], const double*, int, double, const StarCell*, size_t,

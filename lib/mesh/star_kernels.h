@@ -46,5 +46,9 @@ StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, u
 // becomes. `out` has room for 4 * count + 1. Returns their number.
 size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t count, uint32_t* seen,
                     uint32_t mark, uint32_t* out);
+// The same of the corners t of cells round a vertex, which is not among them; `out` has room for
+// 3 * count + 1.
+size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_t mark,
+                    uint32_t* out);
 
 }  // namespace tetstream

@@ -274,16 +274,24 @@ inline StarCounts lookRoundOf(const uint16_t* corners, uint16_t* cells, uint32_t
 #endif
 
 // Without branches, since there is no pattern in what was seen before.
+inline void listVertex(uint32_t v, uint32_t* seen, uint32_t mark, uint32_t* out, size_t* listed) {
+  out[*listed] = v;
+  *listed += seen[v] < mark;
+  seen[v] = seen[v] < mark ? mark : seen[v];
+}
 inline size_t listVerticesOf(const uint16_t* corners, const uint16_t* cells, uint32_t count,
                              uint32_t* seen, uint32_t mark, uint32_t* out) {
   size_t listed = 0;
   for (uint32_t i = 0; i < count; ++i)
-    for (int k = 0; k < 4; ++k) {
-      const uint16_t v = corners[4 * size_t{cells[i]} + static_cast<size_t>(k)];
-      out[listed] = v;
-      listed += seen[v] < mark;
-      seen[v] = seen[v] < mark ? mark : seen[v];
-    }
+    for (size_t k = 0; k < 4; ++k)
+      listVertex(corners[4 * size_t{cells[i]} + k], seen, mark, out, &listed);
+  return listed;
+}
+inline size_t listVerticesOf(const StarCell* cells, size_t count, uint32_t* seen, uint32_t mark,
+                             uint32_t* out) {
+  size_t listed = 0;
+  for (size_t i = 0; i < count; ++i)
+    for (uint32_t t : cells[i].t) listVertex(t, seen, mark, out, &listed);
   return listed;
 }
 

@@ -21,6 +21,10 @@ size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t cou
                     uint32_t mark, uint32_t* out) {
   return listVerticesOf(corners, cells, count, seen, mark, out);
 }
+size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_t mark,
+                    uint32_t* out) {
+  return listVerticesOf(cells, count, seen, mark, out);
+}
 
 }  // namespace tetstream::v3
 #endif

@@ -13,5 +13,7 @@ StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, u
                      uint16_t other, StarCell* star, StarCell* ring);
 size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t count, uint32_t* seen,
                     uint32_t mark, uint32_t* out);
+size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_t mark,
+                    uint32_t* out);
 
 }  // namespace tetstream::v3

@@ -49,11 +49,11 @@ void Window<S>::growVertices(size_t capacity) {
 }
 
 template <class S>
-uint32_t Window<S>::chooseVertices(const uint32_t* uses, uint64_t* unused) {
+uint32_t Window<S>::chooseVertices(uint64_t* unused) {
   uint32_t kept = 0;
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     const uint8_t flags = mesh.vertexFlags(v);
-    const bool keep = uses[v] > 0 || !(flags & kFinal);
+    const bool keep = remap_[v] > 0 || !(flags & kFinal);
     remap_[v] = keep ? kept++ : kNone;
     *unused += !keep && !(flags & (kCollapsed | kWritten));
   }
@@ -78,9 +78,9 @@ void Window<S>::moveVertices() {
 }
 
 template <class S>
-uint64_t Window<S>::pack(Front& front, const uint32_t* uses) {
+uint64_t Window<S>::pack(Front& front) {
   uint64_t unused = 0;
-  const uint32_t kept = chooseVertices(uses, &unused);
+  const uint32_t kept = chooseVertices(&unused);
   moveVertices();
   front.remap(remap_.data());
   mesh.pack(remap_.data(), kept, [this](uint32_t from, uint32_t to) {

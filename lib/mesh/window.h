@@ -74,15 +74,16 @@ class Window {
   void growCells(size_t capacity);
   void growVertices(size_t capacity);
 
-  // Drops dead cells, and the vertices that are final and in no cell; tells the front. `uses`: per
-  // vertex, its live cells. Returns how many vertices were dropped that no cell ever used.
-  uint64_t pack(Front& front, const uint32_t* uses);
+  // Drops dead cells, and the vertices that are final and in no cell; tells the front. Scratch
+  // holds, per vertex, its live cells. Returns how many vertices were dropped that no cell ever
+  // used.
+  uint64_t pack(Front& front);
 
  private:
   int meansStride() const { return shape_.cell_means ? 1 + shape_.cell_means : 0; }
   void sizeVertices();
   void sizeCells();
-  uint32_t chooseVertices(const uint32_t* uses, uint64_t* unused);
+  uint32_t chooseVertices(uint64_t* unused);
   void moveVertices();
 
   WindowShape shape_;

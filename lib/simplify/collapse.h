@@ -40,6 +40,9 @@ class Collapser {
   // z of an end.
   void endOf(uint32_t u, uint32_t v, bool at_v, S* z) const;
 
+  // The last edge that was tried. After a collapse the two stars are that of the merged vertex.
+  const Stars& stars() const { return stars_; }
+
  private:
   Outcome test(uint32_t u, uint32_t v, int64_t least_cells);
   bool isFarther(uint32_t u, uint32_t v) const;

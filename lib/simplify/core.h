@@ -30,12 +30,12 @@ struct LockedVertices {
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
 
 // Bytes of a row beside its values: of a cell its corners, flags, links or places in tiles; of a
-// vertex its flags, rank, new slot, uses, and its first corner or its places in tiles.
+// vertex its flags, rank, new slot or uses, and its first corner or its places in tiles.
 struct RowBytes {
   size_t cell, vertex;
 };
 constexpr RowBytes rowBytes(Mode mode) {
-  return mode == Mode::kPaper ? RowBytes{37, 21} : RowBytes{24, 23};
+  return mode == Mode::kPaper ? RowBytes{37, 17} : RowBytes{24, 19};
 }
 
 // No cell needs to be thinner than this smallest dihedral angle, in degrees: rounding, or another

@@ -38,12 +38,12 @@ bool Release<S>::mayGo(uint32_t cell) const {
 template <class S>
 void Release<S>::countUses() {
   const Topology& mesh = core_.window.mesh;
-  if (uses_.size() < mesh.vertexCapacity()) uses_.resize(mesh.vertexCapacity());
-  std::memset(uses_.data(), 0, mesh.vertexEnd() * sizeof(uint32_t));
+  uint32_t* const uses = core_.window.scratch();
+  std::memset(uses, 0, mesh.vertexEnd() * sizeof(uint32_t));
   front_ = 0;
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
     if (!mesh.isLive(c)) continue;
-    for (int j = 0; j < 4; ++j) ++uses_[mesh.corners(c)[j]];
+    for (int j = 0; j < 4; ++j) ++uses[mesh.corners(c)[j]];
     front_ += !mayGo(c);
   }
 }
@@ -91,7 +91,7 @@ void Release<S>::writeCell(uint32_t cell) {
   const size_t row = batch_.addCells(1);
   for (int j = 0; j < 4; ++j) {
     batch_.cell(row)[j] = static_cast<int64_t>(core_.window.outRank(v[j]));
-    if (--uses_[v[j]] == 0) batch_.lastUses(row) |= static_cast<uint8_t>(1 << j);
+    if (--core_.window.scratch()[v[j]] == 0) batch_.lastUses(row) |= static_cast<uint8_t>(1 << j);
   }
   writeCellData(cell, row);
   mesh.kill(cell);
@@ -111,8 +111,7 @@ void Release<S>::write(uint32_t keep) {
   countUses();
   for (uint32_t c = 0; c < mesh.cellEnd() && mesh.liveCells() > keep; ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
-  core_.report.unused_vertices +=
-      static_cast<int64_t>(core_.window.pack(core_.front, uses_.data()));
+  core_.report.unused_vertices += static_cast<int64_t>(core_.window.pack(core_.front));
 }
 
 template class Release<float>;

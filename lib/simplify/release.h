@@ -12,8 +12,7 @@ namespace tetstream {
 template <class S>
 class Release {
  public:
-  Release(Core<S>& core, Sink& out, Account& account)
-      : core_(core), out_(out), batch_(core.plan.schema), uses_(account) {}
+  Release(Core<S>& core, Sink& out) : core_(core), out_(out), batch_(core.plan.schema) {}
 
   // Lets cells go until `keep` live ones are left or no other may go, then packs the window.
   void write(uint32_t keep);
@@ -34,7 +33,6 @@ class Release {
   Core<S>& core_;
   Sink& out_;
   Batch batch_;
-  Array<uint32_t> uses_;  // per vertex: live cells
   int64_t front_ = 0;
   uint64_t cells_ = 0, vertices_ = 0;
 };

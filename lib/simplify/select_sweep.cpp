@@ -82,7 +82,9 @@ class SweepSelector final : public Selector {
   float sweepLevel(float level);
   void collapseFrom(uint32_t v, float level);
   void pushAfter(uint32_t u, uint32_t gone);
+  void startList(uint32_t v, size_t cells);
   void listNeighbours(uint32_t v);
+  void listNeighboursOfMerged(uint32_t u);
   void measureNeighbours(uint32_t u);
 
   Core<S>& core_;
@@ -223,12 +225,25 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
 
 // v's neighbours that may be merged with it, each once.
 template <class S>
+void SweepSelector<S>::startList(uint32_t v, size_t cells) {
+  if (neighbours_.size() < 4 * cells + 1) neighbours_.resize(8 * cells + 1);
+  seen_[v] = ++mark_;
+}
+template <class S>
 void SweepSelector<S>::listNeighbours(uint32_t v) {
   const uint32_t cells = patch_.starSize(v);
-  if (neighbours_.size() < 4 * size_t{cells} + 1) neighbours_.resize(8 * size_t{cells} + 1);
-  seen_[v] = ++mark_;
+  startList(v, cells);
   count_ = listVertices(patch_.corners(), patch_.starOf(v), cells, seen_.data(), mark_,
                         neighbours_.data());
+}
+// The same, of what the collapse has gathered.
+template <class S>
+void SweepSelector<S>::listNeighboursOfMerged(uint32_t u) {
+  const Stars& stars = collapser_.stars();
+  startList(u, stars.u.size() + stars.v.size());
+  count_ = listVertices(stars.u.begin(), stars.u.size(), seen_.data(), mark_, neighbours_.data());
+  count_ += listVertices(stars.v.begin(), stars.v.size(), seen_.data(), mark_,
+                         neighbours_.data() + count_);
 }
 
 template <class S>
@@ -284,7 +299,7 @@ void SweepSelector<S>::evaluateAll(float bound) {
 // The merged vertex measures its edges and tells its neighbours.
 template <class S>
 void SweepSelector<S>::pushAfter(uint32_t u, uint32_t gone) {
-  listNeighbours(u);
+  listNeighboursOfMerged(u);
   measureNeighbours(u);
   changed_[u] = 1;
   choices_.forget(gone);

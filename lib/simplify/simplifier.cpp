@@ -106,7 +106,7 @@ class WindowedEngine final : public Simplifier::Engine {
         collapser_(core_, core_.window, account_),
         selector_(options.mode == Mode::kPaper ? makeRandomSelector(core_, collapser_, account_)
                                                : makeSweepSelector(core_, account_)),
-        release_(core_, out, account_) {
+        release_(core_, out) {
     core_.report.window_cells = capacity_;
   }
 
@@ -193,9 +193,9 @@ class WindowedEngine final : public Simplifier::Engine {
     return l;
   }
 
-  // Cells that may stay in the window. Simplified ones wait there for their neighbours, and even out
-  // what is simplified more and what less, but are loaded again at every turn: in a stream of many
-  // windows, or one that a pilot knows, as many as the front has are enough.
+  // Cells that may stay in the window. Simplified ones wait there for their neighbours, and even
+  // out what is simplified more and what less, but are loaded again at every turn: in a stream of
+  // many windows, or one that a pilot knows, as many as the front has are enough.
   int64_t keptCells() const {
     const bool is_long = knows_pilot_ || plan_.schema.cell_count >= kLongStream * capacity_;
     if (options_.mode == Mode::kPaper || !is_long) return capacity_ / 2;

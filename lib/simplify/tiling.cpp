@@ -48,7 +48,8 @@ void Tiling<S>::cut(size_t count, unsigned round) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
   const CutRule rule{kShare[round % 3], static_cast<size_t>(tileVertices(core_.options))};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
-  medianCut(vertices_.data(), 0, count, rule, at, [this](size_t begin, size_t end) {
+  MedianCut pieces(vertices_.data(), rule, at);
+  pieces.cut(0, count, [this](size_t begin, size_t end) {
     const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
     for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = tile;
     tiles_.push_back({begin, end, 0, 0, 0});

@@ -21,7 +21,7 @@ std::vector<Ids> leavesOf(const Points& points, Ids ids, const CutRule& rule) {
     leaves.push_back(
         {ids.begin() + static_cast<ptrdiff_t>(begin), ids.begin() + static_cast<ptrdiff_t>(end)});
   };
-  medianCut(ids.data(), 0, ids.size(), rule, at, leaf);
+  MedianCut(ids.data(), rule, at).cut(0, ids.size(), leaf);
   return leaves;
 }
 
@@ -34,7 +34,7 @@ Points line(size_t axis, size_t count) {
 
 TEST(MedianCut, CutsAcrossTheLongestSide) {
   for (size_t axis = 0; axis < 3; ++axis) {
-    const std::vector<Ids> leaves = leavesOf(line(axis, 8), {7, 2, 5, 0, 4, 6, 1, 3}, {0.5, 4});
+    const std::vector<Ids> leaves = leavesOf(line(axis, 8), {0, 1, 2, 3, 4, 5, 6, 7}, {0.5, 4});
     EXPECT_EQ(leaves, (std::vector<Ids>{{0, 1, 2, 3}, {4, 5, 6, 7}}));
   }
 }
@@ -48,29 +48,41 @@ TEST(MedianCut, LeavesTheShareBeforeTheCut) {
 // Sides of equal length: the first is cut. Points of equal place: the lower id comes first.
 TEST(MedianCut, DecidesTies) {
   const Points square = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
-  EXPECT_EQ(leavesOf(square, {3, 2, 1, 0}, {0.5, 2}), (std::vector<Ids>{{0, 1}, {2, 3}}));
-  EXPECT_EQ(leavesOf(Points(4), {3, 1, 2, 0}, {0.5, 2}), (std::vector<Ids>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(leavesOf(square, {0, 1, 2, 3}, {0.5, 2}), (std::vector<Ids>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(leavesOf(Points(4), {0, 1, 2, 3}, {0.5, 2}), (std::vector<Ids>{{0, 1}, {2, 3}}));
 }
 
-TEST(MedianCut, DoesNotDependOnTheOrder) {
+// Against sorting; some places equal, some far away, some beyond what differences hold.
+TEST(MedianCut, CutsWhereSortingWould) {
   Random r(3);
-  Points points(500);
-  for (auto& point : points)
-    for (float& x : point) x = static_cast<float>(r.below(9));  // many equal ones
-  Ids ids(points.size());
-  std::iota(ids.begin(), ids.end(), 0u);
-  const std::vector<Ids> leaves = leavesOf(points, ids, {0.64, 20});
-  Ids all;
-  for (const Ids& leaf : leaves) {
-    EXPECT_TRUE(!leaf.empty() && leaf.size() <= 20u);
-    EXPECT_TRUE(std::is_sorted(leaf.begin(), leaf.end()));
-    all.insert(all.end(), leaf.begin(), leaf.end());
+  for (float far : {1.0f, 1e6f, 3e38f}) {
+    Points points(500);
+    for (auto& point : points)
+      for (float& x : point) x = static_cast<float>(r.below(9)) + (r.below(50) == 0 ? far : 0);
+    for (size_t i = 0; i < points.size(); i += 100) points[i][0] = -far;
+    Ids ids(points.size());
+    std::iota(ids.begin(), ids.end(), 0u);
+    Ids all;
+    for (const Ids& leaf : leavesOf(points, ids, {0.64, 20})) {
+      EXPECT_TRUE(!leaf.empty() && leaf.size() <= 20u);
+      EXPECT_TRUE(std::is_sorted(leaf.begin(), leaf.end()));
+      all.insert(all.end(), leaf.begin(), leaf.end());
+    }
+    std::sort(all.begin(), all.end());
+    EXPECT_EQ(all, ids);
+    const auto before = [&](uint32_t a, uint32_t b) {
+      return std::pair(points[a][0], a) < std::pair(points[b][0], b);
+    };
+    for (auto& point : points) point[1] = point[2] = 0;  // cut once, across x
+    Ids sorted = ids;
+    std::sort(sorted.begin(), sorted.end(), before);
+    const std::vector<Ids> halves = leavesOf(points, ids, {0.64, 320});
+    ASSERT_EQ(halves.size(), 2u);
+    std::sort(sorted.begin(), sorted.begin() + 320);
+    std::sort(sorted.begin() + 320, sorted.end());
+    EXPECT_EQ(halves[0], Ids(sorted.begin(), sorted.begin() + 320));
+    EXPECT_EQ(halves[1], Ids(sorted.begin() + 320, sorted.end()));
   }
-  std::sort(all.begin(), all.end());
-  EXPECT_EQ(all, ids);
-  for (size_t i = ids.size(); i > 1; --i)
-    std::swap(ids[i - 1], ids[r.below(static_cast<uint32_t>(i))]);
-  EXPECT_EQ(leavesOf(points, ids, {0.64, 20}), leaves);
 }
 
 }  // namespace
