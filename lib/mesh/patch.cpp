@@ -67,6 +67,7 @@ bool Patch<S>::takeCells(const uint32_t* cells, size_t count) {
         loadVertex(v[j]);
       }
       corner[j] = local_of_[v[j]];
+      if (corner[j] < owned_) ++star_of_[corner[j]].size;
     }
     if (mesh.cellFlags(cells[i]) & kNegative) std::swap(corner[2], corner[3]);
     global_cell_[cells_++] = cells[i];
@@ -76,10 +77,7 @@ bool Patch<S>::takeCells(const uint32_t* cells, size_t count) {
 
 template <class S>
 void Patch<S>::listStars() {
-  for (uint32_t v = 0; v < owned_; ++v) star_of_[v].size = 0;
   const size_t corners = 4 * size_t{cells_};
-  for (size_t c = 0; c < corners; ++c)
-    if (corner_[c] < owned_) ++star_of_[corner_[c]].size;
   lists_end_ = 0;
   for (uint32_t v = 0; v < owned_; ++v) {
     star_of_[v].begin = static_cast<uint32_t>(lists_end_);
@@ -108,6 +106,7 @@ bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* c
   sizeFor(owned_count, cell_count);
   for (size_t i = 0; i < owned_count; ++i) {
     loadVertex(owned[i]);
+    star_of_[i].size = 0;
     std::copy_n(window_.quadric(owned[i]), quadric_stride_, quadric(static_cast<uint32_t>(i)));
   }
   owned_ = vertices_;

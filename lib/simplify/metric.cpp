@@ -168,9 +168,10 @@ void Metric<S>::addCell(uint32_t cell) {
   for (int j = 0; j < 4; ++j) positionOf(window, v[j], p[j]);
   const int side = orientation(p[0], p[1], p[2], p[3]);
   if (side < 0) window.mesh.flagCell(cell, kNegative);
+  const double per_unit = 1 / length_unit_;  // of a power of two: exact
   double e[3][3];
   for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) e[k][i] = (p[k + 1][i] - p[0][i]) / length_unit_;
+    for (int i = 0; i < 3; ++i) e[k][i] = (p[k + 1][i] - p[0][i]) * per_unit;
   const double volume = std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
                                   e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
                                   e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /

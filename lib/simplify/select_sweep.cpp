@@ -20,6 +20,7 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
 // of what is learnt from a pass for the next.
 constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
+constexpr double kCarefulShare = 0.1, kLargestShare = 0.5;
 constexpr int64_t kSlackShare = 50;
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
@@ -183,7 +184,8 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   return more;
 }
 
-// The errors of a tenth of the vertices' best edges are below.
+// The bound below which there are so many edges that a pass should take what is too much, if not
+// more than half of the vertices have one: what comes of more cannot be foreseen.
 template <class S>
 double SweepSelector<S>::sampledBound() {
   std::vector<float> errors;
@@ -197,7 +199,12 @@ double SweepSelector<S>::sampledBound() {
             });
   }
   if (errors.empty()) return std::numeric_limits<float>::min();
-  const size_t place = errors.size() / 10;
+  const auto vertices = static_cast<double>(tiling_.looking());
+  const auto cells = static_cast<double>(core_.window.liveCells() - goal_.cells);
+  const double share = std::isfinite(goal_.most_error) ? kCarefulShare
+                                                       : std::clamp(cells / kFirstYield / vertices,
+                                                                    kCarefulShare, kLargestShare);
+  const auto place = static_cast<size_t>(share * static_cast<double>(errors.size() - 1));
   std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(place),
                    errors.end());
   return std::max(errors[place], std::numeric_limits<float>::min());  // never 0: it would not rise
