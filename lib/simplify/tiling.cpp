@@ -61,10 +61,6 @@ template <class S>
 size_t Tiling<S>::tilesOf(uint32_t cell, uint32_t tiles[4]) const {
   const uint32_t* v = core_.window.mesh.corners(cell);
   const uint32_t* of = core_.window.scratch();
-  if (of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]]) {  // most cells
-    tiles[0] = of[v[0]] - 1;
-    return of[v[0]] != 0;
-  }
   size_t count = 0;
   for (int j = 0; j < 4; ++j) {
     const uint32_t tile = of[v[j]];
@@ -86,9 +82,19 @@ template <class S>
 void Tiling<S>::listCells() {
   const Topology& mesh = core_.window.mesh;
   neighbours_.assign(tiles_.size(), {});
+  const uint32_t* of = core_.window.scratch();
+  // Most cells are in one tile or in none.
+  const auto in_one = [of](const uint32_t* v) {
+    return of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]];
+  };
   uint32_t tiles[4];
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
     if (!mesh.isLive(c)) continue;
+    const uint32_t* v = mesh.corners(c);
+    if (in_one(v)) {
+      if (of[v[0]] != 0) ++tiles_[of[v[0]] - 1].cell_end;
+      continue;
+    }
     const size_t count = tilesOf(c, tiles);
     for (size_t k = 0; k < count; ++k) ++tiles_[tiles[k]].cell_end;
     for (size_t k = 1; k < count; ++k)
@@ -103,6 +109,11 @@ void Tiling<S>::listCells() {
   if (cells_.size() < end) cells_.resize(end + end / 8);
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
     if (!mesh.isLive(c)) continue;
+    const uint32_t* v = mesh.corners(c);
+    if (in_one(v)) {
+      if (of[v[0]] != 0) cells_[tiles_[of[v[0]] - 1].cell_end++] = c;
+      continue;
+    }
     const size_t count = tilesOf(c, tiles);
     for (size_t k = 0; k < count; ++k) cells_[tiles_[tiles[k]].cell_end++] = c;
   }
