@@ -156,8 +156,9 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
 }
 
 // Barycentric coordinates of x in the cell (p0, t), clamped to the cell; returns the smallest of
-// them before clamping, which is largest in the cell that holds x.
-static double barycentric(const double p[4][3], const double x[3], double out[4]) {
+// them before clamping, which is largest in the cell that holds x. Ends at one that is not above
+// `best`, and returns it.
+static double barycentric(const double p[4][3], const double x[3], double best, double out[4]) {
   double e[3][3], d[3];
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) e[k][i] = p[k + 1][i] - p[0][i];
@@ -170,7 +171,9 @@ static double barycentric(const double p[4][3], const double x[3], double out[4]
   const double whole = det(e[0], e[1], e[2]);
   if (whole == 0) return -1e300;
   out[1] = det(d, e[1], e[2]) / whole;
+  if (!(out[1] > best)) return out[1];
   out[2] = det(e[0], d, e[2]) / whole;
+  if (!(out[2] > best)) return out[2];
   out[3] = det(e[0], e[1], d) / whole;
   out[0] = 1 - out[1] - out[2] - out[3];
   const double least = std::min({out[0], out[1], out[2], out[3]});
@@ -193,7 +196,7 @@ void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
       double p[4][3], w[4];
       for (int k = 0; k < 4; ++k)
         for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(c[k])[i]);
-      const double least = barycentric(p, x, w);
+      const double least = barycentric(p, x, best, w);
       if (!(least > best)) continue;
       best = least;
       std::copy_n(w, 4, weights);
