@@ -21,6 +21,7 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // of what is learnt from a pass for the next.
 constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
 constexpr double kCarefulShare = 0.1, kLargestShare = 0.5;
+constexpr int64_t kLeastRoom = 8;
 constexpr int64_t kSlackShare = 50;
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
@@ -60,9 +61,11 @@ class SweepSelector final : public Selector {
     const int64_t slack = goal_.last ? 0 : (goal_.cells - goal_.fixed) / kSlackShare;
     return core_.window.liveCells() <= goal_.cells + slack;
   }
-  // No goal is undercut.
+  // No goal is undercut; where only a ring's cells or so may go, nearly all edges take too many.
   bool mustStop(int64_t live) const {
-    return (goal_.last && live <= goal_.cells) || live <= goal_.least_cells || core_.error_reached;
+    const int64_t room = live - goal_.least_cells;
+    return (goal_.last ? live <= goal_.cells || room <= 0 : room <= kLeastRoom) ||
+           core_.error_reached;
   }
   void sweep(const std::function<void()>& tick);
   double stepFor(double bound, double yield);
@@ -107,21 +110,21 @@ class SweepSelector final : public Selector {
 
 template <class S>
 void SweepSelector<S>::sweep(const std::function<void()>& tick) {
-  double bound = goal_.first_bound, yield = kFirstYield;
-  bool first = true;
-  for (bool more = !mustStop(core_.window.liveCells()); more; bound *= stepFor(bound, yield)) {
-    const auto largest = static_cast<float>(std::min(bound, kLargestBound));
-    tiling_.build(round_++, bound > 0 ? largest : std::numeric_limits<float>::infinity());
+  if (mustStop(core_.window.liveCells())) return;
+  double bound = std::min(goal_.first_bound, kLargestBound), yield = kFirstYield;
+  for (bool first = true;; first = false) {
+    tiling_.build(round_++,
+                  bound > 0 ? static_cast<float>(bound) : std::numeric_limits<float>::infinity());
     if (!(bound > 0)) bound = sampledBound();
-    const auto before = core_.window.liveCells();
-    more = pass(static_cast<float>(std::min(bound, kLargestBound)), tick) || tiling_.othersWait();
-    if (!first && tiling_.looking() > 0)
+    const int64_t before = core_.window.liveCells();
+    const bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
+    bound_ = bound;
+    if (!more || reached() || core_.error >= goal_.most_error) return;
+    if (!first && tiling_.looking() > 0)  // in the first, most vertices are new
       yield = std::clamp(static_cast<double>(before - core_.window.liveCells()) /
                              static_cast<double>(tiling_.looking()),
                          kLeastYield, kLargestYield);
-    first = false;
-    more = more && !reached() && core_.error < goal_.most_error;
-    bound_ = bound;
+    bound = std::min(bound * stepFor(bound, yield), kLargestBound);
   }
 }
 
