@@ -82,6 +82,18 @@ def fluid(build, folder):
     return tetstream.convert(stream, path) + ":density"
 
 
+def check_structures(build):
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        fluid(build, folder)
+        words = [harness.bench_path(build, "structures"), os.path.join(folder, "fluid.tets"),
+                 "2000", "2"]
+        done = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True)
+    rows = [line[2:-2].split(" | ") for line in done.stdout.splitlines() if line[:1] == "|"]
+    maps, stars = rows[2:6], rows[8:]
+    assert len(maps) == 4 and all(float(row[1]) > 0 for row in maps), rows
+    assert len(stars) == 4 and all(float(row[4]) > 0 and float(row[6]) > 16 for row in stars), rows
+
+
 def check_windows(build, mesh):
     rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000")
     assert [row["window"] for row in rows] == ["in core", "4"] * 2, rows
@@ -123,6 +135,7 @@ def main():
     check_memory(build)
     check_memory_limit(build)
     check_slope(build)
+    check_structures(build)
     if not os.path.isdir(os.environ.get("TETSTREAM_JUDGE", "")):
         return print("not run: what asks the judge")
     with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
