@@ -15,6 +15,9 @@ constexpr double kTrust = 0.2;
 // Share of the cells to come that the bound leaves for the end: what is simplified too far cannot
 // be brought back.
 constexpr double kReserve = 0.02;
+// Cells that are not written when they are due, for the end: where few are asked for, the last ones
+// hang on the shape of what is left.
+constexpr double kHeldBack = 10;
 // A window that had to pass its bound to make room shows where the next one will end, too.
 constexpr double kAgain = 0.8;
 // With a bound on the error the first window makes this share of what it allows.
@@ -87,7 +90,7 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
   const double seen = static_cast<double>(ledger.read - ledger.front);
   // Cells that are written are lost for the target: not many more than are due by now.
   const double due = wanted(ledger) * shareOf(seen, ledger);
-  const double may_go = std::max(due - static_cast<double>(ledger.written), 0.0);
+  const double may_go = std::max(due - kHeldBack - static_cast<double>(ledger.written), 0.0);
   // In a window of less than two fronts the front alone is more than what may stay.
   const int64_t may_stay = std::max(ledger.keep, ledger.front);
   Goal goal{may_stay + static_cast<int64_t>(may_go), leastOf(ledger), false, ledger.front};

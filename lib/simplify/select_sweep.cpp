@@ -20,7 +20,7 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
 // of what is learnt from a pass for the next.
 constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
-constexpr double kCarefulShare = 0.1, kLargestShare = 0.5;
+constexpr double kCarefulShare = 0.1, kLargestShare = 0.4;
 constexpr int64_t kLeastRoom = 8;
 constexpr int64_t kSlackShare = 50;
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
@@ -188,7 +188,7 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
 }
 
 // The bound below which there are so many edges that a pass should take what is too much, if not
-// more than half of the vertices have one: what comes of more cannot be foreseen.
+// more than kLargestShare of the vertices have one: what comes of more cannot be foreseen.
 template <class S>
 double SweepSelector<S>::sampledBound() {
   std::vector<float> errors;

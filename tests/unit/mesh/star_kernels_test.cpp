@@ -428,6 +428,26 @@ TEST(ListVertices, GivesEachOnceThatWasNotSeen) {
   }
 }
 
+TEST(ListVertices, GivesThoseOfStarCellsToo) {
+  Random r(8);
+  for (int k = 0; k < rounds(); ++k) {
+    std::vector<StarCell> cells(1 + r.below(30));
+    std::vector<uint32_t> seen(12, 3), out(3 * cells.size() + 1);
+    seen[5] = 7;  // seen before
+    std::set<uint32_t> wanted;
+    for (StarCell& cell : cells)
+      for (uint32_t& t : cell.t) wanted.insert(t = r.below(12));
+    wanted.erase(5);
+    std::vector<uint32_t> seen2 = seen, out2 = out;
+    const size_t n = listVertices(cells.data(), cells.size(), seen.data(), 7, out.data());
+    ASSERT_EQ(n, wanted.size());
+    EXPECT_EQ(std::set<uint32_t>(out.begin(), out.begin() + static_cast<long>(n)), wanted);
+    listVerticesOf(cells.data(), cells.size(), seen2.data(), 7, out2.data());
+    EXPECT_TRUE(seen == seen2);
+    EXPECT_TRUE(std::equal(out.begin(), out.begin() + static_cast<long>(n), out2.begin()));
+  }
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace tetstream

@@ -184,6 +184,51 @@ TEST(CommonBound, KeepsItsBoundWhenAllCellsAreOfTheFront) {
   EXPECT_LE(bound, 1e-2);
 }
 
+// When the quadrics are carried over into other units, so is all that was learnt.
+TEST(CommonBound, ChangesItsUnitsWithTheQuadrics) {
+  const auto bounds = [](double rescaled, const Pilot& pilot) {
+    CommonBound budget({0.1, 0, 0}, 100000, pilot);
+    const Ledger first = {20000, 0, 2000, 20000, 10000};
+    budget.goalOf(first);
+    Ledger after = first;
+    after.live = 6000;
+    budget.learn(1e-3, first, after, 900);
+    Ledger second = {40000, 900, 2000, 20000, 10000};
+    second.rescaled = rescaled;
+    const double next = budget.goalOf(second).first_bound;
+    second.rescaled = 1;
+    budget.learn(2 * next, second, second, 700);
+    second.rescaled = rescaled;
+    return std::pair(next, budget.lastGoal(second).first_bound);
+  };
+  for (const Pilot& pilot : {Pilot{}, Pilot{1e-3, {0, 0.5, 1}}}) {
+    const auto [next, last] = bounds(1, pilot);
+    const auto [next_by_4, last_by_4] = bounds(4, pilot);
+    EXPECT_NEAR(next_by_4, 4 * next, 1e-9 * next);
+    EXPECT_NEAR(last_by_4, 16 * last, 1e-9 * last);
+  }
+}
+
+// A window that had to pass its bound: the next one starts near where it ended.
+TEST(CommonBound, StartsAgainNearWhereAWindowWasForcedTo) {
+  const auto next = [](double times) {
+    CommonBound budget({0.5, 0, 0}, 1000000, {});
+    const Ledger window = {20000, 0, 2000, 20000, 10000};
+    budget.goalOf(window);
+    budget.learn(1e-3, window, window, 5000);
+    Ledger second = window;
+    second.read = 40000;
+    second.written = 5000;
+    const double first = budget.goalOf(second).first_bound;
+    budget.learn(times * first, second, second, 5000);
+    second.read = 60000;
+    second.written = 10000;
+    return std::pair(times * first, budget.goalOf(second).first_bound);
+  };
+  const auto [reached, start] = next(1000);
+  EXPECT_GT(start, 0.5 * reached);
+}
+
 // Nothing to divide by: one cell, none, all of them, a stream of which nothing is known.
 TEST(CommonBound, GivesNumbersWhateverItIsTold) {
   int wrong = 0;  // some are enough
