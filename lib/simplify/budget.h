@@ -97,7 +97,7 @@ class CommonBound final : public Budget {
   double error_room_ = 1;   // error allowed / error made, after the last window
   bool limit_met_ = false;  // by the last window
   double bound_ = 0, first_bound_ = 0;
-  bool forced_ = false;  // the last window passed the bound that it was given
+  bool forced_ = false;      // the last window passed the bound that it was given
   double kept_ = 0;          // simplified cells in the window, at the bound
   double seen_ = 0;          // cells read that they and the written ones stand for
   double written_ = 0;       // cells
