@@ -83,7 +83,9 @@ class Choices {
   // v was merged into u: what x knew of either is void, and its other edges may be legal again.
   void replace(uint32_t x, uint32_t u, uint32_t v, float error) {
     Choice& c = of_[x];
-    const auto is_void = [u, v](double key) { return (otherOf(key) == u) | (otherOf(key) == v); };
+    const auto is_void = [u, v](double key) {  // without a branch
+      return (unsigned{otherOf(key) == u} | unsigned{otherOf(key) == v}) != 0;
+    };
     for (double& key : c.best) key = is_void(key) ? kNothing : key;
     moveUp(c);
     moveUp(c);
