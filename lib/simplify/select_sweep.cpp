@@ -20,7 +20,7 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
 // of what is learnt from a pass for the next.
 constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
-constexpr double kCarefulShare = 0.1, kLargestShare = 0.4;
+constexpr double kFirstShare = 0.1, kFirstShareToError = 0.01;
 constexpr int64_t kLeastRoom = 8;
 constexpr int64_t kSlackShare = 50;
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
@@ -118,7 +118,8 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
     if (!(bound > 0)) bound = sampledBound();
     const int64_t before = core_.window.liveCells();
     const bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
-    bound_ = bound;
+    // A pass that the limit on the error ended was left half done: the one before tells the bound.
+    if (!core_.error_reached || first) bound_ = bound;
     if (!more || reached() || core_.error >= goal_.most_error) return;
     if (!first && tiling_.looking() > 0)  // in the first, most vertices are new
       yield = std::clamp(static_cast<double>(before - core_.window.liveCells()) /
@@ -187,8 +188,8 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   return more;
 }
 
-// The bound below which there are so many edges that a pass should take what is too much, if not
-// more than kLargestShare of the vertices have one: what comes of more cannot be foreseen.
+// The errors of a small part of the vertices' best edges are below: what is simplified too far at
+// first stays so.
 template <class S>
 double SweepSelector<S>::sampledBound() {
   std::vector<float> errors;
@@ -202,11 +203,7 @@ double SweepSelector<S>::sampledBound() {
             });
   }
   if (errors.empty()) return std::numeric_limits<float>::min();
-  const auto vertices = static_cast<double>(tiling_.looking());
-  const auto cells = static_cast<double>(core_.window.liveCells() - goal_.cells);
-  const double share = std::isfinite(goal_.most_error) ? kCarefulShare
-                                                       : std::clamp(cells / kFirstYield / vertices,
-                                                                    kCarefulShare, kLargestShare);
+  const double share = std::isfinite(core_.error_limit) ? kFirstShareToError : kFirstShare;
   const auto place = static_cast<size_t>(share * static_cast<double>(errors.size() - 1));
   std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(place),
                    errors.end());

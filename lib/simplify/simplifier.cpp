@@ -18,7 +18,8 @@ constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
-constexpr int64_t kLongStream = 10;  // windows
+constexpr int64_t kLongStream = 10;     // windows
+constexpr int64_t kMildReduction = 12;  // cells in over cells out
 // A header that claims more is not believed: the window grows when such a front comes.
 constexpr int64_t kWidestFront = 1 << 23;
 // Of a memory budget, not for cells and vertices: stars, lists; a patch beside.
@@ -195,10 +196,14 @@ class WindowedEngine final : public Simplifier::Engine {
 
   // Cells that may stay in the window. Simplified ones wait there for their neighbours, and even
   // out what is simplified more and what less, but are loaded again at every turn: in a stream of
-  // many windows, or one that a pilot knows, as many as the front has are enough.
+  // many windows, or one that a pilot knows, as many as the front has are enough. Not for strong
+  // reductions, whose cells are large, nor up to an error, where no bound is passed to make room.
   int64_t keptCells() const {
-    const bool is_long = knows_pilot_ || plan_.schema.cell_count >= kLongStream * capacity_;
-    if (options_.mode == Mode::kPaper || !is_long) return capacity_ / 2;
+    const int64_t cells = plan_.schema.cell_count;
+    const bool is_long = knows_pilot_ || cells >= kLongStream * capacity_;
+    const bool is_mild = cells <= kMildReduction * targetOf(plan_.schema, options_).cellsOf(cells);
+    if (options_.mode == Mode::kPaper || options_.error > 0 || !is_long || !is_mild)
+      return capacity_ / 2;
     return std::min(capacity_ / 2, front_cells_ + std::max(front_cells_, capacity_ / 8));
   }
 
