@@ -20,9 +20,10 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
 // of what is learnt from a pass for the next.
 constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
+// Share of the vertices whose best edges are below the first bound; with a limit on the error.
 constexpr double kFirstShare = 0.1, kFirstShareToError = 0.01;
-constexpr int64_t kLeastRoom = 8;
-constexpr int64_t kSlackShare = 50;
+constexpr int64_t kLeastRoom = 8;    // cells; a collapse takes 5 or 6
+constexpr int64_t kSlackShare = 50;  // one part in these of a goal is no reason for another pass
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
 template <class S>
@@ -75,6 +76,11 @@ class SweepSelector final : public Selector {
   template <class Work>
   void onPatch(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count,
                Work work);
+  template <class Work>
+  void onTile(const TilePiece& tile, Work work) {
+    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
+            tile.cell_end - tile.cell_begin, work);
+  }
   void tryEverything(const std::function<void()>& tick);
 
   bool sweepPatch(float bound);
@@ -90,6 +96,7 @@ class SweepSelector final : public Selector {
   void listNeighbours(uint32_t v);
   void listNeighboursOfMerged(uint32_t u);
   void measureNeighbours(uint32_t u);
+  void measureIn(const VertexTable<S>& table, uint32_t u);
 
   Core<S>& core_;
   Tiling<S> tiling_;
@@ -176,12 +183,11 @@ template <class S>
 bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   bool more = false;
   for (const TilePiece& tile : tiling_.tiles()) {
-    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
-            tile.cell_end - tile.cell_begin, [&] {
-              more = sweepPatch(bound) || more;
-              patch_.store();
-              settleAll();
-            });
+    onTile(tile, [&] {
+      more = sweepPatch(bound) || more;
+      patch_.store();
+      settleAll();
+    });
     tick();
     if (mustStop(core_.window.liveCells())) return false;
   }
@@ -194,13 +200,11 @@ template <class S>
 double SweepSelector<S>::sampledBound() {
   std::vector<float> errors;
   for (size_t i = 0; i < tiling_.tiles().size(); i += tiling_.tiles().size() / 4 + 1) {
-    const TilePiece& tile = tiling_.tiles()[i];
-    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
-            tile.cell_end - tile.cell_begin, [&] {
-              evaluateAll(std::numeric_limits<float>::infinity());
-              for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
-                if (std::isfinite(choices_.least(v))) errors.push_back(choices_.least(v));
-            });
+    onTile(tiling_.tiles()[i], [&] {
+      evaluateAll(std::numeric_limits<float>::infinity());
+      for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
+        if (std::isfinite(choices_.least(v))) errors.push_back(choices_.least(v));
+    });
   }
   if (errors.empty()) return std::numeric_limits<float>::min();
   const double share = std::isfinite(core_.error_limit) ? kFirstShareToError : kFirstShare;
@@ -218,11 +222,10 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
     live = core_.window.liveCells();
     tiling_.build(round_++, std::numeric_limits<float>::infinity());
     for (const TilePiece& tile : tiling_.tiles()) {
-      onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
-              tile.cell_end - tile.cell_begin, [&] {
-                exhaustive_->decimate(goal_, tick);
-                patch_.store();
-              });
+      onTile(tile, [&] {
+        exhaustive_->decimate(goal_, tick);
+        patch_.store();
+      });
       if (mustStop(core_.window.liveCells())) return;
     }
   } while (core_.window.liveCells() < live);
@@ -230,12 +233,12 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
 
 // ------------------------------------------------------------------------------- in a patch
 
-// v's neighbours that may be merged with it, each once.
 template <class S>
 void SweepSelector<S>::startList(uint32_t v, size_t cells) {
   if (neighbours_.size() < 4 * cells + 1) neighbours_.resize(8 * cells + 1);
   seen_[v] = ++mark_;
 }
+// v's neighbours that may be merged with it, each once.
 template <class S>
 void SweepSelector<S>::listNeighbours(uint32_t v) {
   const uint32_t cells = patch_.starSize(v);
@@ -255,9 +258,13 @@ void SweepSelector<S>::listNeighboursOfMerged(uint32_t u) {
 
 template <class S>
 void SweepSelector<S>::measureNeighbours(uint32_t u) {
+  measureIn({patch_.allQuadrics(), patch_.allValues(), core_.window.shape().quadric,
+             patch_.valueStride()},
+            u);
+}
+template <class S>
+void SweepSelector<S>::measureIn(const VertexTable<S>& table, uint32_t u) {
   if (errors_.size() < count_) errors_.resize(neighbours_.size());
-  const VertexTable<S> table = {patch_.allQuadrics(), patch_.allValues(),
-                                core_.window.shape().quadric, patch_.valueStride()};
   core_.kernels.edgeErrors(table, u, neighbours_.data(), static_cast<int>(count_),
                            core_.scale.data(), core_.plan.dimension, errors_.data());
 }
@@ -378,11 +385,9 @@ float SweepSelector<S>::leastAcrossSeam(uint32_t v) {
     neighbours_[i] = patch_.slotOf(neighbours_[i]);
     if (changed_[v] && settledOf(window, neighbours_[i]).refused) unsettle(window, neighbours_[i]);
   }
-  if (errors_.size() < count_) errors_.resize(neighbours_.size());
-  const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
-                                window.shape().values};
-  core_.kernels.edgeErrors(table, patch_.slotOf(v), neighbours_.data(), static_cast<int>(count_),
-                           core_.scale.data(), core_.plan.dimension, errors_.data());
+  measureIn(
+      {window.allQuadrics(), window.allValues(), window.shape().quadric, window.shape().values},
+      patch_.slotOf(v));
   S least = std::numeric_limits<S>::infinity();
   for (size_t i = 0; i < count_; ++i) least = errors_[i] < least ? errors_[i] : least;  // no NaN
   return static_cast<float>(least);
