@@ -246,7 +246,9 @@ inline StarCounts lookRoundOf(const uint16_t* corners, uint16_t* cells, uint32_t
     const __m128i seen = _mm_or_si128(_mm_shuffle_epi8(corner, look),
                                       _mm_cvtsi32_si128(static_cast<int>(4 * cell + j)));
     cells[kept + in_ring] = cell;
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(both ? ring + in_ring : star + kept), seen);
+    // To both, since there is no pattern for a branch; the next overwrites what does not belong.
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(star + kept), seen);
+    _mm_storeu_si128(reinterpret_cast<__m128i*>(ring + in_ring), seen);
     kept += live & !both;
     in_ring += live & both;
   }

@@ -83,13 +83,14 @@ class Choices {
   // v was merged into u: what x knew of either is void, and its other edges may be legal again.
   void replace(uint32_t x, uint32_t u, uint32_t v, float error) {
     Choice& c = of_[x];
-    const auto is_void = [u, v](double key) {  // without a branch
-      return (unsigned{otherOf(key) == u} | unsigned{otherOf(key) == v}) != 0;
+    const auto unless_void = [u, v](double key) {
+      const uint64_t is_void = uint64_t{otherOf(key) == u} | uint64_t{otherOf(key) == v};
+      const uint64_t bits = std::bit_cast<uint64_t>(key), none = std::bit_cast<uint64_t>(kNothing);
+      return std::bit_cast<double>(bits ^ ((bits ^ none) & (0 - is_void)));  // without a branch
     };
-    for (double& key : c.best) key = is_void(key) ? kNothing : key;
-    moveUp(c);
-    moveUp(c);
-    c.refused = is_void(c.refused) ? kNothing : c.refused;
+    for (double& key : c.best) key = unless_void(key);
+    sort(c);
+    c.refused = unless_void(c.refused);
     woken_[x] = 1;
     c.tried = std::min(c.tried, keyOf(error, u));  // this one was not
     offer(c, keyOf(error, u));
@@ -137,25 +138,25 @@ class Choices {
   }
   static void offer(Choice& c, double key) {
     if (key < c.tried) key = kNothing;
-    for (double& best : c.best) {
-      const double worse = std::max(key, best);
-      best = std::min(key, best);
-      key = worse;
-    }
+    for (double& best : c.best) exchange(best, key);
     c.passed_over = std::min(c.passed_over, key);
   }
-  // Takes one that is nothing, wherever it stands, to the end.
-  static void moveUp(Choice& c) {
-    for (int i = 1; i < kBest; ++i) {
-      const double worse = std::max(c.best[i - 1], c.best[i]);
-      c.best[i - 1] = std::min(c.best[i - 1], c.best[i]);
-      c.best[i] = worse;
-    }
+  static void exchange(double& a, double& b) {
+    const double worse = std::max(a, b);
+    a = std::min(a, b);
+    b = worse;
+  }
+  static void sort(Choice& c) {
+    exchange(c.best[0], c.best[1]);
+    exchange(c.best[2], c.best[3]);
+    exchange(c.best[0], c.best[2]);
+    exchange(c.best[1], c.best[3]);
+    exchange(c.best[1], c.best[2]);
   }
   static void refuse(Choice& c, double key) {
     if (key == c.best[0]) c.tried = std::bit_cast<double>(std::bit_cast<uint64_t>(key) + 1);
     for (double& best : c.best) best = best == key ? kNothing : best;
-    moveUp(c);
+    sort(c);
     c.also_refused = std::min(c.also_refused, std::max(key, c.refused));
     c.refused = std::min(key, c.refused);
   }
