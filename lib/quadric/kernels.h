@@ -33,8 +33,8 @@ constexpr double kMaxCondition = 1e4;
 // gradients of near-flat cells mean nothing and would freeze their vertices.
 constexpr double kFlatVolume = 1e-5;
 
-// Edges that are minimized at once.
-constexpr int kEdgeLanes = 8;
+// Edges that are minimized, and cells that are measured, at once.
+constexpr int kEdgeLanes = 8, kCellLanes = 4;
 
 // Quadrics and values of many vertices, by slot. Three numbers beyond the last of each must be
 // readable: rows are read four numbers at a time.
@@ -53,11 +53,17 @@ struct QuadricKernels {
   // Adds the quadric of a cell, a quarter of it to each of its vertices. Field form: the integral
   // of the squared field error, sum over components c of V (g_c, -1)(g_c, -1)^T with g_c the
   // cell's gradient: n n^T / V with n the determinant of the edges (section 3.4).
-  // `shape`: kShapeWeight, or another weight of the regulariser.
-  void (*addCellField)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
-  // The same with the squared distance to the cell's hyperplane: V (I - sum of e_i e_i^T) over an
-  // orthonormal basis of the cell in R^n (Garland and Zhou 2005).
-  void (*addCellDistance)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
+  // `shape`: kShapeWeight, or another weight of the regulariser. Returns 6 V, with its sign.
+  double (*addCellField)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
+  // The same numbers for kCellLanes cells, one after the other: their corners, four to a cell; 6 V
+  // of each. `quadrics` are those of the table. False, and nothing is done, where one is too flat
+  // for its sign to be sure, or the dimension too large for this.
+  bool (*addCellFields)(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
+                        const S* scale, double shape, double* determinants);
+  // As addCellField with the squared distance to the cell's hyperplane: V (I - sum of e_i e_i^T)
+  // over an orthonormal basis of the cell in R^n (Garland and Zhou 2005).
+  double (*addCellDistance)(const S* const x[4], const S* scale, int n, double shape,
+                            S* const q[4]);
   // Adds a boundary face to its vertices: weight * area / 3 times the squared distance to
   // its plane in space, or to its 2-flat in R^n.
   void (*addFacePlane)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);

@@ -31,21 +31,28 @@ inline void difference(const S* a, const S* b, const S* scale, int n, double* ou
     out[i] = static_cast<double>(b[i] - a[i]) * static_cast<double>(scale[i]);
 }
 
-inline void cross(const double* a, const double* b, double* out) {
+template <class V>
+inline void cross(const V* a, const V* b, V* out) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-inline double dot(const double* a, const double* b, int n) {
-  double sum = 0;
+template <class V>
+inline V dot(const V* a, const V* b, int n) {
+  V sum = V{};
   for (int i = 0; i < n; ++i) sum += a[i] * b[i];
   return sum;
 }
 
+template <class V>
+inline V squaredSize(const V* e1, const V* e2, const V* e3) {
+  return dot(e1, e1, 3) + dot(e2, e2, 3) + dot(e3, e3, 3);
+}
+
 // 6 V, raised for near-flat cells.
 inline double effectiveVolume(const double* e1, const double* e2, const double* e3, double det) {
-  const double size = dot(e1, e1, 3) + dot(e2, e2, 3) + dot(e3, e3, 3);
+  const double size = squaredSize(e1, e2, e3);
   const double least = kFlatVolume * size * squareRoot(size);
   const double volume = det < 0 ? -det : det;
   return volume > least ? volume : least;
@@ -57,32 +64,47 @@ inline void addToAll(const double* a, int size, S* const* q, int count) {
     for (int i = 0; i < size; ++i) q[k][i] += static_cast<S>(a[i]);
 }
 
-template <class S, int N>
-void addCellField(const S* const x[4], const S* scale, int n_given, double shape, S* const q[4]) {
-  const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
-  double e1[kRoom<N>], e2[kRoom<N>], e3[kRoom<N>], a[kRoom<N> * (kRoom<N> + 1) / 2];
-  difference(x[0], x[1], scale, n, e1);
-  difference(x[0], x[2], scale, n, e2);
-  difference(x[0], x[3], scale, n, e3);
-  double c1[3], c2[3], c3[3];
-  cross(e2, e3, c1);
-  cross(e3, e1, c2);
-  cross(e1, e2, c3);
-  const double det = dot(e1, c1, 3);
-  const double volume = effectiveVolume(e1, e2, e3, det);
-  const double w = 1.0 / (24.0 * volume);  // a quarter of 1 / (6 * 6V) times n n^T
-  for (int i = 0; i < size; ++i) a[i] = 0;
-  for (int f = 3; f < n; ++f) {
-    double g[3];  // det times the gradient of component f
-    for (int i = 0; i < 3; ++i) g[i] = e1[f] * c1[i] + e2[f] * c2[i] + e3[f] * c3[i];
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j <= i; ++j) a[at(i, j)] += w * (g[i] * g[j]);
-      a[at(f, i)] = -(w * (g[i] * det));
-    }
-    a[at(f, f)] = w * (det * det);
+// A cell (V is double) or four (V is a vector): the same operations in the same order.
+template <class V, int N>
+struct CellField {
+  V e1[kRoom<N>], e2[kRoom<N>], e3[kRoom<N>];  // the edges from the first corner
+  V c1[3], c2[3], c3[3];
+  V a[kRoom<N> * (kRoom<N> + 1) / 2];
+
+  V determinant() {
+    cross(e2, e3, c1);
+    cross(e3, e1, c2);
+    cross(e1, e2, c3);
+    return dot(e1, c1, 3);
   }
-  for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
-  addToAll(a, size, q, 4);
+  // `volume`: the effective one.
+  void form(int n, double shape, V det, V volume) {
+    const V w = 1.0 / (24.0 * volume);  // a quarter of 1 / (6 * 6V) times n n^T
+    for (int i = 0; i < n * (n + 1) / 2; ++i) a[i] = V{};
+    for (int f = 3; f < n; ++f) {
+      V g[3];  // det times the gradient of component f
+      for (int i = 0; i < 3; ++i) g[i] = e1[f] * c1[i] + e2[f] * c2[i] + e3[f] * c3[i];
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) a[at(i, j)] += w * (g[i] * g[j]);
+        a[at(f, i)] = -(w * (g[i] * det));
+      }
+      a[at(f, f)] = w * (det * det);
+    }
+    for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
+  }
+};
+
+template <class S, int N>
+double addCellField(const S* const x[4], const S* scale, int n_given, double shape, S* const q[4]) {
+  const int n = dimension<N>(n_given);
+  CellField<double, N> cell;
+  difference(x[0], x[1], scale, n, cell.e1);
+  difference(x[0], x[2], scale, n, cell.e2);
+  difference(x[0], x[3], scale, n, cell.e3);
+  const double det = cell.determinant();
+  cell.form(n, shape, det, effectiveVolume(cell.e1, cell.e2, cell.e3, det));
+  addToAll(cell.a, n * (n + 1) / 2, q, 4);
+  return det;
 }
 
 // a = weight (I - sum of the projections on the span of `count` edges).
@@ -106,8 +128,8 @@ inline void distanceForm(double (*edges)[Room], int count, int n, double weight,
 }
 
 template <class S, int N>
-void addCellDistance(const S* const x[4], const S* scale, int n_given, double shape,
-                     S* const q[4]) {
+double addCellDistance(const S* const x[4], const S* scale, int n_given, double shape,
+                       S* const q[4]) {
   const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
   double e[3][kRoom<N>], a[kRoom<N> * (kRoom<N> + 1) / 2];
   for (int k = 0; k < 3; ++k) difference(x[0], x[k + 1], scale, n, e[k]);
@@ -118,6 +140,7 @@ void addCellDistance(const S* const x[4], const S* scale, int n_given, double sh
   distanceForm<kRoom<N>>(e, 3, n, volume / 24.0, a);
   for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
   addToAll(a, size, q, 4);
+  return det;
 }
 
 template <class S, int N>
@@ -235,7 +258,7 @@ S minimizeEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scal
   return errorFrom<S, N>(q1, q2, h, n, z);
 }
 
-// ------------------------------------------------------------------ many edges side by side
+// ------------------------------------------------------------------ lanes
 typedef float Float8 __attribute__((vector_size(32)));
 typedef float Float4 __attribute__((vector_size(16)));
 typedef double Double8 __attribute__((vector_size(64)));
@@ -253,8 +276,6 @@ struct Lanes<double> {
   using Eight = Double8;
   using Four = Double4;
 };
-static_assert(kEdgeLanes == 8);
-
 // rows[k][at .. at + 4) of eight rows, as four columns.
 template <class S>
 inline void loadColumns(const S* const rows[8], int first, typename Lanes<S>::Eight* columns) {
@@ -272,6 +293,92 @@ inline void loadColumns(const S* const rows[8], int first, typename Lanes<S>::Ei
   columns[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
   columns[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
 }
+
+// ----------------------------------------------------------------- four cells side by side
+static_assert(kCellLanes == 4);
+// Above it neither the effective volume nor, for edges rounded to float32, the sign is in doubt.
+constexpr double kSureVolume = kFlatVolume * (1 + 1e-6);
+
+template <class T>
+inline void transpose(T* r) {
+  const T low01 = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
+  const T high01 = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
+  const T low23 = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
+  const T high23 = __builtin_shufflevector(r[2], r[3], 2, 6, 3, 7);
+  r[0] = __builtin_shufflevector(low01, low23, 0, 1, 4, 5);
+  r[1] = __builtin_shufflevector(low01, low23, 2, 3, 6, 7);
+  r[2] = __builtin_shufflevector(high01, high23, 0, 1, 4, 5);
+  r[3] = __builtin_shufflevector(high01, high23, 2, 3, 6, 7);
+}
+
+// The values of corner j of four cells, as columns.
+template <class S, int N>
+inline void loadCorner(const VertexTable<S>& table, const uint32_t* corners, int j,
+                       typename Lanes<S>::Four* columns) {
+  for (int first = 0; first < N; first += 4) {
+    for (int k = 0; k < 4; ++k)
+      __builtin_memcpy(&columns[first + k], table.value(corners[4 * k + j]) + first,
+                       sizeof columns[0]);
+    transpose(columns + first);
+  }
+}
+
+// One cell after the other, as it would be alone: they share vertices.
+template <class S, int N>
+inline void addToCorners(const Double4* a, const VertexTable<S>& table, const uint32_t* corners,
+                         S* quadrics) {
+  using Four = typename Lanes<S>::Four;
+  constexpr int kSize = N * (N + 1) / 2, kFours = (kSize + 3) / 4, kWhole = kSize / 4;
+  Four rows[kFours][4];
+  for (int b = 0; b < kFours; ++b) {
+    for (int k = 0; k < 4; ++k)
+      rows[b][k] = 4 * b + k < kSize ? __builtin_convertvector(a[4 * b + k], Four) : Four{};
+    transpose(rows[b]);
+  }
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 4; ++j) {
+      S* q = quadrics + (table.quadric(corners[4 * k + j]) - table.quadrics);
+      for (int b = 0; b < kWhole; ++b) {
+        Four sum;
+        __builtin_memcpy(&sum, q + 4 * b, sizeof sum);
+        sum += rows[b][k];
+        __builtin_memcpy(q + 4 * b, &sum, sizeof sum);
+      }
+      for (int i = 4 * kWhole; i < kSize; ++i) q[i] += rows[kWhole][k][i % 4];
+    }
+}
+
+template <class S, int N>
+bool addCellFields(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
+                   const S* scale, double shape, double* determinants) {
+  if constexpr (N == 0) {
+    return false;  // four large ones would need a large stack
+  } else {
+    using Four = typename Lanes<S>::Four;
+    constexpr int kRows = (N + 3) / 4 * 4;
+    CellField<Double4, N> cells;
+    Four origin[kRows], end[kRows];
+    loadCorner<S, N>(table, corners, 0, origin);
+    Double4* const edges[3] = {cells.e1, cells.e2, cells.e3};
+    for (int j = 0; j < 3; ++j) {
+      loadCorner<S, N>(table, corners, j + 1, end);
+      for (int i = 0; i < N; ++i)
+        edges[j][i] =
+            __builtin_convertvector(end[i] - origin[i], Double4) * static_cast<double>(scale[i]);
+    }
+    const Double4 det = cells.determinant();
+    const Double4 size = squaredSize(cells.e1, cells.e2, cells.e3);
+    const auto sure = det * det > kSureVolume * kSureVolume * (size * size * size);
+    if (!(sure[0] & sure[1] & sure[2] & sure[3])) return false;
+    cells.form(N, shape, det, det < 0 ? -det : det);
+    addToCorners<S, N>(cells.a, table, corners, quadrics);
+    for (int k = 0; k < 4; ++k) determinants[k] = det[k];
+    return true;
+  }
+}
+
+// ------------------------------------------------------------------ many edges side by side
+static_assert(kEdgeLanes == 8);
 
 // The direct solve, for one edge (V is S) or eight (V is a vector of S): the same operations in the
 // same order.
@@ -386,8 +493,9 @@ void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others,
 
 template <class S, int N>
 constexpr QuadricKernels<S> kKernels = {
-    addCellField<S, N>, addCellDistance<S, N>, addFacePlane<S, N>, addFaceDistance<S, N>,
-    minimizeEdge<S, N>, solveEdge<S, N>,       edgeErrors<S, N>,   errorAt<S, N>};
+    addCellField<S, N>, addCellFields<S, N>,   addCellDistance<S, N>,
+    addFacePlane<S, N>, addFaceDistance<S, N>, minimizeEdge<S, N>,
+    solveEdge<S, N>,    edgeErrors<S, N>,      errorAt<S, N>};
 template <class S>
 const QuadricKernels<S>& kernelsFor(int n) {
   switch (n) {

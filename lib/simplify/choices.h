@@ -10,12 +10,14 @@
 
 namespace tetstream {
 
-// An edge is kept with both its ends, as its error and the other end. Of a vertex the four best are
-// known, and the best of those that were refused since its surroundings last changed; of all others
-// only the least error. Once the four are worse than that, the vertex must look at its edges again:
-// with two it had to three times for every two collapses of meshes that refuse many.
+// An edge is kept with both its ends, as its error and the other end. Of a vertex the eight best
+// are known, and the best of those that were refused since its surroundings last changed; of all
+// others only the least error. Once the eight are worse than that, the vertex must look at its
+// edges again: with four it had to twice as often.
 class Choices {
  public:
+  static constexpr uint32_t kMostVertices = 1 << 12;  // what keys have room for
+
   explicit Choices(Account& account) : of_(account), least_(account), woken_(account) {}
 
   void reset(size_t vertices) {
@@ -44,16 +46,22 @@ class Choices {
       if (woken_[v]) reconsider(v);
   }
   // Whether the vertex must look at its edges, all of them, for its best.
-  bool mustLookAgain(uint32_t v) const { return of_[v].passed_over < of_[v].best[0]; }
-  uint32_t target(uint32_t v) const { return otherOf(of_[v].best[0]); }
+  bool mustLookAgain(uint32_t v) const { return of_[v].passed_over < bestOf(of_[v]); }
+  uint32_t target(uint32_t v) const { return otherOf(bestOf(of_[v])); }
 
   // The edges of v, all of them, in place of what was known.
   template <class S>
   void relist(uint32_t v, const S* errors, const uint32_t* others, size_t count) {
     Choice c = of_[v];
-    std::fill_n(c.best, kBest, kNothing);
     c.passed_over = kNothing;
-    for (size_t i = 0; i < count; ++i) offer(c, keyOf(static_cast<float>(errors[i]), others[i]));
+    float first[8];
+    for (uint32_t i = 0; i < 8; ++i) first[i] = i < count ? keyOf(errors[i], others[i]) : kNothing;
+    for (uint32_t i = 0; i < 8; ++i) first[i] = first[i] < c.tried ? kNothing : first[i];
+    for (int k = 0; k < 2; ++k) {
+      std::copy_n(first + 4 * k, 4, reinterpret_cast<float*>(&c.best[k]));
+      c.best[k] = c.best[k] < kNothing ? c.best[k] : kNone[k];
+    }
+    for (size_t i = 8; i < count; ++i) offer(c, keyOf(errors[i], others[i]));
     of_[v] = c;
     update(v);
   }
@@ -73,24 +81,30 @@ class Choices {
   bool hasRefused(uint32_t v) const {
     return std::min(of_[v].also_refused, of_[v].refused) < kNothing;
   }
-  // One edge more, at both its ends.
-  void add(uint32_t v, uint32_t w, float error) {
-    offer(of_[v], keyOf(error, w));
-    offer(of_[w], keyOf(error, v));
+  // More edges of v, at both their ends.
+  template <class S>
+  void add(uint32_t v, const S* errors, const uint32_t* others, size_t count) {
+    Choice c = of_[v];
+    for (size_t i = 0; i < count; ++i) {
+      const uint32_t w = others[i];
+      offer(c, keyOf(errors[i], w));
+      const float key = keyOf(errors[i], v);
+      least_[w] = std::min(least_[w], leastIn(key < of_[w].tried ? kNothing : key));
+      offer(of_[w], key);
+    }
+    of_[v] = c;
     update(v);
-    update(w);
   }
   // v was merged into u: what x knew of either is void, and its other edges may be legal again.
   void replace(uint32_t x, uint32_t u, uint32_t v, float error) {
     Choice& c = of_[x];
-    const auto unless_void = [u, v](double key) {
-      const uint64_t is_void = uint64_t{otherOf(key) == u} | uint64_t{otherOf(key) == v};
-      const uint64_t bits = std::bit_cast<uint64_t>(key), none = std::bit_cast<uint64_t>(kNothing);
-      return std::bit_cast<double>(bits ^ ((bits ^ none) & (0 - is_void)));  // without a branch
-    };
-    for (double& key : c.best) key = unless_void(key);
-    sort(c);
-    c.refused = unless_void(c.refused);
+    const Ends gone_u = Ends{} + u, gone_v = Ends{} + v;
+    for (int k = 0; k < 2; ++k) {
+      const Ends end = std::bit_cast<Ends>(c.best[k]) & kEndMask;
+      c.best[k] = (end == gone_u) | (end == gone_v) ? kNone[k] : c.best[k];
+    }
+    const uint32_t refused_end = otherOf(c.refused);
+    c.refused = (refused_end == u) | (refused_end == v) ? kNothing : c.refused;
     woken_[x] = 1;
     c.tried = std::min(c.tried, keyOf(error, u));  // this one was not
     offer(c, keyOf(error, u));
@@ -98,79 +112,90 @@ class Choices {
   }
   // v is gone, or another vertex now.
   void forget(uint32_t v) {
-    of_[v] = Choice{};
+    of_[v] = Choice{{kNone[0], kNone[1]}};
     least_[v] = std::bit_cast<uint32_t>(kInfinite);
     woken_[v] = 0;
   }
   // v's best edge, to w, is not legal.
   void refuse(uint32_t v, uint32_t w) {
-    const double key = of_[v].best[0], back = keyOf(errorOf(key), v);
+    const float key = bestOf(of_[v]), back = keyOf(key, v);
     refuse(of_[v], key);
+    of_[v].tried = std::bit_cast<float>(std::bit_cast<uint32_t>(key) + 1);
     update(v);
-    bool known = false;
-    for (double other : of_[w].best) known |= other == back;
-    if (!known) return;
+    const auto known = (of_[w].best[0] == back) | (of_[w].best[1] == back);
+    if (!(known[0] | known[1] | known[2] | known[3])) return;
+    if (back == bestOf(of_[w]))
+      of_[w].tried = std::bit_cast<float>(std::bit_cast<uint32_t>(back) + 1);
     refuse(of_[w], back);
     update(w);
   }
 
  private:
-  static constexpr float kRounding = 1 - 1e-5f;  // errors seen from the other end
+  // Edges by keys: the error, rounded down, with the other end in its last bits. They order by the
+  // error, then by the end. Keys that are none are larger, and different in each place.
+  static constexpr uint32_t kEndMask = kMostVertices - 1, kNothingBits = 0x7f7ff000;
+  static constexpr float kNothing = std::bit_cast<float>(kNothingBits + 8);
+  static constexpr float kRounding = 1 - 1e-3f;  // of keys, and of errors seen from the other end
   static constexpr float kInfinite = std::numeric_limits<float>::infinity();
-  static constexpr double kNothing = std::numeric_limits<double>::infinity();
-  static constexpr int kBest = 4;
-  // Edges by keys: the error, with the other end in the bits that float32 leaves free. They order
-  // by the error, then by the end, and the processor has minima of them.
+  typedef float Keys __attribute__((vector_size(16)));
+  typedef uint32_t Ends __attribute__((vector_size(16)));
+  static constexpr Ends kNoneBits[2] = {
+      {kNothingBits, kNothingBits + 1, kNothingBits + 2, kNothingBits + 3},
+      {kNothingBits + 4, kNothingBits + 5, kNothingBits + 6, kNothingBits + 7}};
+  static constexpr Keys kNone[2] = {std::bit_cast<Keys>(kNoneBits[0]),
+                                    std::bit_cast<Keys>(kNoneBits[1])};
   struct Choice {
-    double best[kBest] = {kNothing, kNothing, kNothing, kNothing};  // rising
-    double refused = kNothing;
-    double tried = 0;  // edges below were refused or are listed
-    double passed_over = kNothing, also_refused = kNothing;
+    Keys best[2];  // in no order
+    float refused = kNothing;
+    float tried = 0;  // edges below were refused or are listed
+    float passed_over = kNothing, also_refused = kNothing;
   };
 
-  static float errorOf(double key) { return static_cast<float>(key); }
-  static uint32_t otherOf(double key) {
-    return static_cast<uint32_t>(std::bit_cast<uint64_t>(key) & 0xffff);
+  static uint32_t otherOf(float key) { return std::bit_cast<uint32_t>(key) & kEndMask; }
+  static float keyOf(double error, uint32_t other) {
+    return keyOf(static_cast<float>(error), other);
   }
-  static double keyOf(float error, uint32_t other) {
-    const auto bits = std::bit_cast<uint64_t>(static_cast<double>(error));
-    return error < kInfinite ? std::bit_cast<double>(bits | other) : kNothing;
+  static float keyOf(float error, uint32_t other) {
+    const uint32_t bits = std::bit_cast<uint32_t>(error) & ~kEndMask;
+    const uint32_t key = std::min(bits, kNothingBits - kMostVertices) | other;
+    return error < kInfinite ? std::bit_cast<float>(key) : kNothing;
   }
-  static void offer(Choice& c, double key) {
-    if (key < c.tried) key = kNothing;
-    for (double& best : c.best) exchange(best, key);
-    c.passed_over = std::min(c.passed_over, key);
+  static Keys smaller(Keys a, Keys b) { return a < b ? a : b; }
+  static Keys larger(Keys a, Keys b) { return a > b ? a : b; }
+  static float bestOf(const Choice& c) {
+    Keys m = smaller(c.best[0], c.best[1]);
+    m = smaller(m, __builtin_shufflevector(m, m, 2, 3, 0, 1));
+    m = smaller(m, __builtin_shufflevector(m, m, 1, 0, 3, 2));
+    return m[0];
   }
-  static void exchange(double& a, double& b) {
-    const double worse = std::max(a, b);
-    a = std::min(a, b);
-    b = worse;
+  // In place of the worst, which may be none.
+  static void offer(Choice& c, float key) {
+    const Keys offered = Keys{} + (key < c.tried ? kNothing : key);
+    Keys worst = larger(c.best[0], c.best[1]);
+    worst = larger(worst, __builtin_shufflevector(worst, worst, 2, 3, 0, 1));
+    worst = larger(worst, __builtin_shufflevector(worst, worst, 1, 0, 3, 2));
+    const Keys taken = smaller(offered, worst);
+    for (Keys& best : c.best) best = best == worst ? taken : best;
+    c.passed_over = std::min(c.passed_over, larger(offered, worst)[0]);
   }
-  static void sort(Choice& c) {
-    exchange(c.best[0], c.best[1]);
-    exchange(c.best[2], c.best[3]);
-    exchange(c.best[0], c.best[2]);
-    exchange(c.best[1], c.best[3]);
-    exchange(c.best[1], c.best[2]);
-  }
-  static void refuse(Choice& c, double key) {
-    if (key == c.best[0]) c.tried = std::bit_cast<double>(std::bit_cast<uint64_t>(key) + 1);
-    for (double& best : c.best) best = best == key ? kNothing : best;
-    sort(c);
+  static void refuse(Choice& c, float key) {
+    for (int k = 0; k < 2; ++k) c.best[k] = c.best[k] == key ? kNone[k] : c.best[k];
     c.also_refused = std::min(c.also_refused, std::max(key, c.refused));
     c.refused = std::min(key, c.refused);
   }
-  void update(uint32_t v) {
-    const Choice& c = of_[v];
-    least_[v] = std::bit_cast<uint32_t>(errorOf(std::min(c.best[0], c.passed_over)));
+  // The bits of a key's error.
+  static uint32_t leastIn(float key) {
+    const uint32_t least = std::bit_cast<uint32_t>(key) & ~kEndMask;
+    return least + (least == kNothingBits ? kMostVertices : 0);  // infinity
   }
+  void update(uint32_t v) { least_[v] = leastIn(std::min(bestOf(of_[v]), of_[v].passed_over)); }
   void reconsider(uint32_t v) {
     Choice& c = of_[v];
     woken_[v] = 0;
     c.tried = 0;
     c.passed_over = std::min(c.passed_over, c.also_refused);
     c.also_refused = kNothing;
-    const double key = c.refused;
+    const float key = c.refused;
     c.refused = kNothing;
     offer(c, key);
     update(v);

@@ -160,42 +160,68 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
   core_.rescaled *= static_cast<double>(weight);
 }
 
+// `determinant`: 6 V in the window's units.
+template <class S>
+void Metric<S>::countVolume(uint32_t cell, double determinant) {
+  const double volume = std::fabs(determinant) / 6;
+  core_.volume += volume;
+  if (core_.plan.cell_means) core_.window.cellMeans(cell)[0] = volume;
+}
+
+template <class S>
+void Metric<S>::lockFlat(uint32_t cell) {
+  Window<S>& window = core_.window;
+  window.mesh.flagCell(cell, kFlat);
+  for (int j = 0; j < 4; ++j) window.mesh.flagVertex(window.mesh.corners(cell)[j], kLocked);
+  if (core_.plan.cell_means) window.cellMeans(cell)[0] = 0;
+  ++core_.report.locked_cells;
+  ++core_.locked.bad_cells;
+}
+
 template <class S>
 void Metric<S>::addCell(uint32_t cell) {
   Window<S>& window = core_.window;
   const uint32_t* v = window.mesh.corners(cell);
   double p[4][3];
-  for (int j = 0; j < 4; ++j) positionOf(window, v[j], p[j]);
-  const int side = orientation(p[0], p[1], p[2], p[3]);
-  if (side < 0) window.mesh.flagCell(cell, kNegative);
-  const double per_unit = 1 / length_unit_;  // of a power of two: exact
-  double e[3][3];
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) e[k][i] = (p[k + 1][i] - p[0][i]) * per_unit;
-  const double volume = std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                                  e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-                        6;
-  core_.volume += volume;
-  if (core_.plan.cell_means) window.cellMeans(cell)[0] = volume;
-  if (side == 0) {
-    window.mesh.flagCell(cell, kFlat);
-    for (int j = 0; j < 4; ++j) window.mesh.flagVertex(v[j], kLocked);
-    ++core_.report.locked_cells;
-    ++core_.locked.bad_cells;
-    return;
-  }
   const S* x[4];
   S* q[4];
   for (int j = 0; j < 4; ++j) {
+    positionOf(window, v[j], p[j]);
     x[j] = window.values(v[j]);
     q[j] = window.quadric(v[j]);
   }
+  const int side = orientation(p[0], p[1], p[2], p[3]);
+  if (side == 0) {
+    lockFlat(cell);
+    return;
+  }
+  if (side < 0) window.mesh.flagCell(cell, kNegative);
   const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
                        ? core_.kernels.addCellDistance
                        : core_.kernels.addCellField;
-  add(x, core_.scale.data(), core_.plan.dimension,
-      core_.options.mode == Mode::kPaper ? kShapeWeightPaper : kShapeWeight, q);
+  countVolume(cell, add(x, core_.scale.data(), core_.plan.dimension, shapeWeight(), q));
+}
+
+// Several side by side, where all have their sign beyond doubt.
+template <class S>
+bool Metric<S>::addLanes(uint32_t first) {
+  Window<S>& window = core_.window;
+  double determinants[kCellLanes];
+  const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
+                                window.shape().values};
+  if (!core_.kernels.addCellFields(table, window.quadric(0), window.mesh.corners(first),
+                                   core_.scale.data(), shapeWeight(), determinants))
+    return false;
+  for (uint32_t k = 0; k < kCellLanes; ++k) {
+    if (determinants[k] < 0) window.mesh.flagCell(first + k, kNegative);
+    countVolume(first + k, determinants[k]);
+  }
+  return true;
+}
+
+template <class S>
+double Metric<S>::shapeWeight() const {
+  return core_.options.mode == Mode::kPaper ? kShapeWeightPaper : kShapeWeight;
 }
 
 // Counts cells, not windows: the floor depends on what was read, not on how.
@@ -228,7 +254,13 @@ void Metric<S>::addCells(uint32_t first, uint32_t end) {
   if (!box_known_) growBox(first, end);
   if (!unit_known_) chooseLengthUnit(first, end);
   updateScales();
-  for (uint32_t c = first; c < end; ++c) addCell(c);
+  const bool in_lanes = core_.options.quadric != QuadricForm::kGarlandZhou;
+  for (uint32_t c = first; c < end;) {
+    if (in_lanes && end - c >= kCellLanes && addLanes(c))
+      c += kCellLanes;
+    else
+      addCell(c++);
+  }
   sampleAngles(first, end);
 }
 

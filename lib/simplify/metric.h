@@ -29,7 +29,11 @@ class Metric {
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
   void rescaleQuadrics(const std::vector<S>& factor);
+  double shapeWeight() const;
   void addCell(uint32_t cell);
+  bool addLanes(uint32_t first);
+  void countVolume(uint32_t cell, double determinant);
+  void lockFlat(uint32_t cell);
   void sampleAngles(uint32_t first, uint32_t end);
 
   Core<S>& core_;

@@ -45,6 +45,8 @@ class SweepSelector final : public Selector {
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
     goal_ = goal;
+    int exponent;
+    unit_ = std::frexp(core_.error_unit, &exponent);
     core_.error_reached = false;
     sweep(tick);
     if (!goal.last || mustStop(core_.window.liveCells())) return;
@@ -54,7 +56,7 @@ class SweepSelector final : public Selector {
     tryEverything(tick);
   }
 
-  double bound() const override { return bound_; }
+  double bound() const override { return bound_ / unit_; }
 
  private:
   // The last goal is met exactly; for others another pass must be worth its time.
@@ -111,14 +113,16 @@ class SweepSelector final : public Selector {
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
   Goal goal_{};
-  double bound_ = 0;
+  // Errors here are in units of the whole, up to a power of two: rounded, they order alike in
+  // whatever units the mesh is.
+  double unit_ = 1, bound_ = 0;
   unsigned round_ = 0;
 };
 
 template <class S>
 void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   if (mustStop(core_.window.liveCells())) return;
-  double bound = std::min(goal_.first_bound, kLargestBound), yield = kFirstYield;
+  double bound = std::min(goal_.first_bound * unit_, kLargestBound), yield = kFirstYield;
   for (bool first = true;; first = false) {
     tiling_.build(round_++,
                   bound > 0 ? static_cast<float>(bound) : std::numeric_limits<float>::infinity());
@@ -168,7 +172,7 @@ template <class S>
 template <class Work>
 void SweepSelector<S>::onPatch(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
                                size_t cell_count, Work work) {
-  if (patch_.load(owned, owned_count, cells, cell_count)) {
+  if (owned_count <= Choices::kMostVertices && patch_.load(owned, owned_count, cells, cell_count)) {
     work();
     return;
   }
@@ -267,6 +271,7 @@ void SweepSelector<S>::measureIn(const VertexTable<S>& table, uint32_t u) {
   if (errors_.size() < count_) errors_.resize(neighbours_.size());
   core_.kernels.edgeErrors(table, u, neighbours_.data(), static_cast<int>(count_),
                            core_.scale.data(), core_.plan.dimension, errors_.data());
+  for (size_t i = 0; i < count_; ++i) errors_[i] *= static_cast<S>(unit_);
 }
 
 // v's edges to later vertices, and to those that do not look at theirs, for both ends.
@@ -280,8 +285,7 @@ void SweepSelector<S>::addEdges(uint32_t v) {
   }
   count_ = later;
   measureNeighbours(v);
-  for (size_t i = 0; i < count_; ++i)
-    choices_.add(v, neighbours_[i], static_cast<float>(errors_[i]));
+  choices_.add(v, errors_.data(), neighbours_.data(), count_);
 }
 
 template <class S>

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 #include <cmath>
+#include <cstring>
 
 #include "dense_testing.h"
+#include "kernel_builds.h"
 #include "test_mesh.h"
 
 namespace tetstream::test {
@@ -96,6 +98,74 @@ TEST(QuadricOfACell, IsBoundedForFlatCells) {
           [&](const float* const* x, float* const* q) { kernel(x, c.scale.data(), n, kShape, q); });
     for (float v : c.quadrics[0]) EXPECT_LT(std::fabs(v), 1e6f);
   }
+}
+
+// Four cells of a table's vertices, some of which they share.
+template <class S>
+struct FourCells {
+  FourCells(Random& r, int n)
+      : dimension(n), quadrics(7 * size_t(quadricSize(n)) + 3), values(7 * size_t(n) + 3) {
+    for (S& v : values) v = static_cast<S>(uniform(r));
+    for (S& q : quadrics) q = static_cast<S>(uniform(r));
+    for (int i = 0; i < n; ++i) scale.push_back(static_cast<S>(2 + uniform(r)));
+  }
+  VertexTable<S> table() const {
+    return {quadrics.data(), values.data(), quadricSize(dimension), dimension};
+  }
+  bool addAtOnce(const QuadricKernels<S>& k) {
+    return k.addCellFields(table(), quadrics.data(), corners, scale.data(), kShape, determinants);
+  }
+  void addInTurn(const QuadricKernels<S>& k) {
+    for (int c = 0; c < 4; ++c) {
+      const S* x[4];
+      S* q[4];
+      for (int j = 0; j < 4; ++j) {
+        x[j] = table().value(corners[4 * c + j]);
+        q[j] = quadrics.data() + (table().quadric(corners[4 * c + j]) - quadrics.data());
+      }
+      determinants[c] = k.addCellField(x, scale.data(), dimension, kShape, q);
+    }
+  }
+  int dimension;
+  std::vector<S> quadrics, values, scale;
+  uint32_t corners[16] = {0, 1, 2, 3, 1, 2, 3, 4, 6, 1, 4, 2, 5, 0, 3, 6};
+  double determinants[4] = {};
+};
+
+template <class S>
+void expectAsInTurn(const QuadricKernels<S>& kernels, int n) {
+  Random r(7);
+  int rounds = 0;
+  for (int round = 0; round < 30; ++round) {
+    FourCells<S> a(r, n), b = a;
+    if (!a.addAtOnce(kernels)) continue;
+    ++rounds;
+    b.addInTurn(quadricKernels<S>(n));
+    EXPECT_EQ(0, std::memcmp(a.quadrics.data(), b.quadrics.data(), a.quadrics.size() * sizeof(S)));
+    for (int c = 0; c < 4; ++c) EXPECT_EQ(a.determinants[c], b.determinants[c]);
+  }
+  EXPECT_GT(rounds, 20) << "n = " << n;
+}
+TEST(QuadricsOfFourCells, AreThoseOfEachInTurn) {
+  for (int n : {3, 4, 5, 6, 7}) {
+    expectAsInTurn(quadricKernels<float>(n), n);
+    expectAsInTurn(quadricKernels<double>(n), n);
+    expectAsInTurn(plainKernelsFloat(n), n);
+    expectAsInTurn(plainKernelsDouble(n), n);
+  }
+}
+
+TEST(QuadricsOfFourCells, AreLeftWhereOneCellIsFlat) {
+  Random r(8);
+  for (int n : {3, 4, 7}) {
+    FourCells<float> cells(r, n);
+    for (int v : {1, 2, 3, 4}) cells.values[size_t(v * n + 2)] = 0.25f;
+    const std::vector<float> before = cells.quadrics;
+    EXPECT_FALSE(cells.addAtOnce(quadricKernels<float>(n)));
+    EXPECT_TRUE(cells.quadrics == before);
+  }
+  FourCells<float> large(r, 9);
+  EXPECT_FALSE(large.addAtOnce(quadricKernels<float>(9)));
 }
 
 // The squared distance from the flat through a point along `edges`, by normal equations.

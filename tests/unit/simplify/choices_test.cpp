@@ -19,6 +19,7 @@ struct Counted {
 class ChoicesOf : Counted, public Choices {
  public:
   explicit ChoicesOf(size_t vertices) : Choices(account) { reset(vertices); }
+  void add(uint32_t v, uint32_t w, float error) { Choices::add(v, &error, &w, 1); }
 };
 
 // Vertex 0 with edges to others, all of which it looks at.
@@ -32,49 +33,59 @@ void look(Choices& c, const std::map<uint32_t, float>& edges) {
   c.relist(0, errors.data(), others.data(), others.size());
 }
 
-TEST(Choices, KnowTheFourBestAndTheLeastOfTheOthers) {
-  ChoicesOf c(60);
+TEST(Choices, KnowTheEightBestAndTheLeastOfTheOthers) {
+  ChoicesOf c(120);
   EXPECT_EQ(c.least(0), kInf);
-  c.add(0, 50, 5);
-  c.add(30, 0, 3);
-  c.add(0, 40, 4);
-  c.add(0, 55, 6);
-  c.add(0, 20, 2);
-  c.add(0, 10, 1);
-  EXPECT_EQ(c.least(0), 1);
-  EXPECT_EQ(c.target(0), 10u);
+  for (uint32_t error : {9u, 3u, 8u, 5u}) c.add(0, 10 * error, static_cast<float>(error));
+  for (uint32_t error : {4u, 10u, 2u}) c.add(10 * error, 0, static_cast<float>(error));
+  for (uint32_t error : {1u, 7u, 6u}) c.add(0, 10 * error, static_cast<float>(error));
   EXPECT_EQ(c.least(40), 4);  // both ends know
   EXPECT_EQ(c.target(40), 0u);
-  for (uint32_t error = 1; error <= 4; ++error) {
+  for (uint32_t error = 1; error <= 8; ++error) {
     EXPECT_EQ(c.least(0), static_cast<float>(error));
     EXPECT_EQ(c.target(0), 10 * error);
     EXPECT_FALSE(c.mustLookAgain(0));
     c.refuse(0, 10 * error);
     EXPECT_EQ(c.least(10 * error), kInf);
   }
-  EXPECT_EQ(c.least(0), 5);  // 5 and 6 are there still, whoever they are
+  EXPECT_EQ(c.least(0), 9);  // 9 and 10 are there still, whoever they are
   EXPECT_TRUE(c.mustLookAgain(0));
   // What was refused is not listed again.
-  look(c, {{10, 1}, {20, 2}, {30, 3}, {40, 4}, {50, 5}, {55, 6}});
-  EXPECT_EQ(c.target(0), 50u);
-  EXPECT_EQ(c.least(0), 5);
+  std::map<uint32_t, float> all;
+  for (uint32_t error = 1; error <= 10; ++error) all[10 * error] = static_cast<float>(error);
+  look(c, all);
+  EXPECT_EQ(c.target(0), 90u);
+  EXPECT_EQ(c.least(0), 9);
   EXPECT_FALSE(c.mustLookAgain(0));
   EXPECT_EQ(c.least(1), kInf);
 }
 
 // Whichever of the best it is, and from whichever end.
 TEST(Choices, ForgetAnyOfTheBestThatTheOtherEndRefuses) {
-  for (uint32_t refused = 1; refused <= 4; ++refused) {
-    ChoicesOf c(60);
-    for (uint32_t error = 1; error <= 4; ++error) c.add(0, 10 * error, static_cast<float>(error));
+  for (uint32_t refused = 1; refused <= 8; ++refused) {
+    ChoicesOf c(90);
+    for (uint32_t error = 1; error <= 8; ++error) c.add(0, 10 * error, static_cast<float>(error));
     c.refuse(10 * refused, 0);
-    for (uint32_t error = 1; error <= 4; ++error) {
+    for (uint32_t error = 1; error <= 8; ++error) {
       if (error == refused) continue;
       EXPECT_EQ(c.target(0), 10 * error);
       EXPECT_EQ(c.least(0), static_cast<float>(error));
       c.refuse(0, 10 * error);
     }
     EXPECT_EQ(c.least(0), kInf);
+  }
+}
+
+// Rounded down, by less than a part in 2000; errors that differ by more are told apart.
+TEST(Choices, KeepErrorsRoundedDown) {
+  for (float error : {1e-30f, 0.1f, 1.0f, 12345.678f, 3e38f}) {
+    ChoicesOf c(4096);
+    c.add(0, 4095, error);
+    EXPECT_LE(c.least(0), error);
+    EXPECT_GE(c.least(0), error * (1 - 1.0f / 2000));
+    EXPECT_EQ(c.target(0), 4095u);
+    c.add(0, 1, error * (1 - 1e-3f));
+    EXPECT_EQ(c.target(0), 1u);
   }
 }
 
@@ -109,8 +120,10 @@ TEST(Choices, TakeNoErrorThatIsNoNumber) {
   c.add(0, 2, kInf);
   EXPECT_EQ(c.least(0), kInf);
   EXPECT_EQ(c.least(1), kInf);
+  EXPECT_EQ(c.least(2), kInf);
   c.add(0, 3, std::numeric_limits<float>::max());
   EXPECT_EQ(c.target(0), 3u);
+  EXPECT_LT(c.least(3), kInf);
 }
 
 TEST(Choices, ForgetARefusalWhenANeighbourIsReplaced) {
@@ -165,7 +178,7 @@ TEST(Choices, TakeANewEdgeThatIsBetterThanARefusedOne) {
 // The edges of one vertex as a list, taken best first as a sweep does.
 class Model {
  public:
-  Model() : choices(13) {}
+  Model() : choices(21) {}
   void replace(uint32_t u, uint32_t v, float error) {
     for (uint32_t gone : {u, v}) {
       all_.erase(gone);
@@ -213,11 +226,11 @@ TEST(Choices, AreThoseOfAListAfterAnySteps) {
     SCOPED_TRACE(seed);
     Random r(seed);
     Model m;
-    for (int step = 0; step < 60 && !::testing::Test::HasFailure(); ++step) {
-      const uint32_t u = 1 + r.below(12), v = 1 + (u + r.below(11)) % 12;
+    for (int step = 0; step < 90 && !::testing::Test::HasFailure(); ++step) {
+      const uint32_t u = 1 + r.below(20), v = 1 + (u + r.below(19)) % 20;
       const uint32_t what = r.below(10);
       if (what < 4)
-        m.replace(u, v, static_cast<float>(13 * r.below(8) + u));  // no two alike
+        m.replace(u, v, static_cast<float>(21 * r.below(8) + u));  // no two alike
       else if (what < 5)
         m.reconsider();
       else
