@@ -51,7 +51,7 @@ void Patch<S>::loadVertex(uint32_t slot) {
   local_of_[slot] = static_cast<uint16_t>(v);
   global_vertex_[v] = slot;
   flags_[v] = window_.mesh.vertexFlags(slot);
-  std::copy_n(window_.values(slot), value_stride_, values(static_cast<uint32_t>(v)));
+  copyRow(window_.values(slot), value_stride_, values(static_cast<uint32_t>(v)));
 }
 
 template <class S>
@@ -107,7 +107,7 @@ bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* c
   for (size_t i = 0; i < owned_count; ++i) {
     loadVertex(owned[i]);
     star_of_[i].size = 0;
-    std::copy_n(window_.quadric(owned[i]), quadric_stride_, quadric(static_cast<uint32_t>(i)));
+    copyRow(window_.quadric(owned[i]), quadric_stride_, quadric(static_cast<uint32_t>(i)));
   }
   owned_ = vertices_;
   if (!takeCells(cells, cell_count)) {
@@ -141,8 +141,8 @@ void Patch<S>::store() {
     const uint32_t slot = global_vertex_[v];
     window_.mesh.flagVertex(slot, flags_[v]);
     if (flags_[v] & kCollapsed) continue;
-    std::copy_n(values(v), value_stride_, window_.values(slot));
-    std::copy_n(quadric(v), quadric_stride_, window_.quadric(slot));
+    copyRow(values(v), value_stride_, window_.values(slot));
+    copyRow(quadric(v), quadric_stride_, window_.quadric(slot));
   }
 }
 

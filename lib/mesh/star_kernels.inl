@@ -12,21 +12,25 @@ namespace {
 // As many cells at a time as a 32-byte vector holds of the values' type. Products that underflow
 // are outside the filter's bound, and squares of determinants must not over- or underflow: beyond
 // these limits of determinants and sums of squared edges the careful path is taken.
+// A determinant is wrong by no more than kBound (kOrientationBound in its type) times the sum of
+// its products' sizes, which is at most the sum of the six squared edges to the power of 3/2:
+// squared, one above kSure times that has its sign. What underflows beside it is smaller by far
+// where the sum of squares is within its limits.
 template <class S>
 struct Wide;
 template <>
 struct Wide<double> {
   typedef double Lanes __attribute__((vector_size(32)));
   static constexpr size_t kLanes = 4;
-  static constexpr double kBound = kOrientationBound;
-  static constexpr double kLeastDeterminant = 1e-110, kLeastSum = 1e-70, kLargestSum = 1e74;
+  static constexpr double kBound = kOrientationBound, kSure = 4 * kBound * kBound;
+  static constexpr double kLeastSum = 1e-70, kLargestSum = 1e74;
 };
 template <>
 struct Wide<float> {
   typedef float Lanes __attribute__((vector_size(32)));
   static constexpr size_t kLanes = 8;
-  static constexpr float kBound = 8.0f / (1 << 24);  // as kOrientationBound
-  static constexpr float kLeastDeterminant = 1e-30f, kLeastSum = 1e-12f, kLargestSum = 1e12f;
+  static constexpr float kBound = 8.0f / (1 << 24), kSure = 4 * kBound * kBound;
+  static constexpr float kLeastSum = 1e-10f, kLargestSum = 1e12f;
 };
 template <class S>
 using LanesOf = typename Wide<S>::Lanes;
@@ -36,12 +40,6 @@ typedef float Point __attribute__((vector_size(16)));
 constexpr double kRegular = 432;
 constexpr double kRounding = 1.001;  // more than what squares and cubes lose in float32
 
-template <class L>
-inline L magnitude(L v) {
-  return v < 0 ? -v : v;
-}
-
-// Coordinate by coordinate, of one corner of several cells, relative to x.
 template <class L>
 struct Corner {
   L x, y, z;
@@ -87,11 +85,6 @@ inline Corner<LanesOf<float>> corner(const float* values, size_t stride, const S
 template <class L>
 inline L squares(L a, L b, L c) {
   return a * a + b * b + c * c;
-}
-
-template <class L>
-inline L squaredDistance(const Corner<L>& a, const Corner<L>& b) {
-  return squares(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 // Twice the area of a face as a vector, out of the cell.
@@ -194,18 +187,15 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
     const Corner<L> p = scaled(corner(values, stride, c, 0, x)),
                     q = scaled(corner(values, stride, c, 1, x)),
                     r = scaled(corner(values, stride, c, 2, x));
-    const L p1 = q.y * r.z, p2 = q.z * r.y, p3 = q.z * r.x, p4 = q.x * r.z, p5 = q.x * r.y,
-            p6 = q.y * r.x;
-    const L det = p.x * (p1 - p2) + p.y * (p3 - p4) + p.z * (p5 - p6);
-    const L bound = W::kBound * (magnitude(p.x) * (magnitude(p1) + magnitude(p2)) +
-                                 magnitude(p.y) * (magnitude(p3) + magnitude(p4)) +
-                                 magnitude(p.z) * (magnitude(p5) + magnitude(p6)));
-    const L sum = squares(p.x, p.y, p.z) + squares(q.x, q.y, q.z) + squares(r.x, r.y, r.z) +
-                  squaredDistance(p, q) + squaredDistance(q, r) + squaredDistance(r, p);
-    const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum);
-    if (bitsOf((det < -bound) & (det < -W::kLeastDeterminant) & held)) return {false, 0};
-    const auto sure = (det > bound) & (det > W::kLeastDeterminant) & held;
-    const auto suspect = sure & (S(kRegular) * (det * det) < shape * (sum * sum * sum));
+    const L det = inner(p, normal(q, r));
+    // Of all six edges, p and q and r and those between them.
+    const L sum = 4 * (inner(p, p) + inner(q, q) + inner(r, r)) -
+                  squares(p.x + q.x + r.x, p.y + q.y + r.y, p.z + q.z + r.z);
+    const L det2 = det * det, sum3 = sum * sum * sum;
+    const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum) & (det2 > W::kSure * sum3);
+    if (bitsOf((det < 0) & held)) return {false, 0};
+    const auto sure = (det > 0) & held;
+    const auto suspect = sure & (S(kRegular) * det2 < shape * sum3);
     const unsigned lanes = (1u << filled) - 1;
     if (const unsigned which = bitsOf(suspect) & lanes)
       thin_cells += countThin(p, q, r, thin, which);

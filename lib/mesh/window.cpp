@@ -62,7 +62,7 @@ uint32_t Window<S>::chooseVertices(uint64_t* unused) {
 
 template <class T>
 static void moveRow(T* array, size_t stride, uint32_t from, uint32_t to) {
-  std::copy_n(array + from * stride, stride, array + to * stride);
+  copyRow(array + from * stride, stride, array + to * stride);
 }
 
 template <class S>

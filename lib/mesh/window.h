@@ -5,6 +5,8 @@
 // for a capacity; they grow only between chunks.
 #pragma once
 
+#include <cstring>
+
 #include "front.h"
 #include "topology.h"
 
@@ -18,6 +20,13 @@ struct WindowShape {
   int cell_means = 0;  // double per cell: float cell data
   int cell_picks = 0;  // int64 per cell: integer cell data
 };
+
+// Rows are short: a call would take longer than the copying.
+template <class T>
+inline void copyRow(const T* from, size_t count, T* to) {
+  for (; count >= 4; count -= 4, from += 4, to += 4) std::memcpy(to, from, 4 * sizeof(T));
+  for (size_t i = 0; i < count; ++i) to[i] = from[i];
+}
 
 template <class S>
 class Window {

@@ -80,8 +80,7 @@ class SweepSelector final : public Selector {
                Work work);
   template <class Work>
   void onTile(const TilePiece& tile, Work work) {
-    onPatch(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin, tiling_.cells(tile),
-            tile.cell_end - tile.cell_begin, work);
+    onPatch(tiling_.vertices(tile), tile.vertexCount(), tiling_.cells(tile), tile.cell_count, work);
   }
   void tryEverything(const std::function<void()>& tick);
 

@@ -18,8 +18,8 @@ constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
-constexpr int64_t kLongStream = 10;     // windows
-constexpr int64_t kMildReduction = 12;  // cells in over cells out
+constexpr int64_t kLongStream = 10;                           // windows
+constexpr int64_t kMildReduction = 12, kStrongReduction = 4;  // cells in over cells out
 // A header that claims more is not believed: the window grows when such a front comes.
 constexpr int64_t kWidestFront = 1 << 23;
 // Of a memory budget, not for cells and vertices: stars, lists; a patch beside.
@@ -109,6 +109,7 @@ class WindowedEngine final : public Simplifier::Engine {
                                                : makeSweepSelector(core_, account_)),
         release_(core_, out) {
     core_.report.window_cells = capacity_;
+    turn_at_ = firstTurn();
   }
 
   void put(const BatchView& batch) override {
@@ -117,7 +118,7 @@ class WindowedEngine final : public Simplifier::Engine {
            "the stream has labelled boundary faces, which a simplification cannot keep yet");
     intake_.startBatch(batch);
     for (size_t row = 0; row < batch.cell_count; ++row) {
-      if (mesh().cellEnd() == capacity_) turn();
+      if (mesh().cellEnd() == turn_at_) turn();
       intake_.takeCell(row);
     }
     intake_.finishBatch();
@@ -148,6 +149,18 @@ class WindowedEngine final : public Simplifier::Engine {
            static_cast<long long>(announced), what, static_cast<unsigned long long>(came));
   }
 
+  // Cells at the first turn. Where nothing is known of the bound, many passes find it; for a strong
+  // reduction a part of the window will do for that, with enough behind the front. All of it stays
+  // for the next turn.
+  int64_t firstTurn() const {
+    const int64_t front = plan_.schema.front_cells, all = plan_.schema.cell_count;
+    const bool is_strong = all > kStrongReduction * targetOf(plan_.schema, options_).cellsOf(all);
+    if (options_.mode == Mode::kPaper || knows_pilot_ || front < 0 || all <= capacity_ ||
+        options_.error > 0 || !is_strong)
+      return capacity_;
+    return std::min(capacity_, std::max(capacity_ / 4, 5 * front / 2));
+  }
+
   // The window is full: simplify it and make room.
   void turn() {
     resolveNew();
@@ -162,6 +175,7 @@ class WindowedEngine final : public Simplifier::Engine {
     resolved_cells_ = mesh().cellEnd();
     core_.report.front_cells = std::max(core_.report.front_cells, before.front);
     makeRoom(before.front);
+    turn_at_ = capacity_;
     tell(mesh().liveCells());
   }
 
@@ -316,7 +330,7 @@ class WindowedEngine final : public Simplifier::Engine {
   const SimplifyOptions options_;
   const ProgressFunction& progress_;
   Account account_;
-  int64_t capacity_;  // cells
+  int64_t capacity_, turn_at_;  // cells
   uint32_t resolved_cells_ = 0;
   int64_t front_cells_ = 0;  // when resolved
   Pilot pilot_;

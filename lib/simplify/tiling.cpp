@@ -7,6 +7,8 @@
 
 namespace tetstream {
 
+constexpr size_t kBlockCells = 256;
+
 // In scratch: 1 for a vertex with an edge to be looked at, 2 for its neighbours.
 template <class S>
 void Tiling<S>::markVertices(float bound) {
@@ -79,44 +81,50 @@ void Tiling<S>::meet(uint32_t a, uint32_t b) {
 }
 
 template <class S>
+void Tiling<S>::addCell(uint32_t tile, uint32_t cell) {
+  TilePiece& t = tiles_[tile];
+  const size_t place = t.cell_count++ % kBlockCells;
+  if (place == 0) {
+    block_before_.push_back(t.last_block);
+    t.last_block = static_cast<uint32_t>(block_before_.size() - 1);
+    const size_t size = kBlockCells * block_before_.size();
+    if (cells_.size() < size) cells_.resize(size + size / 8);
+  }
+  cells_[kBlockCells * t.last_block + place] = cell;
+}
+
+// In one pass: how many cells a tile will have is not known before.
+template <class S>
 void Tiling<S>::listCells() {
   const Topology& mesh = core_.window.mesh;
   neighbours_.assign(tiles_.size(), {});
+  block_before_.clear();
   const uint32_t* of = core_.window.scratch();
-  // Most cells are in one tile or in none.
-  const auto in_one = [of](const uint32_t* v) {
-    return of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]];
-  };
   uint32_t tiles[4];
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
     if (!mesh.isLive(c)) continue;
     const uint32_t* v = mesh.corners(c);
-    if (in_one(v)) {
-      if (of[v[0]] != 0) ++tiles_[of[v[0]] - 1].cell_end;
+    if (of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]]) {
+      if (of[v[0]] != 0) addCell(of[v[0]] - 1, c);  // most cells are in one tile or in none
       continue;
     }
     const size_t count = tilesOf(c, tiles);
-    for (size_t k = 0; k < count; ++k) ++tiles_[tiles[k]].cell_end;
+    for (size_t k = 0; k < count; ++k) addCell(tiles[k], c);
     for (size_t k = 1; k < count; ++k)
       for (size_t l = 0; l < k; ++l) meet(tiles[k], tiles[l]);
   }
-  size_t end = 0;
-  for (TilePiece& tile : tiles_) {
-    const size_t count = tile.cell_end;
-    tile.cell_begin = tile.cell_end = end;
-    end += count;
+}
+
+template <class S>
+const uint32_t* Tiling<S>::cells(const TilePiece& t) {
+  if (listed_.size() < t.cell_count) listed_.resize(t.cell_count + t.cell_count / 4);
+  uint32_t block = t.last_block;
+  for (size_t end = t.cell_count; end > 0; block = block_before_[block]) {
+    const size_t begin = (end - 1) / kBlockCells * kBlockCells;
+    std::copy_n(&cells_[kBlockCells * block], end - begin, &listed_[begin]);
+    end = begin;
   }
-  if (cells_.size() < end) cells_.resize(end + end / 8);
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
-    if (!mesh.isLive(c)) continue;
-    const uint32_t* v = mesh.corners(c);
-    if (in_one(v)) {
-      if (of[v[0]] != 0) cells_[tiles_[of[v[0]] - 1].cell_end++] = c;
-      continue;
-    }
-    const size_t count = tilesOf(c, tiles);
-    for (size_t k = 0; k < count; ++k) cells_[tiles_[tiles[k]].cell_end++] = c;
-  }
+  return listed_.data();
 }
 
 // The lowest colour that no neighbour before it has.

@@ -6,17 +6,21 @@
 
 namespace tetstream {
 
-// Pieces of the tiling's lists of vertices and cells. Tiles of one colour share no cell.
+// A piece of the tiling's list of vertices; its cells lie in blocks, each of which knows the one
+// before it. Tiles of one colour share no cell.
 struct TilePiece {
   size_t vertex_begin, vertex_end;
-  size_t cell_begin, cell_end;
+  size_t cell_count;
+  uint32_t last_block;
   uint32_t colour;
+  size_t vertexCount() const { return vertex_end - vertex_begin; }
 };
 
 template <class S>
 class Tiling {
  public:
-  Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account), cells_(account) {}
+  Tiling(Core<S>& core, Account& account)
+      : core_(core), vertices_(account), cells_(account), listed_(account) {}
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
@@ -30,7 +34,8 @@ class Tiling {
   bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
-  const uint32_t* cells(const TilePiece& t) const { return &cells_[t.cell_begin]; }
+  // Until those of another tile are asked for.
+  const uint32_t* cells(const TilePiece& t);
 
  private:
   void markVertices(float bound);
@@ -38,11 +43,13 @@ class Tiling {
   void cut(size_t count, unsigned round);
   void listCells();
   size_t tilesOf(uint32_t cell, uint32_t tiles[4]) const;
+  void addCell(uint32_t tile, uint32_t cell);
   void meet(uint32_t a, uint32_t b);
   void colour();
 
   Core<S>& core_;
-  Array<uint32_t> vertices_, cells_;
+  Array<uint32_t> vertices_, cells_, listed_;
+  std::vector<uint32_t> block_before_;
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
   bool others_wait_ = false;

@@ -256,8 +256,8 @@ class Patches {
  private:
   void walkTile(const TilePiece& tile, Times& times, Times& plain) {
     times.load.back() += nsOf([&] {
-      if (!patch_.load(tiling_.vertices(tile), tile.vertex_end - tile.vertex_begin,
-                       tiling_.cells(tile), tile.cell_end - tile.cell_begin))
+      if (!patch_.load(tiling_.vertices(tile), tile.vertexCount(), tiling_.cells(tile),
+                       tile.cell_count))
         fail(Status::kUnsupported, "a tile is too large for a patch");
     });
     order_.resize(patch_.ownedEnd());

@@ -2,6 +2,7 @@
 // the same.
 #include "tiling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -16,18 +17,19 @@ template <class S>
 std::vector<int> ownersOf(const Tiling<S>& tiling, size_t vertices) {
   std::vector<int> owners(vertices, 0);
   for (const TilePiece& t : tiling.tiles())
-    for (size_t i = 0; i < t.vertex_end - t.vertex_begin; ++i) ++owners[tiling.vertices(t)[i]];
+    for (size_t i = 0; i < t.vertexCount(); ++i) ++owners[tiling.vertices(t)[i]];
   return owners;
 }
 
 template <class S>
-void expectCellsOfTile(const Window<S>& window, const Tiling<S>& tiling, const TilePiece& tile) {
+void expectCellsOfTile(const Window<S>& window, Tiling<S>& tiling, const TilePiece& tile) {
   std::vector<bool> owned(window.mesh.vertexEnd(), false);
-  for (size_t i = 0; i < tile.vertex_end - tile.vertex_begin; ++i)
-    owned[tiling.vertices(tile)[i]] = true;
+  for (size_t i = 0; i < tile.vertexCount(); ++i) owned[tiling.vertices(tile)[i]] = true;
   std::set<uint32_t> listed;
-  for (size_t i = 0; i < tile.cell_end - tile.cell_begin; ++i)
-    EXPECT_TRUE(listed.insert(tiling.cells(tile)[i]).second) << "a cell twice in a tile";
+  const uint32_t* cells = tiling.cells(tile);
+  for (size_t i = 0; i < tile.cell_count; ++i)
+    EXPECT_TRUE(listed.insert(cells[i]).second) << "a cell twice in a tile";
+  EXPECT_TRUE(std::is_sorted(cells, cells + tile.cell_count));
   std::set<uint32_t> wanted;
   for (uint32_t c = 0; c < window.cellEnd(); ++c) {
     if (!window.isLive(c)) continue;
@@ -38,7 +40,7 @@ void expectCellsOfTile(const Window<S>& window, const Tiling<S>& tiling, const T
 }
 
 template <class S>
-void expectTiling(Core<S>& core, const Tiling<S>& tiling) {
+void expectTiling(Core<S>& core, Tiling<S>& tiling) {
   const Topology& mesh = core.window.mesh;
   const std::vector<int> owners = ownersOf(tiling, mesh.vertexEnd());
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v)
@@ -49,8 +51,9 @@ void expectTiling(Core<S>& core, const Tiling<S>& tiling) {
     EXPECT_GE(t.colour, colour) << "tiles are not in the order of their colours";
     colour = t.colour;
     expectCellsOfTile(core.window, tiling, t);
-    for (size_t i = 0; i < t.cell_end - t.cell_begin; ++i) {
-      uint32_t& last = last_colour[tiling.cells(t)[i]];
+    const uint32_t* cells = tiling.cells(t);
+    for (size_t i = 0; i < t.cell_count; ++i) {
+      uint32_t& last = last_colour[cells[i]];
       ASSERT_NE(last, t.colour + 1) << "two tiles of a colour share a cell";
       last = t.colour + 1;
     }
@@ -91,8 +94,10 @@ TEST(Tiling, CutsElsewhereInEachRound) {
   const auto seam = [&](unsigned round) {
     tiling.build(round, std::numeric_limits<float>::infinity());
     std::vector<int> tiles(w.core.window.cellEnd(), 0);
-    for (const TilePiece& t : tiling.tiles())
-      for (size_t i = 0; i < t.cell_end - t.cell_begin; ++i) ++tiles[tiling.cells(t)[i]];
+    for (const TilePiece& t : tiling.tiles()) {
+      const uint32_t* cells = tiling.cells(t);
+      for (size_t i = 0; i < t.cell_count; ++i) ++tiles[cells[i]];
+    }
     return tiles;
   };
   const auto a = seam(0), b = seam(1), c = seam(2);
