@@ -32,6 +32,11 @@ class Patch {
   uint32_t cellEnd() const { return cells_; }
   bool isLive(uint32_t c) const { return corner_[4 * size_t{c}] != kGoneCorner; }
   uint32_t vertexOf(uint32_t c, uint32_t j) const { return corner_[4 * size_t{c} + j]; }
+  StarCell starCell(uint32_t corner) const {
+    const uint8_t* t = kOpposite[corner % 4];
+    const uint32_t c = corner / 4;
+    return {corner, {vertexOf(c, t[0]), vertexOf(c, t[1]), vertexOf(c, t[2])}};
+  }
   int64_t liveCells() const { return live_; }  // of the whole window
 
   bool isFree(uint32_t v) const { return v < owned_ && !(flags_[v] & kCollapsed); }

@@ -18,6 +18,7 @@ struct ThinAngle {
 struct StarShape {
   bool positive;  // every cell strictly; decided exactly
   size_t thin;    // cells; 0 when not positive
+  size_t turned;  // when not positive: the place of a cell that is not
 };
 
 // The cells (x, t0, t1, t2) of a star. Coordinates of vertex v: the first three numbers at

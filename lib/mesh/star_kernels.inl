@@ -193,7 +193,8 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
                   squares(p.x + q.x + r.x, p.y + q.y + r.y, p.z + q.z + r.z);
     const L det2 = det * det, sum3 = sum * sum * sum;
     const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum) & (det2 > W::kSure * sum3);
-    if (bitsOf((det < 0) & held)) return {false, 0};
+    if (const unsigned turned = bitsOf((det < 0) & held))
+      return {false, 0, first + static_cast<size_t>(__builtin_ctz(turned))};
     const auto sure = (det > 0) & held;
     const auto suspect = sure & (S(kRegular) * det2 < shape * sum3);
     const unsigned lanes = (1u << filled) - 1;
@@ -202,9 +203,9 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
     const unsigned unsure = ~bitsOf(sure) & lanes;
     for (size_t k = 0; unsure >> k; ++k)
       if ((unsure >> k & 1) && !carefully(x, values, stride, *c[k], thin, &thin_cells))
-        return {false, 0};
+        return {false, 0, first + k};
   }
-  return {true, thin_cells};
+  return {true, thin_cells, 0};
 }
 
 // ---------------------------------------------------------------------------------- gathering

@@ -63,6 +63,7 @@ class Window {
   uint32_t cellEnd() const { return mesh.cellEnd(); }
   bool isLive(uint32_t c) const { return mesh.isLive(c); }
   uint32_t vertexOf(uint32_t c, uint32_t j) const { return mesh.corners(c)[j]; }
+  StarCell starCell(uint32_t corner) const { return mesh.starCell(corner); }
   int64_t liveCells() const { return mesh.liveCells(); }
   bool isFree(uint32_t v) const { return mesh.isFree(v); }
   bool isBoundary(uint32_t v) const { return mesh.vertexFlags(v) & kBoundary; }

@@ -8,6 +8,7 @@ template <class Mesh>
 Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
     : core_(core),
       mesh_(mesh),
+      refusals_(account),
       link_(account),
       stars_(account),
       merged_(static_cast<size_t>(core.plan.values)) {}
@@ -34,20 +35,22 @@ void Collapser<Mesh>::placeAt(uint32_t u, uint32_t v, const S* z) {
 }
 
 template <class Mesh>
-StarShape Collapser<Mesh>::shapeFrom(const S* place, const Star& star) const {
+StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size_t count) const {
   const double x[3] = {static_cast<double>(place[0]), static_cast<double>(place[1]),
                        static_cast<double>(place[2])};
   return starShape(x, mesh_.allValues(), mesh_.valueStride(), static_cast<double>(core_.scale[0]),
-                   star.begin(), star.size(), core_.thin);
+                   cells, count, core_.thin);
 }
 
 // Whether the share of thin cells in the two stars would not grow, so that in the end it is no
 // larger than in the input.
 template <class Mesh>
 bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, size_t thin) const {
-  const size_t before = shapeFrom(mesh_.values(u), stars_.u).thin +
-                        shapeFrom(mesh_.values(u), stars_.ring).thin +
-                        shapeFrom(mesh_.values(v), stars_.v).thin;
+  const auto thinOf = [this](const S* at, const Star& star) {
+    return shapeFrom(at, star.begin(), star.size()).thin;
+  };
+  const size_t before = thinOf(mesh_.values(u), stars_.u) + thinOf(mesh_.values(u), stars_.ring) +
+                        thinOf(mesh_.values(v), stars_.v);
   const size_t left = stars_.u.size() + stars_.v.size();
   return thin * (left + stars_.ring.size()) <= before * left;
 }
@@ -64,12 +67,45 @@ bool Collapser<Mesh>::isFarther(uint32_t u, uint32_t v) const {
   return difference > 0;
 }
 
+template <class Mesh>
+Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turned) {
+  if (u > v) std::swap(u, v);
+  if (refusals_.size() == 0) {
+    refusals_.resize(kRefusals);
+    std::fill_n(refusals_.data(), kRefusals, Refusal{kNone, kNone, kNone});
+  }
+  refusals_[placeOf(u, v)] = {u, v, turned.cell()};
+  return Outcome::kOrientation;
+}
+
+// Whether the cell that the edge was refused for is still there and would be turned over now, too.
+// Slots may have changed hands since: any cell of one end tells.
+template <class Mesh>
+bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
+  if (refusals_.size() == 0) return false;
+  if (u > v) std::swap(u, v);
+  const Refusal& last = refusals_[placeOf(u, v)];
+  if (last.u != u || last.v != v || last.cell >= mesh_.cellEnd() || !mesh_.isLive(last.cell))
+    return false;
+  uint32_t ends = 0, at = 0;
+  for (uint32_t j = 0; j < 4; ++j) {
+    const uint32_t x = mesh_.vertexOf(last.cell, j);
+    if (x != u && x != v) continue;
+    ++ends;
+    at = 4 * last.cell + j;
+  }
+  if (ends != 1) return false;
+  const StarCell cell = mesh_.starCell(at);
+  return !shapeFrom(merged_.data(), &cell, 1).positive;
+}
+
 // Half of all edges fail, most of them by the cells of the end that moves most.
 template <class Mesh>
 Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells) {
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
+  if (turnsSameCell(u, v)) return Outcome::kOrientation;
   const bool u_first = isFarther(u, v);
   const auto gather = [&](bool of_u) {
     if (of_u)
@@ -81,11 +117,13 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells) {
   const auto dying = static_cast<int64_t>((u_first ? stars_.ring : stars_.ring_from_v).size());
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
-  const StarShape a = shapeFrom(merged_.data(), u_first ? stars_.u : stars_.v);
-  if (!a.positive) return Outcome::kOrientation;
+  const Star& farther = u_first ? stars_.u : stars_.v;
+  const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size());
+  if (!a.positive) return refuseFor(u, v, farther[a.turned]);
   gather(!u_first);
-  const StarShape b = shapeFrom(merged_.data(), u_first ? stars_.v : stars_.u);
-  if (!b.positive) return Outcome::kOrientation;
+  const Star& nearer = u_first ? stars_.v : stars_.u;
+  const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size());
+  if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
   if (a.thin + b.thin > 0 && !thinsOut(u, v, a.thin + b.thin)) return Outcome::kOrientation;
   return link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, mesh_.allFlags())
              ? Outcome::kDone

@@ -46,17 +46,27 @@ class Collapser {
  private:
   Outcome test(uint32_t u, uint32_t v, int64_t least_cells);
   bool isFarther(uint32_t u, uint32_t v) const;
+  bool turnsSameCell(uint32_t u, uint32_t v) const;
+  Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   void placeAt(uint32_t u, uint32_t v, const S* z);
-  StarShape shapeFrom(const S* place, const Star& star) const;
+  StarShape shapeFrom(const S* place, const StarCell* cells, size_t count) const;
   bool thinsOut(uint32_t u, uint32_t v, size_t thin) const;
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
 
+  // The cell for which an edge was refused. Tried again, it mostly is for the same.
+  struct Refusal {
+    uint32_t u, v, cell;
+  };
+  static constexpr uint32_t kRefusals = 4096;
+  static uint32_t placeOf(uint32_t u, uint32_t v) { return (u * 61 + v) % kRefusals; }
+
   Core<S>& core_;
   Mesh& mesh_;
+  Array<Refusal> refusals_;
   LinkCondition link_;
   Stars stars_;
   std::vector<S> merged_;  // values of the merged vertex

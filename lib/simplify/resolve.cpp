@@ -83,8 +83,8 @@ size_t Resolver<S>::listStars(size_t count) {
   std::fill_n(begins_.data(), count + 1, 0u);
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
     if (mesh.isLive(c))
-      for (int j = 0; j < 4; ++j) begins_[place[mesh.corners(c)[j]]] += 1;
-  begins_[0] = 0;
+      for (int j = 0; j < 4; ++j)
+        if (const uint32_t p = place[mesh.corners(c)[j]]) ++begins_[p];
   size_t fitting = 0;
   while (fitting < count &&
          (fitting == 0 || begins_[fitting] + begins_[fitting + 1] <= kCornersAtOnce)) {
@@ -92,10 +92,12 @@ size_t Resolver<S>::listStars(size_t count) {
     ++fitting;
   }
   if (corners_.size() < begins_[fitting]) corners_.resize(begins_[fitting]);
-  for (uint32_t corner = 0; corner < 4 * mesh.cellEnd(); ++corner) {
-    if (!mesh.isLive(corner / 4)) continue;
-    const uint32_t p = place[mesh.corners(corner / 4)[corner % 4]];
-    if (p > 0 && p <= fitting) corners_[begins_[p - 1]++] = corner;
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    for (uint32_t j = 0; j < 4; ++j) {
+      const uint32_t p = place[mesh.corners(c)[j]];
+      if (p > 0 && p <= fitting) corners_[begins_[p - 1]++] = 4 * c + j;
+    }
   }
   for (size_t i = fitting; i > 0; --i) begins_[i] = begins_[i - 1];
   begins_[0] = 0;
