@@ -29,6 +29,12 @@ StarShape starShape(const double x[3], const S* values, int stride, double scale
   return TETSTREAM_BEST(starShape, x, values, stride, scale, cells, count, thin);
 }
 
+template <class S>
+NearestCell nearestCell(const double x[3], const S* values, int stride, double scale, uint32_t c,
+                        const StarCell* cells, size_t count) {
+  return TETSTREAM_BEST(nearestCell, x, values, stride, scale, c, cells, count);
+}
+
 StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
                      uint16_t other, StarCell* star, StarCell* ring) {
   return TETSTREAM_BEST(lookRound, corners, cells, count, v, other, star, ring);
@@ -48,5 +54,9 @@ template StarShape starShape(const double[3], const float*, int, double, const S
                              const ThinAngle&);
 template StarShape starShape(const double[3], const double*, int, double, const StarCell*, size_t,
                              const ThinAngle&);
+template NearestCell nearestCell(const double[3], const float*, int, double, uint32_t,
+                                 const StarCell*, size_t);
+template NearestCell nearestCell(const double[3], const double*, int, double, uint32_t,
+                                 const StarCell*, size_t);
 
 }  // namespace tetstream

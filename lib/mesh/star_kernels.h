@@ -31,6 +31,16 @@ template <class S>
 StarShape starShape(const double x[3], const S* values, int stride, double scale,
                     const StarCell* cells, size_t count, const ThinAngle& thin);
 
+// Of the cells (c, t0, t1, t2) the one that x lies in, or is nearest to by its smallest barycentric
+// coordinate: the cell's place and that number, as good as the values' type has it.
+struct NearestCell {
+  size_t place;
+  double least;
+};
+template <class S>
+NearestCell nearestCell(const double x[3], const S* values, int stride, double scale, uint32_t c,
+                        const StarCell* cells, size_t count);
+
 // Cells with 16-bit corners, four to a cell, ordered so that volumes are positive; a dead cell has
 // kGoneCorner in their place.
 constexpr uint16_t kGoneCorner = 0xffff;

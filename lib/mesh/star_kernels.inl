@@ -87,6 +87,11 @@ inline L squares(L a, L b, L c) {
   return a * a + b * b + c * c;
 }
 
+template <class S, class L>
+inline Corner<L> scaledBy(S unit, const Corner<L>& c) {
+  return {c.x * unit, c.y * unit, c.z * unit};
+}
+
 // Twice the area of a face as a vector, out of the cell.
 template <class L>
 inline Corner<L> normal(const Corner<L>& a, const Corner<L>& b) {
@@ -169,6 +174,14 @@ inline bool carefully(const double x[3], const S* values, size_t stride, const S
   return true;
 }
 
+// The lanes left over repeat the last cell.
+template <size_t kLanes>
+inline size_t fillLanes(const StarCell* cells, size_t count, const StarCell** lanes) {
+  const size_t filled = count < kLanes ? count : kLanes;
+  for (size_t k = 0; k < kLanes; ++k) lanes[k] = cells + (k < filled ? k : filled - 1);
+  return filled;
+}
+
 template <class S>
 inline StarShape starShapeOf(const double x[3], const S* values, int stride_given, double scale,
                              const StarCell* cells, size_t count, const ThinAngle& thin) {
@@ -176,17 +189,13 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
   using L = LanesOf<S>;
   const size_t stride = static_cast<size_t>(stride_given);
   const S unit = static_cast<S>(scale), shape = static_cast<S>(kRounding * thin.shape);
-  const auto scaled = [unit](const Corner<L>& c) {
-    return Corner<L>{c.x * unit, c.y * unit, c.z * unit};
-  };
   size_t thin_cells = 0;
   for (size_t first = 0; first < count; first += W::kLanes) {
-    const size_t filled = count - first < W::kLanes ? count - first : W::kLanes;
-    const StarCell* c[W::kLanes];  // the lanes left over repeat the last cell
-    for (size_t k = 0; k < W::kLanes; ++k) c[k] = cells + first + (k < filled ? k : filled - 1);
-    const Corner<L> p = scaled(corner(values, stride, c, 0, x)),
-                    q = scaled(corner(values, stride, c, 1, x)),
-                    r = scaled(corner(values, stride, c, 2, x));
+    const StarCell* c[W::kLanes];
+    const size_t filled = fillLanes<W::kLanes>(cells + first, count - first, c);
+    const Corner<L> p = scaledBy(unit, corner(values, stride, c, 0, x)),
+                    q = scaledBy(unit, corner(values, stride, c, 1, x)),
+                    r = scaledBy(unit, corner(values, stride, c, 2, x));
     const L det = inner(p, normal(q, r));
     // Of all six edges, p and q and r and those between them.
     const L sum = 4 * (inner(p, p) + inner(q, q) + inner(r, r)) -
@@ -206,6 +215,41 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
         return {false, 0, first + k};
   }
   return {true, thin_cells, 0};
+}
+
+// With x as the origin, the coordinate of a corner is to the whole as the volume with x in its
+// place.
+template <class S>
+inline NearestCell nearestCellOf(const double x[3], const S* values, int stride_given, double scale,
+                                 uint32_t centre, const StarCell* cells, size_t count) {
+  using W = Wide<S>;
+  using L = LanesOf<S>;
+  const size_t stride = static_cast<size_t>(stride_given);
+  const S unit = static_cast<S>(scale);
+  const S* at = values + centre * stride;
+  const L none = L{};
+  const Corner<L> o = {none + (at[0] - static_cast<S>(x[0])) * unit,
+                       none + (at[1] - static_cast<S>(x[1])) * unit,
+                       none + (at[2] - static_cast<S>(x[2])) * unit};
+  NearestCell nearest = {0, -1e301};
+  for (size_t first = 0; first < count; first += W::kLanes) {
+    const StarCell* c[W::kLanes];
+    const size_t filled = fillLanes<W::kLanes>(cells + first, count - first, c);
+    const Corner<L> p = scaledBy(unit, corner(values, stride, c, 0, x)),
+                    q = scaledBy(unit, corner(values, stride, c, 1, x)),
+                    r = scaledBy(unit, corner(values, stride, c, 2, x));
+    const Corner<L> qr = normal(q, r), rp = normal(r, p), pq = normal(p, q);
+    const L part[4] = {inner(p, qr), -inner(o, qr), -inner(o, rp), -inner(o, pq)};
+    const L whole = part[0] + part[1] + part[2] + part[3];
+    L least = part[0] < part[1] ? part[0] : part[1];
+    least = least < part[2] ? least : part[2];
+    least = least < part[3] ? least : part[3];
+    least = whole > none ? least / whole : none - S(1e30);
+    for (size_t k = 0; k < filled; ++k)
+      if (static_cast<double>(least[k]) > nearest.least)
+        nearest = {first + k, static_cast<double>(least[k])};
+  }
+  return nearest;
 }
 
 // ---------------------------------------------------------------------------------- gathering

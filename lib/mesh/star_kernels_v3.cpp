@@ -13,6 +13,14 @@ StarShape starShape(const double x[3], const double* values, int stride, double 
                     const StarCell* cells, size_t count, const ThinAngle& thin) {
   return starShapeOf(x, values, stride, scale, cells, count, thin);
 }
+NearestCell nearestCell(const double x[3], const float* values, int stride, double scale,
+                        uint32_t c, const StarCell* cells, size_t count) {
+  return nearestCellOf(x, values, stride, scale, c, cells, count);
+}
+NearestCell nearestCell(const double x[3], const double* values, int stride, double scale,
+                        uint32_t c, const StarCell* cells, size_t count) {
+  return nearestCellOf(x, values, stride, scale, c, cells, count);
+}
 StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
                      uint16_t other, StarCell* star, StarCell* ring) {
   return lookRoundOf(corners, cells, count, v, other, star, ring);

@@ -9,6 +9,10 @@ StarShape starShape(const double x[3], const float* values, int stride, double s
                     const StarCell* cells, size_t count, const ThinAngle& thin);
 StarShape starShape(const double x[3], const double* values, int stride, double scale,
                     const StarCell* cells, size_t count, const ThinAngle& thin);
+NearestCell nearestCell(const double x[3], const float* values, int stride, double scale,
+                        uint32_t c, const StarCell* cells, size_t count);
+NearestCell nearestCell(const double x[3], const double* values, int stride, double scale,
+                        uint32_t c, const StarCell* cells, size_t count);
 StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
                      uint16_t other, StarCell* star, StarCell* ring);
 size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t count, uint32_t* seen,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "memory.h"
@@ -32,18 +33,23 @@ class Choices {
   }
 
   // The least error that an edge of v may have; infinity when there is none left.
-  float least(uint32_t v) const { return std::bit_cast<float>(least_[v]); }
+  float least(uint32_t v) const { return least_[v]; }
   // The same of kBlock vertices from v on, and of the rows beyond the last.
   static constexpr uint32_t kBlock = 16;
   float leastOfBlock(uint32_t v) const {
-    uint32_t least = least_[v];
-    for (uint32_t k = 1; k < kBlock; ++k) least = std::min(least, least_[v + k]);
-    return std::bit_cast<float>(least);
+    Keys four[kBlock / 4];
+    std::memcpy(four, &least_[v], sizeof four);
+    return leastOf(smaller(smaller(four[0], four[1]), smaller(four[2], four[3])));
   }
   // Offers again what was refused before its surroundings changed.
   void reconsider() {
-    for (uint32_t v = 0; v < count_; ++v)
-      if (woken_[v]) reconsider(v);
+    for (uint32_t block = 0; block < count_; block += kBlock) {
+      uint64_t woken[kBlock / 8];
+      std::memcpy(woken, &woken_[block], sizeof woken);
+      if ((woken[0] | woken[1]) == 0) continue;
+      for (uint32_t v = block; v < block + kBlock; ++v)
+        if (woken_[v]) reconsider(v);
+    }
   }
   // Whether the vertex must look at its edges, all of them, for its best.
   bool mustLookAgain(uint32_t v) const { return of_[v].passed_over < bestOf(of_[v]); }
@@ -113,7 +119,7 @@ class Choices {
   // v is gone, or another vertex now.
   void forget(uint32_t v) {
     of_[v] = Choice{{kNone[0], kNone[1]}};
-    least_[v] = std::bit_cast<uint32_t>(kInfinite);
+    least_[v] = kInfinite;
     woken_[v] = 0;
   }
   // v's best edge, to w, is not legal.
@@ -162,12 +168,12 @@ class Choices {
   }
   static Keys smaller(Keys a, Keys b) { return a < b ? a : b; }
   static Keys larger(Keys a, Keys b) { return a > b ? a : b; }
-  static float bestOf(const Choice& c) {
-    Keys m = smaller(c.best[0], c.best[1]);
+  static float leastOf(Keys m) {
     m = smaller(m, __builtin_shufflevector(m, m, 2, 3, 0, 1));
     m = smaller(m, __builtin_shufflevector(m, m, 1, 0, 3, 2));
     return m[0];
   }
+  static float bestOf(const Choice& c) { return leastOf(smaller(c.best[0], c.best[1])); }
   // In place of the worst, which may be none.
   static void offer(Choice& c, float key) {
     const Keys offered = Keys{} + (key < c.tried ? kNothing : key);
@@ -183,10 +189,10 @@ class Choices {
     c.also_refused = std::min(c.also_refused, std::max(key, c.refused));
     c.refused = std::min(key, c.refused);
   }
-  // The bits of a key's error.
-  static uint32_t leastIn(float key) {
+  // The error in a key.
+  static float leastIn(float key) {
     const uint32_t least = std::bit_cast<uint32_t>(key) & ~kEndMask;
-    return least + (least == kNothingBits ? kMostVertices : 0);  // infinity
+    return std::bit_cast<float>(least + (least == kNothingBits ? kMostVertices : 0));  // infinity
   }
   void update(uint32_t v) { least_[v] = leastIn(std::min(bestOf(of_[v]), of_[v].passed_over)); }
   void reconsider(uint32_t v) {
@@ -203,7 +209,7 @@ class Choices {
 
   size_t count_ = 0;
   Array<Choice> of_;
-  Array<uint32_t> least_;  // bits of the errors: they order as these do
+  Array<float> least_;
   Array<uint8_t> woken_;
 };
 

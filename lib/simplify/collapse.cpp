@@ -193,10 +193,8 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   if (observer_) observer_->collapsed(mesh_.slotOf(u), mesh_.slotOf(v), in_users_terms);
 }
 
-// Barycentric coordinates of x in the cell (p0, t), clamped to the cell; returns the smallest of
-// them before clamping, which is largest in the cell that holds x. Ends at one that is not above
-// `best`, and returns it.
-static double barycentric(const double p[4][3], const double x[3], double best, double out[4]) {
+// Barycentric coordinates of x in a cell, clamped to it.
+static void barycentric(const double p[4][3], const double x[3], double out[4]) {
   double e[3][3], d[3];
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) e[k][i] = p[k + 1][i] - p[0][i];
@@ -207,18 +205,14 @@ static double barycentric(const double p[4][3], const double x[3], double best, 
            a[2] * (b[0] * c[1] - b[1] * c[0]);
   };
   const double whole = det(e[0], e[1], e[2]);
-  if (whole == 0) return -1e300;
+  if (whole == 0) return;
   out[1] = det(d, e[1], e[2]) / whole;
-  if (!(out[1] > best)) return out[1];
   out[2] = det(e[0], d, e[2]) / whole;
-  if (!(out[2] > best)) return out[2];
   out[3] = det(e[0], e[1], d) / whole;
   out[0] = 1 - out[1] - out[2] - out[3];
-  const double least = std::min({out[0], out[1], out[2], out[3]});
   double sum = 0;
   for (int k = 0; k < 4; ++k) sum += out[k] = std::max(out[k], 0.0);
   for (int k = 0; k < 4; ++k) out[k] /= sum;
-  return least;
 }
 
 // Carried fields take the value that the old cells have at the new position.
@@ -227,19 +221,21 @@ void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
   double x[3], best = -1e301, weights[4] = {1, 0, 0, 0};
   uint32_t corners[4] = {u, u, u, u};
   for (int i = 0; i < 3; ++i) x[i] = static_cast<double>(merged_[static_cast<size_t>(i)]);
-  for (const Star* star : {&stars_.ring, &stars_.u, &stars_.v})
-    for (const StarCell& s : *star) {
-      if (best >= 0) break;  // x lies in that cell
-      const uint32_t c[4] = {star == &stars_.v ? v : u, s.t[0], s.t[1], s.t[2]};
-      double p[4][3], w[4];
-      for (int k = 0; k < 4; ++k)
-        for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(c[k])[i]);
-      const double least = barycentric(p, x, best, w);
-      if (!(least > best)) continue;
-      best = least;
-      std::copy_n(w, 4, weights);
-      std::copy_n(c, 4, corners);
-    }
+  for (const Star* star : {&stars_.ring, &stars_.u, &stars_.v}) {
+    if (best >= 0) break;  // x lies in that cell
+    const uint32_t centre = star == &stars_.v ? v : u;
+    const NearestCell nearest =
+        nearestCell(x, mesh_.allValues(), mesh_.valueStride(), static_cast<double>(core_.scale[0]),
+                    centre, star->begin(), star->size());
+    if (!(nearest.least > best)) continue;
+    best = nearest.least;
+    corners[0] = centre;
+    std::copy_n((*star)[nearest.place].t, 3, corners + 1);
+  }
+  double p[4][3];
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(corners[k])[i]);
+  barycentric(p, x, weights);
   for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
     double sum = 0;
     for (int k = 0; k < 4; ++k)

@@ -56,6 +56,26 @@ struct Fan {
     return referenceOrientation(x.data(), corner(cell, 0).data(), corner(cell, 1).data(),
                                 corner(cell, 2).data());
   }
+  uint32_t addCentre() {
+    for (double c : x) values.push_back(static_cast<S>(c));
+    values.push_back(0);
+    return static_cast<uint32_t>(values.size() / kStride - 1);
+  }
+  // The smallest barycentric coordinate of p in a cell.
+  double leastCoordinate(size_t cell, const std::array<double, 3>& p) const {
+    const std::array<double, 3> c[4] = {x, corner(cell, 0), corner(cell, 1), corner(cell, 2)};
+    const auto volume = [](const std::array<double, 3> t[4]) {
+      return dot(edge(t[0], t[1]), cross(edge(t[0], t[2]), edge(t[0], t[3])));
+    };
+    const long double whole = volume(c);
+    long double least = 2;
+    for (size_t k = 0; k < 4; ++k) {
+      std::array<double, 3> with_p[4] = {c[0], c[1], c[2], c[3]};
+      with_p[k] = p;
+      least = std::min(least, volume(with_p) / whole);
+    }
+    return static_cast<double>(least);
+  }
   // In degrees, from normals as long as the areas: by the sine and the cosine.
   double smallestAngle(size_t cell) const {
     const std::array<double, 3> p[4] = {x, corner(cell, 0), corner(cell, 1), corner(cell, 2)};
@@ -307,6 +327,39 @@ TEST(StarShape, IsTheSameFromEveryBuild) {
       if (k % 3) fan.makePositive();
       expectSameBits(fan);
     }
+}
+
+// The cells of a random fan and a place: the one with the largest of the smallest coordinates.
+template <class S>
+void expectNearestCell() {
+  Random r(9);
+  int inside = 0;
+  for (int k = 0; k < rounds(); ++k) {
+    Fan<S> fan = randomFan<S>(r, r.below(30), 1, k % 3 ? 0 : 10);
+    fan.makePositive();
+    const uint32_t centre = fan.addCentre();
+    std::array<double, 3> x = fan.x;
+    for (double& c : x) c = static_cast<double>(static_cast<S>(c + random(r, 0.1)));
+    const auto found = nearestCell(x.data(), fan.values.data(), static_cast<int>(kStride),
+                                   fan.scale, centre, fan.cells.data(), fan.cells.size());
+    const auto plain = nearestCellOf(x.data(), fan.values.data(), static_cast<int>(kStride),
+                                     fan.scale, centre, fan.cells.data(), fan.cells.size());
+    EXPECT_EQ(found.place, plain.place);
+    EXPECT_EQ(found.least, plain.least);
+    double best = -1e301;
+    for (size_t c = 0; c < fan.cells.size(); ++c) best = std::max(best, fan.leastCoordinate(c, x));
+    const double tolerance = 1e-3 * (1 + std::fabs(best));  // of S, in thin cells
+    EXPECT_NEAR(found.least, best, tolerance);
+    inside += best > 0;
+    if (fan.cells.empty()) continue;
+    ASSERT_LT(found.place, fan.cells.size());
+    EXPECT_NEAR(fan.leastCoordinate(found.place, x), best, tolerance);
+  }
+  EXPECT_GT(inside, 0);
+}
+TEST(NearestCell, HasTheLargestLeastCoordinate) {
+  expectNearestCell<float>();
+  expectNearestCell<double>();
 }
 
 // ------------------------------------------------------------------------------------- walks
