@@ -76,6 +76,10 @@ struct QuadricKernels {
   // kSolveWeight: without branches, so that many edges are solved side by side.
   S(*solveEdge)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, S* z);
+  // The same numbers for 1 to kEdgeLanes edges, given by their two ends each: n numbers of z and an
+  // error to an edge.
+  void (*solveEdges)(const VertexTable<S>& table, const uint32_t* ends, int count, const S* scale,
+                     int n, S* z, S* errors);
   // The errors of solveEdge from vertex u to each of `count` others; the same numbers.
   void (*edgeErrors)(const VertexTable<S>& table, uint32_t u, const uint32_t* others, int count,
                      const S* scale, int n, S* errors);

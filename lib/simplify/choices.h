@@ -41,6 +41,19 @@ class Choices {
     std::memcpy(four, &least_[v], sizeof four);
     return leastOf(smaller(smaller(four[0], four[1]), smaller(four[2], four[3])));
   }
+  // Vertices from v on whose least is up to `level`, by their blocks until there are `enough`;
+  // `out` has room for kBlock more. Returns their number.
+  uint32_t listUpTo(float level, uint32_t v, uint32_t enough, uint32_t* out) const {
+    uint32_t listed = 0;
+    for (uint32_t block = v / kBlock * kBlock; block < count_ && listed < enough; block += kBlock) {
+      if (!(leastOfBlock(block) <= level)) continue;
+      for (uint32_t x = block; x < block + kBlock; ++x) {  // no branch: there is no pattern
+        out[listed] = x;
+        listed += unsigned{x >= v} & unsigned{least_[x] <= level};
+      }
+    }
+    return listed;
+  }
   // Offers again what was refused before its surroundings changed.
   void reconsider() {
     for (uint32_t block = 0; block < count_; block += kBlock) {

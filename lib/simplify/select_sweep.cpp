@@ -7,6 +7,7 @@
 #include "choices.h"
 #include "select.h"
 #include "settled.h"
+#include "solutions.h"
 #include "tiling.h"
 
 namespace tetstream {
@@ -36,6 +37,7 @@ class SweepSelector final : public Selector {
         collapser_(core, patch_, account),
         exhaustive_(makeExhaustiveSelector(core, collapser_)),
         choices_(account),
+        solutions_(core, account),
         errors_(account),
         neighbours_(account),
         seen_(account),
@@ -91,6 +93,9 @@ class SweepSelector final : public Selector {
   float leastAcrossSeam(uint32_t v);
   void addEdges(uint32_t v);
   float sweepLevel(float level);
+  VertexTable<S> vertices() const;
+  void solveFrom(uint32_t v, float level);
+  S solve(uint32_t v, uint32_t w, float level);
   void collapseFrom(uint32_t v, float level);
   void pushAfter(uint32_t u, uint32_t gone);
   void startList(uint32_t v, size_t cells);
@@ -105,6 +110,7 @@ class SweepSelector final : public Selector {
   Collapser<Patch<S>> collapser_;
   std::unique_ptr<Selector> exhaustive_;
   Choices choices_;
+  Solutions<S> solutions_;
   Array<S> errors_;
   Array<uint32_t> neighbours_, seen_;  // seen_: per vertex, the mark_ of its last listing
   Array<uint8_t> looks_, changed_;     // owned vertices: at all its edges; merged with another
@@ -260,10 +266,13 @@ void SweepSelector<S>::listNeighboursOfMerged(uint32_t u) {
 }
 
 template <class S>
+VertexTable<S> SweepSelector<S>::vertices() const {
+  return {patch_.allQuadrics(), patch_.allValues(), core_.window.shape().quadric,
+          patch_.valueStride()};
+}
+template <class S>
 void SweepSelector<S>::measureNeighbours(uint32_t u) {
-  measureIn({patch_.allQuadrics(), patch_.allValues(), core_.window.shape().quadric,
-             patch_.valueStride()},
-            u);
+  measureIn(vertices(), u);
 }
 template <class S>
 void SweepSelector<S>::measureIn(const VertexTable<S>& table, uint32_t u) {
@@ -290,6 +299,7 @@ void SweepSelector<S>::addEdges(uint32_t v) {
 template <class S>
 void SweepSelector<S>::evaluateAll(float bound) {
   choices_.reset(patch_.ownedEnd());
+  solutions_.reset(patch_.ownedEnd());
   if (looks_.size() < patch_.ownedEnd()) {
     looks_.resize(patch_.ownedEnd() + 1024);
     changed_.resize(looks_.size());
@@ -319,11 +329,37 @@ void SweepSelector<S>::pushAfter(uint32_t u, uint32_t gone) {
   listNeighboursOfMerged(u);
   measureNeighbours(u);
   changed_[u] = 1;
+  solutions_.moved(u);
   choices_.forget(gone);
   choices_.forget(u);
   choices_.relist(u, errors_.data(), neighbours_.data(), count_);
   for (size_t i = 0; i < count_; ++i)
     choices_.replace(neighbours_[i], u, gone, static_cast<float>(errors_[i]));
+}
+
+// The best edges of v and of the next vertices that have one up to the level.
+template <class S>
+void SweepSelector<S>::solveFrom(uint32_t v, float level) {
+  solutions_.clear();
+  uint32_t found[kEdgeLanes + Choices::kBlock];
+  const uint32_t count = choices_.listUpTo(level, v, kEdgeLanes, found);
+  for (uint32_t i = 0; i < count && !solutions_.full(); ++i)
+    if (!choices_.mustLookAgain(found[i])) solutions_.add(found[i], choices_.target(found[i]));
+  solutions_.solve(vertices());
+}
+
+// The error of the edge; z_ becomes its minimizer.
+template <class S>
+S SweepSelector<S>::solve(uint32_t v, uint32_t w, float level) {
+  if (!solutions_.reach(v)) solveFrom(v, level);
+  S error;
+  if (const S* z = solutions_.find(v, w, &error)) {
+    std::copy_n(z, z_.size(), z_.data());
+    return error;
+  }
+  return core_.kernels.solveEdge(patch_.quadric(v), patch_.values(v), patch_.quadric(w),
+                                 patch_.values(w), core_.scale.data(), core_.plan.dimension,
+                                 z_.data());
 }
 
 // Tries v's edges of errors up to the level, best first, until one is collapsed.
@@ -337,9 +373,7 @@ void SweepSelector<S>::collapseFrom(uint32_t v, float level) {
       continue;
     }
     const uint32_t w = choices_.target(v);
-    const S error = core_.kernels.solveEdge(patch_.quadric(v), patch_.values(v), patch_.quadric(w),
-                                            patch_.values(w), core_.scale.data(),
-                                            core_.plan.dimension, z_.data());
+    const S error = solve(v, w, level);
     if (collapser_.collapse(v, w, z_.data(), error, goal_.least_cells) == Outcome::kDone) {
       pushAfter(v, w);
       return;
@@ -352,6 +386,7 @@ void SweepSelector<S>::collapseFrom(uint32_t v, float level) {
 template <class S>
 float SweepSelector<S>::sweepLevel(float level) {
   float least = std::numeric_limits<float>::infinity();
+  solutions_.clear();
   for (uint32_t block = 0; block < patch_.ownedEnd(); block += Choices::kBlock) {
     if (choices_.leastOfBlock(block) <= level)
       for (uint32_t v = block; v < block + Choices::kBlock; ++v) {

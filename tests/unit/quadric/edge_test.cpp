@@ -347,6 +347,38 @@ TEST(ErrorsOfManyEdges, AreThoseOfEachInDouble) {
   expectErrorsOfSolveEdge<double>();
 }
 
+// Edges between any vertices of a table, some of them more than once.
+template <class S>
+void expectSolutionsOfSolveEdge() {
+  Random r(22);
+  for (int n : {3, 4, 5, 6, 7, 8, 20}) {
+    const auto size = static_cast<size_t>(n);
+    const auto& kernels = quadricKernels<S>(n);
+    const Table<S> table(r, n, 30);
+    const VertexTable<S> view = table.view();
+    for (size_t count = 1; count <= kEdgeLanes; ++count) {
+      std::vector<uint32_t> ends;
+      for (size_t k = 0; k < 2 * count; ++k) ends.push_back(r.below(30));
+      std::vector<S> z(size * count + 1, S(-7)), errors(count + 1, S(-7)), one(size);
+      kernels.solveEdges(view, ends.data(), static_cast<int>(count), table.scale.data(), n,
+                         z.data(), errors.data());
+      EXPECT_EQ(z.back(), S(-7)) << "written beyond the end";
+      EXPECT_EQ(errors.back(), S(-7)) << "written beyond the end";
+      for (size_t k = 0; k < count; ++k) {
+        const uint32_t u = ends[2 * k], v = ends[2 * k + 1];
+        const S error = kernels.solveEdge(view.quadric(u), view.value(u), view.quadric(v),
+                                          view.value(v), table.scale.data(), n, one.data());
+        EXPECT_EQ(0, std::memcmp(&error, &errors[k], sizeof error)) << "n = " << n;
+        EXPECT_EQ(0, std::memcmp(one.data(), &z[size * k], size * sizeof(S))) << "n = " << n;
+      }
+    }
+  }
+}
+TEST(SolutionsOfManyEdges, AreThoseOfEach) {
+  expectSolutionsOfSolveEdge<float>();
+  expectSolutionsOfSolveEdge<double>();
+}
+
 // ---------------------------------------------------------------------------------- builds
 
 template <class S>

@@ -106,6 +106,18 @@ TEST(Choices, LeaveOutWhatIsKnownElsewhere) {
   EXPECT_EQ(c.least(2), 0);
 }
 
+TEST(Choices, ListVerticesUpToALevel) {
+  ChoicesOf c(100);
+  for (uint32_t v : {3u, 40u, 41u, 99u}) c.know(v, 2, false);
+  c.know(50, 3, false);
+  uint32_t found[100 + Choices::kBlock];
+  EXPECT_EQ(c.listUpTo(1, 0, 100, found), 0u);
+  ASSERT_EQ(c.listUpTo(2, 3, 100, found), 4u);
+  EXPECT_EQ(std::vector<uint32_t>(found, found + 4), (std::vector<uint32_t>{3, 40, 41, 99}));
+  EXPECT_EQ(c.listUpTo(2, 41, 100, found), 2u);  // from there on
+  EXPECT_EQ(c.listUpTo(2, 4, 1, found), 2u);     // the block of the first
+}
+
 TEST(Choices, AreOrderedByTheOtherEndWhereErrorsAreEqual) {
   ChoicesOf c(10);
   for (uint32_t other : {7u, 3u, 9u}) c.add(0, other, 0);

@@ -1,0 +1,231 @@
+// quadric: the quadrics of cells and faces. Part of kernels.inl.
+#include "lanes.inl"
+
+namespace tetstream {
+namespace {
+
+inline double squareRoot(double v) {
+  return __builtin_sqrt(v);
+}
+
+// b - a in normalised units.
+template <class S>
+inline void difference(const S* a, const S* b, const S* scale, int n, double* out) {
+  for (int i = 0; i < n; ++i)
+    out[i] = static_cast<double>(b[i] - a[i]) * static_cast<double>(scale[i]);
+}
+
+template <class V>
+inline void cross(const V* a, const V* b, V* out) {
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+template <class V>
+inline V dot(const V* a, const V* b, int n) {
+  V sum = V{};
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+template <class V>
+inline V squaredSize(const V* e1, const V* e2, const V* e3) {
+  return dot(e1, e1, 3) + dot(e2, e2, 3) + dot(e3, e3, 3);
+}
+
+// 6 V, raised for near-flat cells.
+inline double effectiveVolume(const double* e1, const double* e2, const double* e3, double det) {
+  const double size = squaredSize(e1, e2, e3);
+  const double least = kFlatVolume * size * squareRoot(size);
+  const double volume = det < 0 ? -det : det;
+  return volume > least ? volume : least;
+}
+
+template <class S>
+inline void addToAll(const double* a, int size, S* const* q, int count) {
+  for (int k = 0; k < count; ++k)
+    for (int i = 0; i < size; ++i) q[k][i] += static_cast<S>(a[i]);
+}
+
+// A cell (V is double) or four (V is a vector): the same operations in the same order.
+template <class V, int N>
+struct CellField {
+  V e1[kRoom<N>], e2[kRoom<N>], e3[kRoom<N>];  // the edges from the first corner
+  V c1[3], c2[3], c3[3];
+  V a[kRoom<N> * (kRoom<N> + 1) / 2];
+
+  V determinant() {
+    cross(e2, e3, c1);
+    cross(e3, e1, c2);
+    cross(e1, e2, c3);
+    return dot(e1, c1, 3);
+  }
+  // `volume`: the effective one.
+  void form(int n, double shape, V det, V volume) {
+    const V w = 1.0 / (24.0 * volume);  // a quarter of 1 / (6 * 6V) times n n^T
+    for (int i = 0; i < n * (n + 1) / 2; ++i) a[i] = V{};
+    for (int f = 3; f < n; ++f) {
+      V g[3];  // det times the gradient of component f
+      for (int i = 0; i < 3; ++i) g[i] = e1[f] * c1[i] + e2[f] * c2[i] + e3[f] * c3[i];
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) a[at(i, j)] += w * (g[i] * g[j]);
+        a[at(f, i)] = -(w * (g[i] * det));
+      }
+      a[at(f, f)] = w * (det * det);
+    }
+    for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
+  }
+};
+
+template <class S, int N>
+double addCellField(const S* const x[4], const S* scale, int n_given, double shape, S* const q[4]) {
+  const int n = dimension<N>(n_given);
+  CellField<double, N> cell;
+  difference(x[0], x[1], scale, n, cell.e1);
+  difference(x[0], x[2], scale, n, cell.e2);
+  difference(x[0], x[3], scale, n, cell.e3);
+  const double det = cell.determinant();
+  cell.form(n, shape, det, effectiveVolume(cell.e1, cell.e2, cell.e3, det));
+  addToAll(cell.a, n * (n + 1) / 2, q, 4);
+  return det;
+}
+
+// a = weight (I - sum of the projections on the span of `count` edges).
+template <int Room>
+inline void distanceForm(double (*edges)[Room], int count, int n, double weight, double* a) {
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j <= i; ++j) a[at(i, j)] = i == j ? weight : 0;
+  for (int k = 0; k < count; ++k) {
+    double* e = edges[k];
+    const double before = dot(e, e, n);
+    for (int b = 0; b < k; ++b) {
+      const double along = dot(e, edges[b], n);
+      for (int i = 0; i < n; ++i) e[i] -= along * edges[b][i];
+    }
+    const double length2 = dot(e, e, n);
+    const double inverse = length2 > 1e-24 * before ? 1.0 / squareRoot(length2) : 0.0;
+    for (int i = 0; i < n; ++i) e[i] *= inverse;  // dependent edges span nothing new
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j) a[at(i, j)] -= weight * (e[i] * e[j]);
+  }
+}
+
+template <class S, int N>
+double addCellDistance(const S* const x[4], const S* scale, int n_given, double shape,
+                       S* const q[4]) {
+  const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
+  double e[3][kRoom<N>], a[kRoom<N> * (kRoom<N> + 1) / 2];
+  for (int k = 0; k < 3; ++k) difference(x[0], x[k + 1], scale, n, e[k]);
+  double c[3];
+  cross(e[1], e[2], c);
+  const double det = dot(e[0], c, 3);
+  const double volume = effectiveVolume(e[0], e[1], e[2], det);
+  distanceForm<kRoom<N>>(e, 3, n, volume / 24.0, a);
+  for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
+  addToAll(a, size, q, 4);
+  return det;
+}
+
+template <class S, int N>
+void addFacePlane(const S* const x[3], const S* scale, int n_given, double weight, S* const q[3]) {
+  (void)n_given;  // the plane is in space: the first six numbers of the triangle
+  double e1[3], e2[3], c[3], a[6];
+  difference(x[0], x[1], scale, 3, e1);
+  difference(x[0], x[2], scale, 3, e2);
+  cross(e1, e2, c);
+  const double c2 = dot(c, c, 3);
+  if (!(c2 > 0)) return;
+  const double area = 0.5 * squareRoot(c2);
+  const double w = weight * area / 3.0 / c2;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) a[at(i, j)] = w * (c[i] * c[j]);
+  addToAll(a, 6, q, 3);
+}
+
+template <class S, int N>
+void addFaceDistance(const S* const x[3], const S* scale, int n_given, double weight,
+                     S* const q[3]) {
+  const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
+  double e[2][kRoom<N>], c[3], a[kRoom<N> * (kRoom<N> + 1) / 2];
+  difference(x[0], x[1], scale, n, e[0]);
+  difference(x[0], x[2], scale, n, e[1]);
+  cross(e[0], e[1], c);
+  const double area = 0.5 * squareRoot(dot(c, c, 3));
+  distanceForm<kRoom<N>>(e, 2, n, weight * area / 3.0, a);
+  addToAll(a, size, q, 3);
+}
+
+// ----------------------------------------------------------------- four cells side by side
+static_assert(kCellLanes == 4);
+// Above it neither the effective volume nor, for edges rounded to float32, the sign is in doubt.
+constexpr double kSureVolume = kFlatVolume * (1 + 1e-6);
+
+// The values of corner j of four cells, as columns.
+template <class S, int N>
+inline void loadCorner(const VertexTable<S>& table, const uint32_t* corners, int j,
+                       typename Lanes<S>::Four* columns) {
+  for (int first = 0; first < N; first += 4) {
+    for (int k = 0; k < 4; ++k)
+      __builtin_memcpy(&columns[first + k], table.value(corners[4 * k + j]) + first,
+                       sizeof columns[0]);
+    transpose(columns + first);
+  }
+}
+
+// One cell after the other, as it would be alone: they share vertices.
+template <class S, int N>
+inline void addToCorners(const Double4* a, const VertexTable<S>& table, const uint32_t* corners,
+                         S* quadrics) {
+  using Four = typename Lanes<S>::Four;
+  constexpr int kSize = N * (N + 1) / 2, kFours = (kSize + 3) / 4, kWhole = kSize / 4;
+  Four rows[kFours][4];
+  for (int b = 0; b < kFours; ++b) {
+    for (int k = 0; k < 4; ++k)
+      rows[b][k] = 4 * b + k < kSize ? __builtin_convertvector(a[4 * b + k], Four) : Four{};
+    transpose(rows[b]);
+  }
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 4; ++j) {
+      S* q = quadrics + (table.quadric(corners[4 * k + j]) - table.quadrics);
+      for (int b = 0; b < kWhole; ++b) {
+        Four sum;
+        __builtin_memcpy(&sum, q + 4 * b, sizeof sum);
+        sum += rows[b][k];
+        __builtin_memcpy(q + 4 * b, &sum, sizeof sum);
+      }
+      for (int i = 4 * kWhole; i < kSize; ++i) q[i] += rows[kWhole][k][i % 4];
+    }
+}
+
+template <class S, int N>
+bool addCellFields(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
+                   const S* scale, double shape, double* determinants) {
+  if constexpr (N == 0) {
+    return false;  // four large ones would need a large stack
+  } else {
+    using Four = typename Lanes<S>::Four;
+    constexpr int kRows = (N + 3) / 4 * 4;
+    CellField<Double4, N> cells;
+    Four origin[kRows], end[kRows];
+    loadCorner<S, N>(table, corners, 0, origin);
+    Double4* const edges[3] = {cells.e1, cells.e2, cells.e3};
+    for (int j = 0; j < 3; ++j) {
+      loadCorner<S, N>(table, corners, j + 1, end);
+      for (int i = 0; i < N; ++i)
+        edges[j][i] =
+            __builtin_convertvector(end[i] - origin[i], Double4) * static_cast<double>(scale[i]);
+    }
+    const Double4 det = cells.determinant();
+    const Double4 size = squaredSize(cells.e1, cells.e2, cells.e3);
+    const auto sure = det * det > kSureVolume * kSureVolume * (size * size * size);
+    if (!(sure[0] & sure[1] & sure[2] & sure[3])) return false;
+    cells.form(N, shape, det, det < 0 ? -det : det);
+    addToCorners<S, N>(cells.a, table, corners, quadrics);
+    for (int k = 0; k < 4; ++k) determinants[k] = det[k];
+    return true;
+  }
+}
+
+}  // namespace
+}  // namespace tetstream
