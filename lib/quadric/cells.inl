@@ -194,7 +194,7 @@ inline void addToCorners(const Double4* a, const VertexTable<S>& table, const ui
         sum += rows[b][k];
         __builtin_memcpy(q + 4 * b, &sum, sizeof sum);
       }
-      for (int i = 4 * kWhole; i < kSize; ++i) q[i] += rows[kWhole][k][i % 4];
+      for (int i = 4 * kWhole; i < kSize; ++i) q[i] += rows[i / 4][k][i % 4];
     }
 }
 

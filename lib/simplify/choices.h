@@ -78,7 +78,7 @@ class Choices {
     for (uint32_t i = 0; i < 8; ++i) first[i] = first[i] < c.tried ? kNothing : first[i];
     for (int k = 0; k < 2; ++k) {
       std::copy_n(first + 4 * k, 4, reinterpret_cast<float*>(&c.best[k]));
-      c.best[k] = c.best[k] < kNothing ? c.best[k] : kNone[k];
+      c.best[k] = c.best[k] < kNothing ? c.best[k] : none(k);
     }
     for (size_t i = 8; i < count; ++i) offer(c, keyOf(errors[i], others[i]));
     of_[v] = c;
@@ -120,10 +120,10 @@ class Choices {
     const Ends gone_u = Ends{} + u, gone_v = Ends{} + v;
     for (int k = 0; k < 2; ++k) {
       const Ends end = std::bit_cast<Ends>(c.best[k]) & kEndMask;
-      c.best[k] = (end == gone_u) | (end == gone_v) ? kNone[k] : c.best[k];
+      c.best[k] = ((end == gone_u) | (end == gone_v)) ? none(k) : c.best[k];
     }
     const uint32_t refused_end = otherOf(c.refused);
-    c.refused = (refused_end == u) | (refused_end == v) ? kNothing : c.refused;
+    c.refused = refused_end == u || refused_end == v ? kNothing : c.refused;
     woken_[x] = 1;
     c.tried = std::min(c.tried, keyOf(error, u));  // this one was not
     offer(c, keyOf(error, u));
@@ -131,7 +131,7 @@ class Choices {
   }
   // v is gone, or another vertex now.
   void forget(uint32_t v) {
-    of_[v] = Choice{{kNone[0], kNone[1]}};
+    of_[v] = Choice{{none(0), none(1)}};
     least_[v] = kInfinite;
     woken_[v] = 0;
   }
@@ -161,8 +161,7 @@ class Choices {
   static constexpr Ends kNoneBits[2] = {
       {kNothingBits, kNothingBits + 1, kNothingBits + 2, kNothingBits + 3},
       {kNothingBits + 4, kNothingBits + 5, kNothingBits + 6, kNothingBits + 7}};
-  static constexpr Keys kNone[2] = {std::bit_cast<Keys>(kNoneBits[0]),
-                                    std::bit_cast<Keys>(kNoneBits[1])};
+  static Keys none(int k) { return std::bit_cast<Keys>(kNoneBits[k]); }
   struct Choice {
     Keys best[2];  // in no order
     float refused = kNothing;
@@ -198,7 +197,7 @@ class Choices {
     c.passed_over = std::min(c.passed_over, larger(offered, worst)[0]);
   }
   static void refuse(Choice& c, float key) {
-    for (int k = 0; k < 2; ++k) c.best[k] = c.best[k] == key ? kNone[k] : c.best[k];
+    for (int k = 0; k < 2; ++k) c.best[k] = c.best[k] == key ? none(k) : c.best[k];
     c.also_refused = std::min(c.also_refused, std::max(key, c.refused));
     c.refused = std::min(key, c.refused);
   }
