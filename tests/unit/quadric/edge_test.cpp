@@ -357,8 +357,8 @@ void expectSolutionsOfSolveEdge() {
     const Table<S> table(r, n, 30);
     const VertexTable<S> view = table.view();
     for (size_t count = 1; count <= kEdgeLanes; ++count) {
-      std::vector<uint32_t> ends;
-      for (size_t k = 0; k < 2 * count; ++k) ends.push_back(r.below(30));
+      std::vector<uint32_t> ends(2 * count);
+      for (uint32_t& end : ends) end = r.below(30);
       std::vector<S> z(size * count + 1, S(-7)), errors(count + 1, S(-7)), one(size);
       kernels.solveEdges(view, ends.data(), static_cast<int>(count), table.scale.data(), n,
                          z.data(), errors.data());
