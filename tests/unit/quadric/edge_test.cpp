@@ -327,8 +327,8 @@ void expectErrorsOfSolveEdge() {
     const Table<S> table(r, n, 30);
     const VertexTable<S> view = table.view();
     for (int count = 0; count <= 20; ++count) {
-      std::vector<uint32_t> others;
-      for (int k = 0; k < count; ++k) others.push_back(1 + r.below(29));
+      std::vector<uint32_t> others(static_cast<size_t>(count));
+      for (uint32_t& other : others) other = 1 + r.below(29);
       std::vector<S> errors(static_cast<size_t>(count) + 1, S(-7)), z(static_cast<size_t>(n));
       kernels.edgeErrors(view, 0, others.data(), count, table.scale.data(), n, errors.data());
       EXPECT_EQ(errors.back(), S(-7)) << "written beyond the end";
