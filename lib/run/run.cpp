@@ -7,6 +7,7 @@
 #include "front_meter.h"
 #include "mesh_collector.h"
 #include "ordered_source.h"
+#include "sampler.h"
 #include "simplifier.h"
 #include "status.h"
 #include "stream_facts.h"
@@ -40,9 +41,11 @@ OrderOptions orderOptions(const RunOptions& options, const ProgressFunction& pro
   return order;
 }
 
-// A pilot takes this share of the time of the run that it serves. Larger meshes find their own way.
+// A pilot takes this share of the time of the run that it serves.
 constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
+// Larger meshes are sampled, which takes this share.
+constexpr double kSampleShare = 0.1;
 
 class Nowhere final : public Sink {
  public:
@@ -85,7 +88,7 @@ struct SimplifyRun::State {
   // The simplifier's progress after the part that ordering took.
   void tell(Progress p) {
     if (!progress) return;
-    if (after_pilot && p.fraction >= 0) p.fraction = kPilotShare + (1 - kPilotShare) * p.fraction;
+    if (p.fraction >= 0) p.fraction = pilot_share + (1 - pilot_share) * p.fraction;
     if (after_ordering && p.fraction >= 0)
       p.fraction = kOrderShare + (1 - kOrderShare) * p.fraction;
     progress(p);
@@ -93,7 +96,8 @@ struct SimplifyRun::State {
 
   RunOptions options;
   ProgressFunction progress;
-  bool after_ordering = false, after_pilot = false;
+  bool after_ordering = false;
+  double pilot_share = 0;  // of the time, of a pilot that is done
   Simplifier simplifier;
   std::unique_ptr<MeshCollector> collector;
   Clock::time_point start;
@@ -102,7 +106,12 @@ struct SimplifyRun::State {
   void simplify(Input& input) {
     Stream stream(input, options, progress);
     after_ordering = stream.ordered != nullptr;
-    if (std::unique_ptr<Source> first = pilotSource(*stream.source)) fly(*first);
+    if (std::unique_ptr<Source> first = pilotSource(*stream.source)) {
+      if (first->schema().cell_count <= kPilotCells)
+        fly(*first);
+      else
+        sample(*first);
+    }
     simplifier.begin(stream.source->schema());
     BatchView batch;
     while (stream.source->next(batch)) simplifier.put(batch);
@@ -115,9 +124,10 @@ struct SimplifyRun::State {
     const SimplifyOptions& o = options.simplify;
     const int64_t cells = source.schema().cell_count;
     const bool wanted = o.mode != Mode::kPaper && o.pilot == PilotUse::kAuto &&
-                        o.memory_bytes == 0 && cells <= kPilotCells &&
-                        cells > Simplifier::windowCells(source.schema(), o);
-    return wanted ? source.again() : nullptr;
+                        o.memory_bytes == 0 && cells > Simplifier::windowCells(source.schema(), o);
+    const bool is_small = cells <= kPilotCells;
+    const bool can_sample = o.error == 0 && Sampler::serves(source.schema());
+    return wanted && (is_small || can_sample) ? source.again() : nullptr;
   }
   void fly(Source& source) {
     SimplifyOptions whole = options.simplify;
@@ -131,7 +141,25 @@ struct SimplifyRun::State {
     });
     copyStream(source, pilot);
     simplifier.follow(pilot.pilot());
-    after_pilot = true;
+    pilot_share = kPilotShare;
+  }
+  // A first reading of a long stream, for a sample of it.
+  void sample(Source& source) {
+    Sampler sampler(source.schema());
+    Progress p;
+    p.phase = "pilot";
+    p.cells_total = source.schema().cell_count;
+    BatchView batch;
+    while (source.next(batch)) {
+      sampler.put(batch);
+      p.cells_read += static_cast<int64_t>(batch.cell_count);
+      p.fraction =
+          kSampleShare *
+          std::min(static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total), 1.0);
+      tell(p);
+    }
+    simplifier.follow(sampler.fly(options.simplify));
+    pilot_share = kSampleShare;
   }
   void close() {
     report = simplifier.report();

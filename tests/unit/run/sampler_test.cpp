@@ -1,0 +1,143 @@
+// The sample of a stream: whole bricks, held at their cuts, and what they tell of the whole.
+#include "sampler.h"
+
+#include <gtest/gtest.h>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "memory_source.h"
+#include "ordered_source.h"
+#include "run.h"
+#include "shapes.h"
+
+namespace tetstream::test {
+namespace {
+
+// Detail in the first half of x, nothing in the second.
+TestMesh halfDetailed(int length, int width) {
+  TestMesh mesh = fullGrid(length, width, width, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [=](double x, double y, double z) {
+    return x < 0.5 * length ? std::sin(x) * std::cos(1.3 * y) * std::sin(0.9 * z) : 0;
+  });
+  mesh.addCellData({"d", 1, ScalarType::kFloat32}, [](size_t c, int) { return double(c % 5); });
+  return mesh;
+}
+
+struct Swept {
+  explicit Swept(TestMesh& mesh)
+      : indexed(mesh.schema, mesh.view()), stream(indexed, OrderOptions{"x", "", {}}) {}
+  MemorySource indexed;
+  OrderedSource stream;
+};
+
+using Place = std::array<double, 3>;
+
+Place placeIn(const BatchView& batch, size_t row) {
+  Place p;
+  std::copy_n(static_cast<const double*>(batch.positions) + 3 * row, 3, p.data());
+  return p;
+}
+
+TEST(Sampler, TakesWholeBricksAndHoldsTheirCuts) {
+  TestMesh mesh = halfDetailed(slowRun() ? 20 : 40, 12);
+  Swept swept(mesh);
+  Sampler sampler(swept.stream.schema());
+  std::map<Place, int> uses, sampled;  // cells of a vertex
+  std::vector<Place> places;
+  size_t cells = 0;
+  BatchView batch;
+  while (swept.stream.next(batch)) {
+    sampler.put(batch);
+    for (size_t v = 0; v < batch.vertex_count; ++v) places.push_back(placeIn(batch, v));
+    for (size_t i = 0; i < 4 * batch.cell_count; ++i)
+      ++uses[places[static_cast<size_t>(batch.cells[i])]];
+    cells += batch.cell_count;
+  }
+  const BatchView sample = sampler.mesh();
+  EXPECT_EQ(sampler.schema().cell_count, static_cast<int64_t>(sample.cell_count));
+  EXPECT_GT(sample.cell_count, cells / 4);
+  EXPECT_LT(sample.cell_count, cells);  // those across cuts are missing
+  for (size_t i = 0; i < 4 * sample.cell_count; ++i)
+    ++sampled[placeIn(sample, static_cast<size_t>(sample.cells[i]))];
+  int held = 0, free = 0;
+  for (size_t v = 0; v < sample.vertex_count; ++v) {
+    const Place place = placeIn(sample, v);
+    if (sampled[place] == 0) continue;
+    const bool is_cut = sampled[place] < uses[place];
+    EXPECT_EQ(sample.locked && sample.locked[v], is_cut);
+    ++(is_cut ? held : free);
+  }
+  EXPECT_GT(held, 0);
+  EXPECT_GT(free, held);
+}
+
+TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
+  TestMesh mesh = halfDetailed(slowRun() ? 20 : 60, slowRun() ? 12 : 16);
+  Swept swept(mesh);
+  Sampler sampler(swept.stream.schema());
+  BatchView batch;
+  while (swept.stream.next(batch)) sampler.put(batch);
+  SimplifyOptions options;
+  options.ratio = 0.2;
+  const Pilot pilot = sampler.fly(options);
+  ASSERT_TRUE(pilot.known());
+  EXPECT_EQ(pilot.shareOf(0), 0);
+  EXPECT_EQ(pilot.shareOf(1), 1);
+  for (double part = 0; part < 0.95; part += 0.05)
+    EXPECT_LE(pilot.shareOf(part), pilot.shareOf(part + 0.05));
+  EXPECT_GT(pilot.shareOf(0.5), 0.65);
+}
+
+TEST(Sampler, ServesStreamsThatTellEnough) {
+  TestMesh mesh = halfDetailed(4, 4);
+  const Swept swept(mesh);
+  const Schema schema = swept.stream.schema();
+  EXPECT_TRUE(Sampler::serves(schema));
+  for (int k = 0; k < 5; ++k) {
+    Schema other = schema;
+    if (k == 0) other.cell_count = -1;
+    if (k == 1) other.front_span = -1;
+    if (k == 2) other.front_span = int64_t{1} << 40;  // whoever claims so
+    if (k == 3) other.box_min.clear();
+    if (k == 4) other.box_max[1] = other.box_min[1];
+    EXPECT_FALSE(Sampler::serves(other)) << k;
+  }
+  Schema bare = schema;
+  bare.fields.clear();
+  bare.box_min.resize(3);
+  bare.box_max.resize(3);
+  EXPECT_FALSE(Sampler::serves(bare));
+}
+
+// Larger than a pilot reads whole: the sample spares the half that needs cells.
+TEST(SimplifyRun, SamplesALongStream) {
+  if (slowRun()) GTEST_SKIP() << "too many cells for this build";
+  TestMesh mesh = halfDetailed(70, 30);
+  double errors[2];
+  for (PilotUse use : {PilotUse::kAuto, PilotUse::kNever}) {
+    RunOptions options;
+    options.simplify.ratio = 0.2;
+    options.simplify.window_cells = 40000;
+    options.simplify.pilot = use;
+    Recorder out;
+    size_t pilots = 0;
+    double told = 0;
+    SimplifyRun run(options, out, [&](const Progress& p) {
+      pilots += p.phase == std::string("pilot");
+      EXPECT_GE(p.fraction, told);
+      told = p.fraction;
+    });
+    Input input;
+    input.indexed = std::make_unique<MemorySource>(mesh.schema, mesh.view());
+    ASSERT_GT(mesh.cellCount(), size_t{1} << 18);
+    run.run(input);
+    EXPECT_EQ(pilots > 0, use == PilotUse::kAuto);
+    EXPECT_EQ(run.report().reached, "ratio");
+    errors[use == PilotUse::kNever] = run.report().estimated_error;
+  }
+  EXPECT_LT(errors[0], 0.8 * errors[1]);
+}
+
+}  // namespace
+}  // namespace tetstream::test
