@@ -1,6 +1,9 @@
 #include "process.h"
 
 #include <fcntl.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <signal.h>
 #include <unistd.h>
 
@@ -36,6 +39,11 @@ void prepareProcess() {
   // A closed standard descriptor must not become a mesh file by accident.
   for (int fd = 0; fd < 3; ++fd)
     if (::fcntl(fd, F_GETFD) == -1) openRefusing(fd);
+#ifdef __GLIBC__
+  // Large arrays go back to the system when they are freed, not only the first ones: what a pilot
+  // held is not held on top of the run that it serves.
+  ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
+#endif
   ::signal(SIGPIPE, SIG_IGN);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction old = {}, action = {};

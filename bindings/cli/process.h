@@ -3,8 +3,9 @@
 
 namespace tetstream::cli {
 
-// First of all: descriptors 0 to 2 are open from here on, broken pipes are errors of write, and
-// SIGINT, SIGTERM and SIGHUP are counted (unless they were ignored: nohup).
+// First of all: descriptors 0 to 2 are open from here on, broken pipes are errors of write, SIGINT,
+// SIGTERM and SIGHUP are counted (unless they were ignored: nohup), and large memory that is freed
+// goes back to the system.
 void prepareProcess();
 
 // True after the first such signal; at the second the process ends at once.
