@@ -158,7 +158,11 @@ struct SimplifyRun::State {
           std::min(static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total), 1.0);
       tell(p);
     }
-    simplifier.follow(sampler.fly(options.simplify));
+    try {
+      simplifier.follow(sampler.fly(options.simplify));
+    } catch (const Error& error) {
+      if (error.status() != Status::kBadData) throw;  // the run itself will say where
+    }
     pilot_share = kSampleShare;
   }
   void close() {

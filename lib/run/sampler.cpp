@@ -93,9 +93,17 @@ void Sampler::addVertex(const BatchView& batch, size_t row) {
   for (size_t f = 0; f < schema_.fields.size(); ++f)
     copyRow(batch.fields[f], row, schema_.fields[f].bytesPerRow(), sample_.field(f, to));
   row_of = static_cast<uint32_t>(to);
+  rank_of_.push_back(batch.first_vertex + row);
   brick_of_.push_back(brick);
   used_.push_back(false);
   cut_.push_back(batch.locked && batch.locked[row]);
+}
+
+// A span larger than announced gives fewer samples, not wrong ones.
+uint32_t Sampler::rowOf(int64_t vertex) const {
+  const auto rank = static_cast<uint64_t>(vertex);
+  const uint32_t row = row_of_[rank % row_of_.size()];
+  return row != kNone && rank_of_[row] == rank ? row : kNone;
 }
 
 // A cell with vertices of the sample is in it if all are of one brick; if not, they are on its cut.
@@ -105,7 +113,7 @@ void Sampler::addCell(const BatchView& batch, size_t row_in_batch) {
   uint32_t rows[4];
   bool any = false;
   for (int j = 0; j < 4; ++j) {
-    rows[j] = row_of_[static_cast<uint64_t>(corners[j]) % row_of_.size()];
+    rows[j] = rowOf(corners[j]);
     any |= rows[j] != kNone;
   }
   if (!any) return;

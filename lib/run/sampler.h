@@ -45,6 +45,7 @@ class Sampler {
   uint32_t brickAt(const double place[3]);
   void placeOf(const void* positions, size_t row, double place[3]) const;
   void addVertex(const BatchView& batch, size_t row);
+  uint32_t rowOf(int64_t vertex) const;
   void addCell(const BatchView& batch, size_t row);
   void closeCounts();
   double ratioFor(double left) const;
@@ -54,9 +55,10 @@ class Sampler {
   Batch sample_;
   double low_[3], brick_size_;
   uint64_t bricks_[3], one_in_;
-  std::vector<uint32_t> row_of_;    // by rank, modulo its size: the row in the sample, or kNone
-  std::vector<uint32_t> brick_of_;  // of a row
-  std::vector<bool> used_, cut_;    // of a row: in a cell of the sample, in one that is not
+  std::vector<uint32_t> row_of_;   // of a rank, modulo the size: the row in the sample, or kNone
+  std::vector<uint64_t> rank_of_;  // of a row
+  std::vector<uint32_t> brick_of_;
+  std::vector<bool> used_, cut_;                    // in a cell of the sample, in one that is not
   std::unordered_map<uint64_t, uint32_t> sampled_;  // bricks, by their place
   std::vector<Brick> brick_;
   uint64_t cells_seen_ = 0;

@@ -72,6 +72,28 @@ TEST(Sampler, TakesWholeBricksAndHoldsTheirCuts) {
   EXPECT_GT(free, held);
 }
 
+// More vertices are active at once than the table has rows.
+TEST(Sampler, TakesNoWrongCellsWhereTheSpanIsALie) {
+  if (slowRun()) GTEST_SKIP() << "too many cells for this build";
+  TestMesh mesh = fullGrid(2, 150, 150, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double, double) { return x; });
+  Swept swept(mesh);
+  Schema schema = swept.stream.schema();
+  schema.front_span = 0;
+  Sampler sampler(schema);
+  BatchView batch;
+  while (swept.stream.next(batch)) sampler.put(batch);
+  const BatchView sample = sampler.mesh();
+  for (size_t c = 0; c < sample.cell_count; ++c)
+    for (size_t j = 1; j < 4; ++j) {
+      const Place a = placeIn(sample, static_cast<size_t>(sample.cells[4 * c])),
+                  b = placeIn(sample, static_cast<size_t>(sample.cells[4 * c + j]));
+      EXPECT_NE(a, b);
+      for (size_t i = 0; i < 3; ++i) EXPECT_LT(std::fabs(a[i] - b[i]), 1.3);  // neighbours
+    }
+}
+
 TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   TestMesh mesh = halfDetailed(slowRun() ? 20 : 60, slowRun() ? 12 : 16);
   Swept swept(mesh);
