@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "mix.h"
 #include "simplifier.h"
 
 namespace tetstream {
@@ -50,12 +51,6 @@ Sampler::Sampler(const Schema& schema)
   one_in_ = static_cast<uint64_t>(std::max(cells / kSampleCells, 1.0));
 }
 
-static uint64_t mixed(uint64_t x) {
-  x = (x ^ (x >> 31)) * 0x7fb5d329728ea185ull;
-  x = (x ^ (x >> 27)) * 0x81dadef4bc2dd44dull;
-  return x ^ (x >> 33);
-}
-
 // The sampled brick that a place lies in, or kNone.
 uint32_t Sampler::brickAt(const double place[3]) {
   uint64_t at = 0;
@@ -64,7 +59,7 @@ uint32_t Sampler::brickAt(const double place[3]) {
     const double last = static_cast<double>(bricks_[i] - 1);
     at = at * bricks_[i] + static_cast<uint64_t>(cell > 0 ? std::min(cell, last) : 0);
   }
-  if (mixed(at + 1) % one_in_ != 0) return kNone;
+  if (mix(at + 1) % one_in_ != 0) return kNone;
   const auto [found, is_new] = sampled_.try_emplace(at, static_cast<uint32_t>(brick_.size()));
   if (is_new) brick_.emplace_back();
   return found->second;

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "mix.h"
 #include "settled.h"
 
 namespace tetstream {
-
-static uint64_t mix(uint64_t x) {
-  x = (x ^ (x >> 31)) * 0x7fb5d329728ea185ull;
-  x = (x ^ (x >> 27)) * 0x81dadef4bc2dd44dull;
-  return x ^ (x >> 33);
-}
 
 // The link of an inner vertex is closed: each of its edges is there once in each direction. With
 // two random numbers to each vertex, (x, y) and (x', y') of an edge, the sum of x y' - x' y over
