@@ -9,13 +9,11 @@
 namespace tetstream {
 namespace {
 
-// As many cells at a time as a 32-byte vector holds of the values' type. Products that underflow
-// are outside the filter's bound, and squares of determinants must not over- or underflow: beyond
-// these limits of determinants and sums of squared edges the careful path is taken.
-// A determinant is wrong by no more than kBound (kOrientationBound in its type) times the sum of
-// its products' sizes, which is at most the sum of the six squared edges to the power of 3/2:
-// squared, one above kSure times that has its sign. What underflows beside it is smaller by far
-// where the sum of squares is within its limits.
+// As many cells at a time as a 32-byte vector holds of the values' type. A determinant is wrong by
+// no more than kBound (kOrientationBound in its type) times the sum of its products' sizes, which
+// is at most the sum of the six squared edges to the power of 3/2: squared, one above kSure times
+// that has its sign. Within the limits of the sum no square over- or underflows, and what products
+// lose by it is smaller by far; beyond, the careful path is taken.
 template <class S>
 struct Wide;
 template <>
@@ -40,6 +38,7 @@ typedef float Point __attribute__((vector_size(16)));
 constexpr double kRegular = 432;
 constexpr double kRounding = 1.001;  // more than what squares and cubes lose in float32
 
+// Coordinate by coordinate, of one corner of several cells, relative to x.
 template <class L>
 struct Corner {
   L x, y, z;

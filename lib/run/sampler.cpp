@@ -13,11 +13,16 @@ namespace tetstream {
 // Small bricks show more places, large ones have more inside: on generated meshes of 4e5 to 3e6
 // cells the error with these was 1 to 1.3 times that of a run in core, and 1.1 to 2.5 without.
 constexpr double kBrickCells = 4000, kSampleCells = 100000;
-constexpr int64_t kLargestSpan = 1 << 22;  // the table of rows: 32 MB at most
-constexpr double kCellsPerVertex = 5.5;
+constexpr int64_t kLargestSpan = 1 << 22;     // the table of rows: 32 MB at most
+constexpr uint64_t kDeclaredAhead = 1 << 15;  // vertices that a batch brings before their cells
+constexpr double kCellsPerCollapse = 5.5;
 constexpr double kLeft = 0.25;  // of the free vertices: fewer cannot always be had between the cuts
-// Cells left at a bound b: proportional to b^-kDecay (see budget.cpp).
-constexpr double kDecay = 3.0 / 7;
+
+static double volumeOfBox(const Schema& schema) {
+  double volume = 1;
+  for (size_t i = 0; i < 3; ++i) volume *= schema.box_max[i] - schema.box_min[i];
+  return volume;
+}
 
 bool Sampler::serves(const Schema& schema) {
   if (schema.cell_count <= 0 || schema.front_span < 0 || schema.front_span > kLargestSpan)
@@ -25,8 +30,7 @@ bool Sampler::serves(const Schema& schema) {
   const auto is_float = [](const Column& c) { return isFloat(c.type); };
   if (!schema.hasBox() || std::none_of(schema.fields.begin(), schema.fields.end(), is_float))
     return false;
-  double volume = 1;
-  for (size_t i = 0; i < 3; ++i) volume *= schema.box_max[i] - schema.box_min[i];
+  const double volume = volumeOfBox(schema);
   return std::isfinite(volume) && volume > 0;
 }
 
@@ -38,11 +42,9 @@ static Schema withoutFront(Schema schema) {
 Sampler::Sampler(const Schema& schema)
     : schema_(withoutFront(schema)),
       sample_(schema_),
-      row_of_(std::bit_ceil(2 * static_cast<uint64_t>(schema.front_span) + (1 << 15)), kNone) {
-  double volume = 1;
-  for (size_t i = 0; i < 3; ++i) volume *= schema.box_max[i] - schema.box_min[i];
+      row_of_(std::bit_ceil(static_cast<uint64_t>(schema.front_span) + kDeclaredAhead), kNone) {
   const auto cells = static_cast<double>(schema.cell_count);
-  brick_size_ = std::cbrt(volume * kBrickCells / cells);
+  brick_size_ = std::cbrt(volumeOfBox(schema) * kBrickCells / cells);
   for (size_t i = 0; i < 3; ++i) {
     low_[i] = schema.box_min[i];
     const double count = std::ceil((schema.box_max[i] - schema.box_min[i]) / brick_size_);
@@ -72,7 +74,7 @@ void Sampler::placeOf(const void* positions, size_t row, double place[3]) const 
                    : static_cast<const double*>(positions)[3 * row + i];
 }
 
-static void copyRow(const void* from, size_t row, size_t bytes, void* to) {
+static void copyBytes(const void* from, size_t row, size_t bytes, void* to) {
   std::memcpy(to, static_cast<const char*>(from) + row * bytes, bytes);
 }
 
@@ -80,13 +82,13 @@ void Sampler::addVertex(const BatchView& batch, size_t row) {
   double place[3];
   placeOf(batch.positions, row, place);
   const uint32_t brick = brickAt(place);
-  uint32_t& row_of = row_of_[(batch.first_vertex + row) % row_of_.size()];
+  uint32_t& row_of = row_of_[(batch.first_vertex + row) & (row_of_.size() - 1)];
   row_of = kNone;
   if (brick == kNone) return;
   const size_t to = sample_.addVertices(1);
-  copyRow(batch.positions, row, 3 * sizeOf(schema_.position_type), sample_.position(to));
+  copyBytes(batch.positions, row, 3 * sizeOf(schema_.position_type), sample_.position(to));
   for (size_t f = 0; f < schema_.fields.size(); ++f)
-    copyRow(batch.fields[f], row, schema_.fields[f].bytesPerRow(), sample_.field(f, to));
+    copyBytes(batch.fields[f], row, schema_.fields[f].bytesPerRow(), sample_.field(f, to));
   row_of = static_cast<uint32_t>(to);
   rank_of_.push_back(batch.first_vertex + row);
   brick_of_.push_back(brick);
@@ -97,7 +99,7 @@ void Sampler::addVertex(const BatchView& batch, size_t row) {
 // A span larger than announced gives fewer samples, not wrong ones.
 uint32_t Sampler::rowOf(int64_t vertex) const {
   const auto rank = static_cast<uint64_t>(vertex);
-  const uint32_t row = row_of_[rank % row_of_.size()];
+  const uint32_t row = row_of_[rank & (row_of_.size() - 1)];
   return row != kNone && rank_of_[row] == rank ? row : kNone;
 }
 
@@ -121,8 +123,8 @@ void Sampler::addCell(const BatchView& batch, size_t row_in_batch) {
   const size_t to = sample_.addCells(1);
   std::copy_n(rows, 4, sample_.cell(to));
   for (size_t d = 0; d < schema_.cell_data.size(); ++d)
-    copyRow(batch.cell_data[d], row_in_batch, schema_.cell_data[d].bytesPerRow(),
-            sample_.cellData(d, to));
+    copyBytes(batch.cell_data[d], row_in_batch, schema_.cell_data[d].bytesPerRow(),
+              sample_.cellData(d, to));
   const auto all = static_cast<uint64_t>(schema_.cell_count);
   ++brick_[brick_of_[rows[0]]].cells[std::min(number * kParts / all, uint64_t{kParts - 1})];
 }
@@ -130,15 +132,6 @@ void Sampler::addCell(const BatchView& batch, size_t row_in_batch) {
 void Sampler::put(const BatchView& batch) {
   for (size_t row = 0; row < batch.vertex_count; ++row) addVertex(batch, row);
   for (size_t row = 0; row < batch.cell_count; ++row) addCell(batch, row);
-}
-
-void Sampler::closeCounts() {
-  if (closed_) return;
-  closed_ = true;
-  for (size_t row = 0; row < brick_of_.size(); ++row) {
-    if (cut_[row]) sample_.lock(row);
-    if (used_[row]) ++(cut_[row] ? brick_[brick_of_[row]].locked : brick_[brick_of_[row]].free);
-  }
 }
 
 Schema Sampler::schema() const {
@@ -149,7 +142,11 @@ Schema Sampler::schema() const {
 }
 
 BatchView Sampler::mesh() {
-  closeCounts();
+  for (Brick& brick : brick_) brick.locked = brick.free = 0;
+  for (size_t row = 0; row < brick_of_.size(); ++row) {
+    if (cut_[row]) sample_.lock(row);
+    if (used_[row]) ++(cut_[row] ? brick_[brick_of_[row]].locked : brick_[brick_of_[row]].free);
+  }
   return sample_.view();
 }
 
@@ -158,7 +155,7 @@ double Sampler::ratioFor(double left) const {
   double free = 0;
   for (const Brick& brick : brick_) free += static_cast<double>(brick.free);
   const double cells = static_cast<double>(sample_.cellCount());
-  return cells > 0 ? std::max(1 - kCellsPerVertex * free * (1 - left) / cells, 0.05) : 1;
+  return cells > 0 ? std::max(1 - kCellsPerCollapse * free * (1 - left) / cells, 0.05) : 1;
 }
 
 void Sampler::countSurvivors(const BatchView& simplified) {
@@ -220,10 +217,8 @@ Pilot Sampler::fly(const SimplifyOptions& options) {
   simplifier.begin(schema());
   simplifier.put(all);
   simplifier.finish();
-  const double by_cells =
-      static_cast<double>(options.cells) / static_cast<double>(std::max<uint64_t>(cells_seen_, 1));
-  const double ratio = std::max(options.ratio, by_cells);
-  return pilot(simplifier.pilot().bound, ratio > 0 ? std::min(ratio, 1.0) : 0.1);
+  const auto left = static_cast<double>(Simplifier::targetCells(schema_, options));
+  return pilot(simplifier.pilot().bound, left / static_cast<double>(schema_.cell_count));
 }
 
 }  // namespace tetstream

@@ -1,5 +1,5 @@
 // run: a sample of a long stream, to learn from before it is simplified: how its cells should be
-// spread over it. Depends on stream, simplify (pilot.h).
+// spread over it. Depends on stream, simplify.
 //
 // The mesh's box is cut into bricks of some thousand cells, and of these about as many are taken,
 // by a hash of their places, as a sample holds; their vertices on the cuts are locked. Simplified
@@ -47,7 +47,6 @@ class Sampler {
   void addVertex(const BatchView& batch, size_t row);
   uint32_t rowOf(int64_t vertex) const;
   void addCell(const BatchView& batch, size_t row);
-  void closeCounts();
   double ratioFor(double left) const;
   Pilot pilot(double bound, double ratio) const;
 
@@ -55,14 +54,13 @@ class Sampler {
   Batch sample_;
   double low_[3], brick_size_;
   uint64_t bricks_[3], one_in_;
-  std::vector<uint32_t> row_of_;   // of a rank, modulo the size: the row in the sample, or kNone
+  std::vector<uint32_t> row_of_;   // of a rank, modulo the size, a power of two; or kNone
   std::vector<uint64_t> rank_of_;  // of a row
   std::vector<uint32_t> brick_of_;
   std::vector<bool> used_, cut_;                    // in a cell of the sample, in one that is not
   std::unordered_map<uint64_t, uint32_t> sampled_;  // bricks, by their place
   std::vector<Brick> brick_;
   uint64_t cells_seen_ = 0;
-  bool closed_ = false;
 };
 
 }  // namespace tetstream

@@ -5,9 +5,6 @@
 
 namespace tetstream {
 
-// Cells left at a bound b: proportional to b^-kDecay, in space and for a field that linear
-// interpolation follows (squared error times volume ~ n^(-7/3) for n cells).
-constexpr double kDecay = 3.0 / 7;
 // The first window is not simplified further than this: its own detail says little of the rest.
 constexpr double kFirstRatio = 0.25;
 // What a pilot says weighs as much as this share of the stream.

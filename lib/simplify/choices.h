@@ -73,14 +73,13 @@ class Choices {
   void relist(uint32_t v, const S* errors, const uint32_t* others, size_t count) {
     Choice c = of_[v];
     c.passed_over = kNothing;
-    float first[8];
-    for (uint32_t i = 0; i < 8; ++i) first[i] = i < count ? keyOf(errors[i], others[i]) : kNothing;
-    for (uint32_t i = 0; i < 8; ++i) first[i] = first[i] < c.tried ? kNothing : first[i];
-    for (int k = 0; k < 2; ++k) {
-      std::copy_n(first + 4 * k, 4, reinterpret_cast<float*>(&c.best[k]));
-      c.best[k] = c.best[k] < kNothing ? c.best[k] : none(k);
-    }
-    for (size_t i = 8; i < count; ++i) offer(c, keyOf(errors[i], others[i]));
+    float first[kBest];
+    for (size_t i = 0; i < kBest; ++i)
+      first[i] = i < count ? keyOf(errors[i], others[i]) : kNothing;
+    for (float& key : first) key = key < c.tried ? kNothing : key;
+    std::memcpy(c.best, first, sizeof first);
+    for (int k = 0; k < 2; ++k) c.best[k] = c.best[k] < kNothing ? c.best[k] : none(k);
+    for (size_t i = kBest; i < count; ++i) offer(c, keyOf(errors[i], others[i]));
     of_[v] = c;
     update(v);
   }
@@ -139,12 +138,9 @@ class Choices {
   void refuse(uint32_t v, uint32_t w) {
     const float key = bestOf(of_[v]), back = keyOf(key, v);
     refuse(of_[v], key);
-    of_[v].tried = std::bit_cast<float>(std::bit_cast<uint32_t>(key) + 1);
     update(v);
     const auto known = (of_[w].best[0] == back) | (of_[w].best[1] == back);
     if (!(known[0] | known[1] | known[2] | known[3])) return;
-    if (back == bestOf(of_[w]))
-      of_[w].tried = std::bit_cast<float>(std::bit_cast<uint32_t>(back) + 1);
     refuse(of_[w], back);
     update(w);
   }
@@ -156,6 +152,7 @@ class Choices {
   static constexpr float kNothing = std::bit_cast<float>(kNothingBits + 8);
   static constexpr float kRounding = 1 - 1e-3f;  // of keys, and of errors seen from the other end
   static constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  static constexpr size_t kBest = 8;
   typedef float Keys __attribute__((vector_size(16)));
   typedef uint32_t Ends __attribute__((vector_size(16)));
   static constexpr Ends kNoneBits[2] = {
@@ -197,6 +194,7 @@ class Choices {
     c.passed_over = std::min(c.passed_over, larger(offered, worst)[0]);
   }
   static void refuse(Choice& c, float key) {
+    if (key == bestOf(c)) c.tried = std::bit_cast<float>(std::bit_cast<uint32_t>(key) + 1);
     for (int k = 0; k < 2; ++k) c.best[k] = c.best[k] == key ? none(k) : c.best[k];
     c.also_refused = std::min(c.also_refused, std::max(key, c.refused));
     c.refused = std::min(key, c.refused);

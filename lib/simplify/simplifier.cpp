@@ -387,6 +387,10 @@ int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& opt
                                       : Core<float>::bytesPerCell(plan, options.mode));
 }
 
+int64_t Simplifier::targetCells(const Schema& schema, const SimplifyOptions& options) {
+  return targetOf(schema, options).cellsOf(schema.cell_count);
+}
+
 Pilot Simplifier::pilot() const {
   return engine_->pilot();
 }

@@ -23,6 +23,8 @@ class Simplifier : public Sink {
 
   // Cells of the window that a stream would get.
   static int64_t windowCells(const Schema& schema, const SimplifyOptions& options);
+  // Cells that its target leaves of a stream that says its count.
+  static int64_t targetCells(const Schema& schema, const SimplifyOptions& options);
   // Before begin: what is known of the stream from an earlier run.
   void follow(Pilot pilot) { pilot_ = std::move(pilot); }
   // After finish, of a run whose window held all cells.
