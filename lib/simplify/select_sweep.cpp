@@ -42,7 +42,6 @@ class SweepSelector final : public Selector {
         neighbours_(account),
         seen_(account),
         looks_(account),
-        changed_(account),
         z_(static_cast<size_t>(core.plan.dimension)) {}
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
@@ -113,7 +112,7 @@ class SweepSelector final : public Selector {
   Solutions<S> solutions_;
   Array<S> errors_;
   Array<uint32_t> neighbours_, seen_;  // seen_: per vertex, the mark_ of its last listing
-  Array<uint8_t> looks_, changed_;     // owned vertices: at all its edges; merged with another
+  Array<uint8_t> looks_;               // of an owned vertex: at all its edges
   std::vector<S> z_;
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
@@ -300,14 +299,10 @@ template <class S>
 void SweepSelector<S>::evaluateAll(float bound) {
   choices_.reset(patch_.ownedEnd());
   solutions_.reset(patch_.ownedEnd());
-  if (looks_.size() < patch_.ownedEnd()) {
-    looks_.resize(patch_.ownedEnd() + 1024);
-    changed_.resize(looks_.size());
-  }
+  if (looks_.size() < patch_.ownedEnd()) looks_.resize(patch_.ownedEnd() + 1024);
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
     const Settled s = settledOf(core_.window, patch_.slotOf(v));
     looks_[v] = s.least <= bound;
-    changed_[v] = 0;
     if (!looks_[v])
       choices_.know(v, s.least, s.refused);
     else if (s.least > 0)
@@ -328,7 +323,6 @@ template <class S>
 void SweepSelector<S>::pushAfter(uint32_t u, uint32_t gone) {
   listNeighboursOfMerged(u);
   measureNeighbours(u);
-  changed_[u] = 1;
   solutions_.moved(u);
   choices_.forget(gone);
   choices_.forget(u);
@@ -421,7 +415,8 @@ float SweepSelector<S>::leastAcrossSeam(uint32_t v) {
   Window<S>& window = core_.window;
   for (size_t i = 0; i < count_; ++i) {
     neighbours_[i] = patch_.slotOf(neighbours_[i]);
-    if (changed_[v] && settledOf(window, neighbours_[i]).refused) unsettle(window, neighbours_[i]);
+    if (solutions_.hasMoved(v) && settledOf(window, neighbours_[i]).refused)
+      unsettle(window, neighbours_[i]);
   }
   measureIn(
       {window.allQuadrics(), window.allValues(), window.shape().quadric, window.shape().values},
@@ -455,7 +450,7 @@ void SweepSelector<S>::settleAll() {
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
     if (!patch_.isFree(v)) continue;
     float least = choices_.least(v);
-    if (seen_[v] == kAtSeam && (looks_[v] || changed_[v]))
+    if (seen_[v] == kAtSeam && (looks_[v] || solutions_.hasMoved(v)))
       least = std::min(least, leastAcrossSeam(v));
     settle(core_.window, patch_.slotOf(v), {least, choices_.hasRefused(v)});
   }

@@ -35,6 +35,7 @@ class Solutions {
   }
   // The vertex was merged with another: what is known of its edges is void.
   void moved(uint32_t v) { moved_[v] = ++clock_; }
+  bool hasMoved(uint32_t v) const { return moved_[v] > 0; }
 
   // Whether edges of v or of later vertices were added.
   bool reach(uint32_t v) {
@@ -51,7 +52,7 @@ class Solutions {
 
  private:
   const Core<S>& core_;
-  Array<uint32_t> moved_;  // per owned vertex: the clock when it last was merged
+  Array<uint32_t> moved_;  // per owned vertex: the clock when it last was merged, or 0
   std::vector<S> z_;
   S errors_[kEdgeLanes];
   uint32_t ends_[2 * kEdgeLanes];
