@@ -45,7 +45,7 @@ constexpr double kLeastFloor = 0.05;
 // Vertices of a patch: with its cells and stars they should fit a core's L2 cache, and its seams
 // should be few. A memory budget may want less.
 constexpr int64_t kTileVertices = 4096;
-constexpr int64_t kTileVertexBytes = 444;  // with all that a patch and its sweep hold
+constexpr int64_t kTileVertexBytes = 447;  // with all that a patch and its sweep hold
 
 inline int64_t tileVertices(const SimplifyOptions& options) {
   if (options.memory_bytes == 0) return kTileVertices;
