@@ -64,6 +64,18 @@ class Choices {
         if (woken_[v]) reconsider(v);
     }
   }
+  // Offers again what was refused of v.
+  void reconsider(uint32_t v) {
+    Choice& c = of_[v];
+    woken_[v] = 0;
+    c.tried = 0;
+    c.passed_over = std::min(c.passed_over, c.also_refused);
+    c.also_refused = kNothing;
+    const float key = c.refused;
+    c.refused = kNothing;
+    offer(c, key);
+    update(v);
+  }
   // Whether the vertex must look at its edges, all of them, for its best.
   bool mustLookAgain(uint32_t v) const { return of_[v].passed_over < bestOf(of_[v]); }
   uint32_t target(uint32_t v) const { return otherOf(bestOf(of_[v])); }
@@ -205,17 +217,6 @@ class Choices {
     return std::bit_cast<float>(least + (least == kNothingBits ? kMostVertices : 0));  // infinity
   }
   void update(uint32_t v) { least_[v] = leastIn(std::min(bestOf(of_[v]), of_[v].passed_over)); }
-  void reconsider(uint32_t v) {
-    Choice& c = of_[v];
-    woken_[v] = 0;
-    c.tried = 0;
-    c.passed_over = std::min(c.passed_over, c.also_refused);
-    c.also_refused = kNothing;
-    const float key = c.refused;
-    c.refused = kNothing;
-    offer(c, key);
-    update(v);
-  }
 
   size_t count_ = 0;
   Array<Choice> of_;

@@ -35,24 +35,35 @@ void Collapser<Mesh>::placeAt(uint32_t u, uint32_t v, const S* z) {
 }
 
 template <class Mesh>
-StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size_t count) const {
+StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size_t count,
+                                     const ThinAngle& angle) const {
   const double x[3] = {static_cast<double>(place[0]), static_cast<double>(place[1]),
                        static_cast<double>(place[2])};
   return starShape(x, mesh_.allValues(), mesh_.valueStride(), static_cast<double>(core_.scale[0]),
-                   cells, count, core_.thin);
+                   cells, count, angle);
 }
 
 // Whether the share of thin cells in the two stars would not grow, so that in the end it is no
 // larger than in the input.
 template <class Mesh>
-bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, size_t thin) const {
-  const auto thinOf = [this](const S* at, const Star& star) {
-    return shapeFrom(at, star.begin(), star.size()).thin;
-  };
-  const size_t before = thinOf(mesh_.values(u), stars_.u) + thinOf(mesh_.values(u), stars_.ring) +
-                        thinOf(mesh_.values(v), stars_.v);
+bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) const {
+  if (after == 0) return true;
+  const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
+  const size_t before = thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +
+                        thinIn(stars_.v, at_v, angle);
   const size_t left = stars_.u.size() + stars_.v.size();
-  return thin * (left + stars_.ring.size()) <= before * left;
+  return after * (left + stars_.ring.size()) <= before * left;
+}
+
+// `after`: cells that would be below the largest angle in question.
+template <class Mesh>
+Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, bool spares, size_t after) const {
+  if (!thinsOut(u, v, core_.thin, spares ? thinAfter(core_.thin) : after))
+    return Outcome::kOrientation;
+  for (size_t i = 0; spares && i < core_.dear.size(); ++i)
+    if (!thinsOut(u, v, core_.dear[i], i > 0 ? thinAfter(core_.dear[i]) : after))
+      return Outcome::kDear;
+  return Outcome::kDone;
 }
 
 // Whether u is farther from the new place than v is.
@@ -96,12 +107,12 @@ bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
   }
   if (ends != 1) return false;
   const StarCell cell = mesh_.starCell(at);
-  return !shapeFrom(merged_.data(), &cell, 1).positive;
+  return !shapeFrom(merged_.data(), &cell, 1, core_.thin).positive;
 }
 
 // Half of all edges fail, most of them by the cells of the end that moves most.
 template <class Mesh>
-Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells) {
+Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool spares) {
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
@@ -117,14 +128,17 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells) {
   const auto dying = static_cast<int64_t>((u_first ? stars_.ring : stars_.ring_from_v).size());
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
+  spares = spares && !core_.dear.empty();
+  const ThinAngle& angle = spares ? core_.dear.front() : core_.thin;
   const Star& farther = u_first ? stars_.u : stars_.v;
-  const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size());
+  const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size(), angle);
   if (!a.positive) return refuseFor(u, v, farther[a.turned]);
   gather(!u_first);
   const Star& nearer = u_first ? stars_.v : stars_.u;
-  const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size());
+  const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size(), angle);
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
-  if (a.thin + b.thin > 0 && !thinsOut(u, v, a.thin + b.thin)) return Outcome::kOrientation;
+  if (a.thin + b.thin > 0)
+    if (const Outcome o = thins(u, v, spares, a.thin + b.thin); o != Outcome::kDone) return o;
   return link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, mesh_.allFlags())
              ? Outcome::kDone
              : Outcome::kTopology;
@@ -139,14 +153,14 @@ double Collapser<Mesh>::growth(uint32_t u, uint32_t v, S error) {
 }
 
 template <class Mesh>
-Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error,
-                                  int64_t least_cells) {
+Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
+                                  bool spares) {
   placeAt(u, v, z);
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               merged_.data() + core_.plan.dimension);
   Outcome outcome = Outcome::kNotFinite;
   if (std::isfinite(error)) {
-    outcome = test(u, v, least_cells);
+    outcome = test(u, v, least_cells, spares);
     if (outcome == Outcome::kDone && core_.error + growth(u, v, error) > core_.error_limit) {
       core_.error_reached = true;
       outcome = Outcome::kTooFar;
@@ -168,6 +182,7 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error,
       break;
     case Outcome::kTooMany:
     case Outcome::kTooFar:
+    case Outcome::kDear:
     case Outcome::kNotFinite:
       ++report.rejected_other;
       break;

@@ -17,7 +17,16 @@ class CollapseObserver {
   virtual void collapsed(uint32_t u, uint32_t v, double error) = 0;
 };
 
-enum class Outcome { kDone, kLocked, kTooMany, kTooFar, kTopology, kOrientation, kNotFinite };
+enum class Outcome {
+  kDone,
+  kLocked,
+  kTooMany,
+  kTooFar,
+  kTopology,
+  kOrientation,
+  kDear,
+  kNotFinite
+};
 
 template <class Mesh>
 class Collapser {
@@ -34,8 +43,10 @@ class Collapser {
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
   // before, decided exactly on the values as they will be written, and the share of thin ones no
   // larger; the whole error within its limit; no fewer than `least_cells` cells left in the window.
+  // Where it spares, the share of those below the dear angles may not grow either: kDear otherwise.
   // Counts what happened in the report.
-  Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells);
+  Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
+                   bool spares = false);
 
   // z of an end.
   void endOf(uint32_t u, uint32_t v, bool at_v, S* z) const;
@@ -44,14 +55,22 @@ class Collapser {
   const Stars& stars() const { return stars_; }
 
  private:
-  Outcome test(uint32_t u, uint32_t v, int64_t least_cells);
+  Outcome test(uint32_t u, uint32_t v, int64_t least_cells, bool spares);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   void placeAt(uint32_t u, uint32_t v, const S* z);
-  StarShape shapeFrom(const S* place, const StarCell* cells, size_t count) const;
-  bool thinsOut(uint32_t u, uint32_t v, size_t thin) const;
+  StarShape shapeFrom(const S* place, const StarCell* cells, size_t count,
+                      const ThinAngle& angle) const;
+  size_t thinIn(const Star& star, const S* centre, const ThinAngle& angle) const {
+    return shapeFrom(centre, star.begin(), star.size(), angle).thin;
+  }
+  size_t thinAfter(const ThinAngle& angle) const {
+    return thinIn(stars_.u, merged_.data(), angle) + thinIn(stars_.v, merged_.data(), angle);
+  }
+  bool thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) const;
+  Outcome thins(uint32_t u, uint32_t v, bool spares, size_t after) const;
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);

@@ -45,7 +45,7 @@ constexpr double kLeastFloor = 0.05;
 // Vertices of a patch: with its cells and stars they should fit a core's L2 cache, and its seams
 // should be few. A memory budget may want less.
 constexpr int64_t kTileVertices = 4096;
-constexpr int64_t kTileVertexBytes = 447;  // with all that a patch and its sweep hold
+constexpr int64_t kTileVertexBytes = 451;  // with all that a patch and its sweep hold
 
 inline int64_t tileVertices(const SimplifyOptions& options) {
   if (options.memory_bytes == 0) return kTileVertices;
@@ -89,6 +89,7 @@ struct Core {
   std::vector<S> scale, inverse_scale;  // per dimension: normalised = scale * user's units
   double error_unit = 1;                // times a quadric error: the report's unit
   ThinAngle thin;                       // no more cells below than the input has
+  std::vector<ThinAngle> dear;          // falling, above: more cells below have their price
   // Of all cells read, normalised: volume, and the error made so far, volume times squared error;
   // the extent of the mesh; the error that may be made.
   double volume = 0, error = 0, extent = 1;

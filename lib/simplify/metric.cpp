@@ -14,6 +14,10 @@ namespace tetstream {
 // only.
 constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
 constexpr double kShareBelow = 0.01;
+// Where the input has more than this share of cells below one of these, making the share larger has
+// its price. Other meshes are spared the time.
+constexpr double kDear[] = {10, 1.01};
+constexpr double kShareToSpare = 0.002;
 constexpr int64_t kCellsPerSample = 16;
 
 // Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
@@ -31,6 +35,9 @@ Metric<S>::Metric(Core<S>& core)
   else
     for (double degrees : kFloors) floors_.emplace_back(degrees);
   below_.assign(floors_.size(), 0);
+  if (core.options.mode != Mode::kPaper)
+    for (double degrees : kDear) dear_.emplace_back(degrees);
+  below_dear_.assign(dear_.size(), 0);
   core.thin = floors_.back();
   if (!box_known_) return;
   const Schema& schema = core.plan.schema;
@@ -234,18 +241,27 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
     const StarCell cell = mesh.starCell(4 * c);
     double x[3];
     positionOf(core_.window, mesh.corners(c)[0], x);
-    for (size_t i = 0; i < floors_.size(); ++i) {
-      const StarShape shape = starShape(x, core_.window.allValues(), core_.window.valueStride(),
-                                        static_cast<double>(core_.scale[0]), &cell, 1, floors_[i]);
-      if (shape.thin == 0) break;
-      ++below_[i];
-    }
+    const auto count = [&](const std::vector<ThinAngle>& angles, std::vector<int64_t>& below) {
+      for (size_t i = 0; i < angles.size(); ++i) {
+        const StarShape shape = starShape(x, core_.window.allValues(), core_.window.valueStride(),
+                                          static_cast<double>(core_.scale[0]), &cell, 1, angles[i]);
+        if (shape.thin == 0) break;
+        ++below[i];
+      }
+    };
+    count(floors_, below_);
+    count(dear_, below_dear_);
   }
   size_t i = 0;
   while (i + 1 < floors_.size() &&
          static_cast<double>(below_[i]) > kShareBelow * static_cast<double>(sampled_))
     ++i;
   core_.thin = floors_[i];
+  core_.dear.clear();
+  for (size_t k = 0; k < dear_.size(); ++k)
+    if (dear_[k].cos2<core_.thin.cos2&& static_cast<double>(below_dear_[k])> kShareToSpare *
+        static_cast<double>(sampled_))
+      core_.dear.push_back(dear_[k]);
 }
 
 template <class S>

@@ -31,6 +31,7 @@ struct SimplifyOptions {
   int64_t candidates = 8;
   int64_t window_cells = 0;  // 0: from the front
   int64_t memory_bytes = 0;  // 0: no limit
+  bool rough = false;        // a sample: only how the cells that are left spread matters
 };
 
 struct Report {

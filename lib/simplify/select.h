@@ -39,7 +39,7 @@ template <class S>
 std::unique_ptr<Selector> makeRandomSelector(Core<S>& core, Collapser<Window<S>>& collapser,
                                              Account& account);
 
-// The default: patches of the window are swept at rising bounds, every vertex offering its two best
+// The default: patches of the window are swept at rising bounds, every vertex offering its best
 // edges.
 template <class S>
 std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, Account& account);

@@ -8,6 +8,7 @@
 #include "select.h"
 #include "settled.h"
 #include "solutions.h"
+#include "sweep_bounds.h"
 #include "tiling.h"
 
 namespace tetstream {
@@ -16,16 +17,10 @@ namespace {
 constexpr uint32_t kAlways = 0xffffffffu, kAtSeam = kAlways - 1;  // marks above all others
 // Within a patch edges are taken at bounds rising to the pass's, nearly in order of their error.
 constexpr float kFirstLevel = 1.0f / 256, kLevelStep = 2;
-// From pass to pass; larger steps make the tiles uneven, smaller ones take time.
-constexpr double kLeastStep = 1.15, kLargestStep = 4;
-// Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
-// of what is learnt from a pass for the next.
-constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
-// Share of the vertices whose best edges are below the first bound; with a limit on the error.
-constexpr double kFirstShare = 0.1, kFirstShareToError = 0.01;
+// An edge whose collapse makes more cells thin than it should is taken at this times its error.
+constexpr float kThinPrice = 2;
 constexpr int64_t kLeastRoom = 8;    // cells; a collapse takes 5 or 6
 constexpr int64_t kSlackShare = 50;  // one part in these of a goal is no reason for another pass
-constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
 template <class S>
 class SweepSelector final : public Selector {
@@ -33,6 +28,7 @@ class SweepSelector final : public Selector {
   SweepSelector(Core<S>& core, Account& account)
       : core_(core),
         tiling_(core, account),
+        bounds_(core),
         patch_(account, core.window),
         collapser_(core, patch_, account),
         exhaustive_(makeExhaustiveSelector(core, collapser_)),
@@ -42,6 +38,7 @@ class SweepSelector final : public Selector {
         neighbours_(account),
         seen_(account),
         looks_(account),
+        spared_(account),
         z_(static_cast<size_t>(core.plan.dimension)) {}
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
@@ -72,9 +69,7 @@ class SweepSelector final : public Selector {
            core_.error_reached;
   }
   void sweep(const std::function<void()>& tick);
-  double stepFor(double bound, double yield);
-  double boundToTake(double cells, double yield);
-  double sampledBound();
+  double firstBound();
   bool pass(float bound, const std::function<void()>& tick);
   template <class Work>
   void onPatch(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count,
@@ -91,11 +86,12 @@ class SweepSelector final : public Selector {
   void findSeams();
   float leastAcrossSeam(uint32_t v);
   void addEdges(uint32_t v);
-  float sweepLevel(float level);
+  float sweepLevel(float level, bool spares);
+  void sweepSpared(float level);
   VertexTable<S> vertices() const;
   void solveFrom(uint32_t v, float level);
   S solve(uint32_t v, uint32_t w, float level);
-  void collapseFrom(uint32_t v, float level);
+  void collapseFrom(uint32_t v, float level, bool spares);
   void pushAfter(uint32_t u, uint32_t gone);
   void startList(uint32_t v, size_t cells);
   void listNeighbours(uint32_t v);
@@ -105,6 +101,7 @@ class SweepSelector final : public Selector {
 
   Core<S>& core_;
   Tiling<S> tiling_;
+  SweepBounds<S> bounds_;
   Patch<S> patch_;
   Collapser<Patch<S>> collapser_;
   std::unique_ptr<Selector> exhaustive_;
@@ -113,6 +110,7 @@ class SweepSelector final : public Selector {
   Array<S> errors_;
   Array<uint32_t> neighbours_, seen_;  // seen_: per vertex, the mark_ of its last listing
   Array<uint8_t> looks_;               // of an owned vertex: at all its edges
+  Array<float> spared_;                // and the least error of those that were spared
   std::vector<S> z_;
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
@@ -126,49 +124,21 @@ class SweepSelector final : public Selector {
 template <class S>
 void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   if (mustStop(core_.window.liveCells())) return;
-  double bound = std::min(goal_.first_bound * unit_, kLargestBound), yield = kFirstYield;
+  double bound = std::min<double>(goal_.first_bound * unit_, std::numeric_limits<float>::max());
+  bounds_.forget();
   for (bool first = true;; first = false) {
     tiling_.build(round_++,
                   bound > 0 ? static_cast<float>(bound) : std::numeric_limits<float>::infinity());
-    if (!(bound > 0)) bound = sampledBound();
+    if (!(bound > 0)) bound = firstBound();
     const int64_t before = core_.window.liveCells();
     const bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
     // A pass that the limit on the error ended was left half done: the one before tells the bound.
     if (!core_.error_reached || first) bound_ = bound;
     if (!more || reached() || core_.error >= goal_.most_error) return;
-    if (!first && tiling_.looking() > 0)  // in the first, most vertices are new
-      yield = std::clamp(static_cast<double>(before - core_.window.liveCells()) /
-                             static_cast<double>(tiling_.looking()),
-                         kLeastYield, kLargestYield);
-    bound = std::min(bound * stepFor(bound, yield), kLargestBound);
+    if (!first)  // in that, most vertices are new
+      bounds_.learn(before - core_.window.liveCells(), tiling_.looking());
+    bound = bounds_.next(bound, goal_);
   }
-}
-
-// The bound below which there are so many edges that a pass should take these cells.
-template <class S>
-double SweepSelector<S>::boundToTake(double cells, double yield) {
-  uint32_t* const leasts = core_.window.scratch();
-  size_t count = 0;
-  for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v) {
-    if (!core_.window.isFree(v)) continue;
-    leasts[count++] = std::bit_cast<uint32_t>(settledOf(core_.window, v).least);
-  }
-  const auto place = static_cast<size_t>(cells / yield);
-  if (place >= count) return std::numeric_limits<double>::infinity();
-  std::nth_element(leasts, leasts + place, leasts + count);  // bits order as the errors do
-  return static_cast<double>(std::bit_cast<float>(leasts[place]));
-}
-
-template <class S>
-double SweepSelector<S>::stepFor(double bound, double yield) {
-  const auto cells = static_cast<double>(core_.window.liveCells() - goal_.cells);
-  const double by_count = boundToTake(std::max(cells, 0.0), yield) / bound;
-  // The squared error rises as n^(-4/3).
-  const double by_error =
-      core_.error > 0
-          ? std::pow(std::min(goal_.most_error, core_.error_limit) / core_.error, 7.0 / 4)
-          : std::numeric_limits<double>::infinity();
-  return std::clamp(std::min(by_count, by_error), kLeastStep, kLargestStep);
 }
 
 // Works on a patch, or on its halves where it is too large for one.
@@ -202,10 +172,8 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   return more;
 }
 
-// The errors of a small part of the vertices' best edges are below: what is simplified too far at
-// first stays so.
 template <class S>
-double SweepSelector<S>::sampledBound() {
+double SweepSelector<S>::firstBound() {
   std::vector<float> errors;
   for (size_t i = 0; i < tiling_.tiles().size(); i += tiling_.tiles().size() / 4 + 1) {
     onTile(tiling_.tiles()[i], [&] {
@@ -214,12 +182,7 @@ double SweepSelector<S>::sampledBound() {
         if (std::isfinite(choices_.least(v))) errors.push_back(choices_.least(v));
     });
   }
-  if (errors.empty()) return std::numeric_limits<float>::min();
-  const double share = std::isfinite(core_.error_limit) ? kFirstShareToError : kFirstShare;
-  const auto place = static_cast<size_t>(share * static_cast<double>(errors.size() - 1));
-  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(place),
-                   errors.end());
-  return std::max(errors[place], std::numeric_limits<float>::min());  // never 0: it would not rise
+  return bounds_.first(errors);
 }
 
 // Until a round, whose seams lie elsewhere, finds nothing more.
@@ -299,13 +262,17 @@ template <class S>
 void SweepSelector<S>::evaluateAll(float bound) {
   choices_.reset(patch_.ownedEnd());
   solutions_.reset(patch_.ownedEnd());
-  if (looks_.size() < patch_.ownedEnd()) looks_.resize(patch_.ownedEnd() + 1024);
+  if (looks_.size() < patch_.ownedEnd()) {
+    looks_.resize(patch_.ownedEnd() + 1024);
+    spared_.resize(looks_.size());
+  }
+  std::fill_n(spared_.data(), patch_.ownedEnd(), std::numeric_limits<float>::infinity());
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
     const Settled s = settledOf(core_.window, patch_.slotOf(v));
     looks_[v] = s.least <= bound;
     if (!looks_[v])
       choices_.know(v, s.least, s.refused);
-    else if (s.least > 0)
+    else if (s.least > 0 && !s.spared)
       choices_.passOver(v, s.least, s.refused);
   }
   // The rim and what dead cells hold count as seen, always.
@@ -358,7 +325,7 @@ S SweepSelector<S>::solve(uint32_t v, uint32_t w, float level) {
 
 // Tries v's edges of errors up to the level, best first, until one is collapsed.
 template <class S>
-void SweepSelector<S>::collapseFrom(uint32_t v, float level) {
+void SweepSelector<S>::collapseFrom(uint32_t v, float level, bool spares) {
   while (choices_.least(v) <= level) {
     if (choices_.mustLookAgain(v)) {
       listNeighbours(v);
@@ -368,29 +335,43 @@ void SweepSelector<S>::collapseFrom(uint32_t v, float level) {
     }
     const uint32_t w = choices_.target(v);
     const S error = solve(v, w, level);
-    if (collapser_.collapse(v, w, z_.data(), error, goal_.least_cells) == Outcome::kDone) {
+    const Outcome outcome = collapser_.collapse(v, w, z_.data(), error, goal_.least_cells, spares);
+    if (outcome == Outcome::kDone) {
       pushAfter(v, w);
       return;
     }
+    if (outcome == Outcome::kDear) spared_[v] = std::min(spared_[v], choices_.least(v));
     choices_.refuse(v, w);
   }
 }
 
 // Returns the least error of an edge that is left, infinity if none is.
 template <class S>
-float SweepSelector<S>::sweepLevel(float level) {
+float SweepSelector<S>::sweepLevel(float level, bool spares) {
   float least = std::numeric_limits<float>::infinity();
   solutions_.clear();
   for (uint32_t block = 0; block < patch_.ownedEnd(); block += Choices::kBlock) {
     if (choices_.leastOfBlock(block) <= level)
       for (uint32_t v = block; v < block + Choices::kBlock; ++v) {
         if (!(choices_.least(v) <= level)) continue;
-        collapseFrom(v, level);
+        collapseFrom(v, level, spares);
         if (mustStop(patch_.liveCells())) return std::numeric_limits<float>::infinity();
       }
     least = std::min(least, choices_.leastOfBlock(block));
   }
   return least;
+}
+
+// What was spared at lower levels has its price now.
+template <class S>
+void SweepSelector<S>::sweepSpared(float level) {
+  for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
+    if (!(spared_[v] <= level)) continue;
+    spared_[v] = std::numeric_limits<float>::infinity();
+    choices_.reconsider(v);
+  }
+  while (sweepLevel(level, false) <= level) {
+  }
 }
 
 template <class S>
@@ -399,7 +380,8 @@ bool SweepSelector<S>::sweepPatch(float bound) {
   float level = bound * kFirstLevel, least;
   for (;;) {
     choices_.reconsider();
-    do least = sweepLevel(level);
+    if (!core_.dear.empty()) sweepSpared(level / kThinPrice);
+    do least = sweepLevel(level, true);
     while (least <= level);
     if (level >= bound || mustStop(patch_.liveCells())) break;
     level = std::min(std::max(level * kLevelStep, least), bound);
@@ -452,7 +434,9 @@ void SweepSelector<S>::settleAll() {
     float least = choices_.least(v);
     if (seen_[v] == kAtSeam && (looks_[v] || solutions_.hasMoved(v)))
       least = std::min(least, leastAcrossSeam(v));
-    settle(core_.window, patch_.slotOf(v), {least, choices_.hasRefused(v)});
+    const bool spared = spared_[v] < std::numeric_limits<float>::infinity();
+    settle(core_.window, patch_.slotOf(v),
+           {std::min(least, kThinPrice * spared_[v]), choices_.hasRefused(v), spared});
   }
 }
 

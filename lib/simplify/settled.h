@@ -15,19 +15,22 @@ namespace tetstream {
 struct Settled {
   float least;   // error of an edge; infinity when none is left
   bool refused;  // edges that were not legal are not counted
+  bool spared;   // edges of a lower error are left, which had a higher price
 };
 
-constexpr uint64_t kRefusedBit = uint64_t{1} << 32;
+constexpr uint64_t kRefusedBit = uint64_t{1} << 32, kSparedBit = uint64_t{1} << 33;
 
 template <class S>
 Settled settledOf(Window<S>& window, uint32_t v) {
   const uint64_t bits = window.outRank(v);
-  return {std::bit_cast<float>(static_cast<uint32_t>(bits)), (bits & kRefusedBit) != 0};
+  return {std::bit_cast<float>(static_cast<uint32_t>(bits)), (bits & kRefusedBit) != 0,
+          (bits & kSparedBit) != 0};
 }
 
 template <class S>
 void settle(Window<S>& window, uint32_t v, Settled s) {
-  window.outRank(v) = std::bit_cast<uint32_t>(s.least) | (s.refused ? kRefusedBit : 0);
+  window.outRank(v) = std::bit_cast<uint32_t>(s.least) | (s.refused ? kRefusedBit : 0) |
+                      (s.spared ? kSparedBit : 0);
 }
 
 // Its edges must be looked at again, whatever the bound.

@@ -74,8 +74,8 @@ TYPED_TEST_SUITE(Collapsers, Places);
 
 template <class Place>
 Outcome collapse(Place& w, uint32_t u, uint32_t v, const double* z, double error = 0,
-                 int64_t least = 0) {
-  return w.collapser.collapse(w.slot(u), w.slot(v), z, error, least);
+                 int64_t least = 0, bool spares = false) {
+  return w.collapser.collapse(w.slot(u), w.slot(v), z, error, least, spares);
 }
 
 TYPED_TEST(Collapsers, TellTheirObserverOfEachCollapse) {
@@ -123,6 +123,32 @@ TYPED_TEST(Collapsers, RefuseToTurnACellOver) {
   EXPECT_EQ(topologyChange(factsOf(w.mesh), facts), "");
   EXPECT_NEAR(facts.volume, 64, 1e-12);
   EXPECT_EQ(facts.negative, 0);
+}
+
+// Angles between the floor and a dear one are spared, and taken where nobody asks for that; below
+// the floor it makes no difference.
+TYPED_TEST(Collapsers, SpareCellsOfDearAngles) {
+  TypeParam w(gridWithField(4));
+  w.core.thin = ThinAngle(3);
+  w.core.dear = {ThinAngle(20), ThinAngle(10)};
+  const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
+  const double distance = 1.5 * w.core.scale[0];  // of the star's outer faces
+  double z[4] = {0.98 * distance, 0, 0, 0};
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kOrientation);
+  z[0] = 0.9 * distance;
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDear);
+  EXPECT_EQ(w.core.report.rejected_other, 1);
+  z[0] = 0.8 * distance;  // above the second, below the first
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDear);
+  w.core.dear = {ThinAngle(10)};
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDone);
+}
+TYPED_TEST(Collapsers, TakeDearAnglesWhereNobodySpares) {
+  TypeParam w(gridWithField(4));
+  w.core.thin = ThinAngle(3);
+  w.core.dear = {ThinAngle(20), ThinAngle(10)};
+  double z[4] = {0.9 * 1.5 * w.core.scale[0], 0, 0, 0};
+  EXPECT_EQ(collapse(w, slotAt(w.mesh, 2, 2, 2), slotAt(w.mesh, 3, 2, 2), z), Outcome::kDone);
 }
 
 TYPED_TEST(Collapsers, RefuseToTakeMoreCellsThanAllowed) {

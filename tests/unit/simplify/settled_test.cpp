@@ -93,11 +93,13 @@ TEST(Settled, WhatIsAboveTheBoundIsNotListedAgain) {
 
 TEST(Settled, IsKeptWithTheVertex) {
   WholeWindow<float> w(fullGrid(2, 2, 2));
-  settle(w.core.window, 3, {2.5f, true});
+  settle(w.core.window, 3, {2.5f, true, false});
   EXPECT_EQ(settledOf(w.core.window, 3).least, 2.5f);
   EXPECT_TRUE(settledOf(w.core.window, 3).refused);
-  settle(w.core.window, 3, {0.5f, false});
+  EXPECT_FALSE(settledOf(w.core.window, 3).spared);
+  settle(w.core.window, 3, {0.5f, false, true});
   EXPECT_FALSE(settledOf(w.core.window, 3).refused);
+  EXPECT_TRUE(settledOf(w.core.window, 3).spared);
   unsettle(w.core.window, 3);
   EXPECT_EQ(settledOf(w.core.window, 3).least, 0.0f);
 }
