@@ -45,7 +45,7 @@ OrderOptions orderOptions(const RunOptions& options, const ProgressFunction& pro
 constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
 // Larger meshes are sampled, which takes this share.
-constexpr double kSampleShare = 0.1;
+constexpr double kSampleShare = 0.05;
 
 class Nowhere final : public Sink {
  public:
