@@ -53,6 +53,7 @@ class Parser {
   void addSimplify();
   void addInfo();
   void addConvert();
+  void addLayout();
   void addGenerate();
   void addHelp();
   void addIn(CLI::App* command);
@@ -86,6 +87,7 @@ Parser::Parser() {
   addSimplify();
   addInfo();
   addConvert();
+  addLayout();
   addGenerate();
   addHelp();
 }
@@ -110,18 +112,20 @@ void Parser::addOut(CLI::App* command) {
   command->add_option("OUT", arguments_.out.path, "The result: a file, or - for standard output")
       ->required()
       ->option_text(" ");
-  const auto addProperty = [&](const char* property, const char* values, const char* text) {
+  const auto addProperty = [&](const char* flag, const char* property, const char* values,
+                               const char* text) {
     command
         ->add_option_function<std::string>(
-            std::string("--") + property,
+            flag,
             [=, this](const std::string& value) {
               arguments_.properties.push_back({property, value});
             },
             text)
         ->option_text(values);
   };
-  addProperty("compress", "yes|no", "Compress OUT (tets, vtu)");
-  addProperty("order", "pre|post", "Vertices before or after their cells (sva, svb)");
+  addProperty("--compress", "compress", "yes|no", "Compress OUT (tets, vtu)");
+  addProperty("--vertex-order", "order", "pre|post",
+              "Vertices before or after their cells (sva, svb)");
 }
 
 void Parser::addFormat(CLI::App* command) {
@@ -153,7 +157,7 @@ void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info
 void Parser::addStreamOptions(CLI::App* command) {
   for (const tetstream_option_info& info : optionTable())
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
-        info.id == TETSTREAM_OPTION_AXIS)
+        info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER)
       addTableOption(command, info);
 }
 
@@ -206,6 +210,17 @@ void Parser::addConvert() {
   addFormat(command);
   addStreamOptions(command);
   addProgress(command);
+}
+
+void Parser::addLayout() {
+  CLI::App* command = addCommand("layout", "Bring a mesh into an order that streams well",
+                                 Arguments::Command::kLayout);
+  addIn(command);
+  addOut(command);
+  addFormat(command);
+  addStreamOptions(command);
+  addProgress(command);
+  command->footer("The report goes to standard output, or to standard error if OUT is -.");
 }
 
 void Parser::addGenerate() {
@@ -282,7 +297,7 @@ Arguments Parser::parse(int argc, const char* const* argv) {
       settleFormats();
       return arguments_;
     }
-  throw usageFailure("which command? simplify, info, convert, generate or help", "");
+  throw usageFailure("which command? simplify, info, convert, layout, generate or help", "");
 }
 
 }  // namespace

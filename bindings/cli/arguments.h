@@ -10,7 +10,7 @@
 namespace tetstream::cli {
 
 struct Arguments {
-  enum class Command { kText, kSimplify, kInfo, kConvert, kGenerate };
+  enum class Command { kText, kSimplify, kInfo, kConvert, kLayout, kGenerate };
 
   Command command = Command::kText;
   std::string text;  // kText: what to print: help, version

@@ -10,10 +10,13 @@ namespace tetstream::cli {
 ExitCode simplify(const Arguments& arguments);
 ExitCode info(const Arguments& arguments);
 ExitCode convert(const Arguments& arguments);
+ExitCode layout(const Arguments& arguments);
 ExitCode generate(const Arguments& arguments);
 
 // When a bar is shown, for all of them.
 ProgressBar::Show progressOf(const Arguments& arguments);
+// To standard output, or to standard error where the mesh goes there.
+void printReport(const Arguments& arguments, const std::string& text);
 // Says what reader and writer left out, once a run is over; a null handle has nothing to say.
 void printNotes(const Arguments& arguments, const tetstream_reader* reader,
                 const tetstream_writer* writer);

@@ -25,6 +25,13 @@ void printNotes(const Arguments& arguments, const tetstream_reader* reader,
     for (const std::string& note : notesOf(writer)) printNote(note);
 }
 
+void printReport(const Arguments& arguments, const std::string& text) {
+  if (isStandardOutput(arguments.out))
+    printError(text);
+  else
+    printOut(text);
+}
+
 static ExitCode run(const Arguments& arguments) {
   switch (arguments.command) {
     case Arguments::Command::kText:
@@ -36,6 +43,8 @@ static ExitCode run(const Arguments& arguments) {
       return info(arguments);
     case Arguments::Command::kConvert:
       return convert(arguments);
+    case Arguments::Command::kLayout:
+      return layout(arguments);
     case Arguments::Command::kGenerate:
       return generate(arguments);
   }

@@ -15,7 +15,8 @@ static constexpr std::chrono::milliseconds kRedraw{100}, kLogInterval{1000};
 static constexpr int kBarCharacters = 20;
 
 ProgressBar::ProgressBar(Show show)
-    : terminal_(::isatty(STDERR_FILENO) == 1),
+    : quiet_(show == Show::kNever),
+      terminal_(::isatty(STDERR_FILENO) == 1),
       start_(Clock::now()),
       drawn_(start_),
       phase_start_(start_) {
@@ -27,7 +28,18 @@ int32_t ProgressBar::callback(void* user, const tetstream_progress* progress) {
   return interrupted() ? 1 : 0;
 }
 
+// Small files are nobody's concern.
+static constexpr int64_t kWorthTelling = int64_t{100} << 20;
+
+void ProgressBar::tellDisk(const tetstream_progress& progress) {
+  if (disk_told_ || progress.temporary_bytes < kWorthTelling) return;
+  disk_told_ = true;
+  printNote("temporary files will take about " +
+            megabytes(static_cast<uint64_t>(progress.temporary_bytes)) + " of disk");
+}
+
 void ProgressBar::update(const tetstream_progress& progress) {
+  if (!quiet_) tellDisk(progress);
   if (!shown_) return;
   const Clock::time_point now = Clock::now();
   const char* phase = progress.phase ? progress.phase : "";

@@ -8,7 +8,8 @@
 
 namespace tetstream::cli {
 
-// On a terminal one line that is drawn over and over; elsewhere, if asked for, lines.
+// On a terminal one line that is drawn over and over; elsewhere, if asked for, lines. Before them,
+// unless nothing is shown at all, what large temporary files will take.
 class ProgressBar {
  public:
   enum class Show { kNever, kOnTerminal, kAlways };
@@ -25,10 +26,11 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   void update(const tetstream_progress& progress);
+  void tellDisk(const tetstream_progress& progress);
   std::string lineOf(const tetstream_progress& progress, Clock::time_point now) const;
   void draw(std::string line);
 
-  bool shown_, terminal_;
+  bool quiet_, shown_, terminal_, disk_told_ = false;
   Clock::time_point start_, drawn_, phase_start_;
   std::string phase_;
   int64_t phase_first_cell_ = 0;

@@ -15,7 +15,8 @@ static std::string rateText(int64_t cells, double seconds) {
   return text;
 }
 
-static std::string frontText(const tetstream_report& r) {
+template <class R>
+static std::string frontText(const R& r) {
   return "width " + countText(r.front_width) + ", span " + countText(r.front_span) + ", " +
          countText(r.front_cells) + " cells";
 }
@@ -46,6 +47,7 @@ std::string reportText(const tetstream_report& r) {
       row("collapses", countText(r.collapses)) + row("rejected", rejectionText(r)) +
       row("error", textOf("%.3g %% of the range (RMS, estimated)", r.estimated_error)) +
       row("largest error", textOf("%.6g", r.largest_error)) +
+      row("order", oneLine(r.order ? r.order : "")) +
       row("regions", oneLine(r.regions ? r.regions : ""));
   if (r.locked_cells > 0)
     text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
@@ -53,6 +55,16 @@ std::string reportText(const tetstream_report& r) {
     text += row("left out", countText(r.unused_vertices) + " vertices that are in no cell");
   if (r.reached && *r.reached) text += row("reached", r.reached);
   if (r.limited_by && *r.limited_by) text += row("limited by", oneLine(r.limited_by));
+  return text;
+}
+
+std::string layoutText(const tetstream_layout_report& r) {
+  std::string text = row("order", oneLine(r.order ? r.order : "")) +
+                     row("cells", countText(r.cells)) + row("vertices", countText(r.vertices)) +
+                     row("front", frontText(r)) + row("time", rateText(r.cells, r.seconds)) +
+                     row("temporary", megabytes(r.temporary_bytes) + " of disk at most");
+  if (r.unused_vertices > 0)
+    text += row("left out", countText(r.unused_vertices) + " vertices that are in no cell");
   return text;
 }
 
@@ -83,6 +95,7 @@ std::string reportJson(const tetstream_report& r, tetstream_status status) {
   add("seconds", r.seconds);
   add("peak_window_bytes", r.peak_window_bytes);
   add("peak_resident_bytes", r.peak_resident_bytes);
+  add("order", words(r.order));
   add("regions", words(r.regions));
   add("reached", words(r.reached));
   add("limited_by", words(r.limited_by));

@@ -21,15 +21,11 @@ static void needTarget(const Arguments& arguments, const tetstream_options* opti
                   "--error E (percent of the fields' range)"};
 }
 
-static void printReport(const Arguments& arguments, const tetstream_report& report,
-                        tetstream_status status) {
+static void printClosing(const Arguments& arguments, const tetstream_report& report,
+                         tetstream_status status) {
   if (arguments.quiet && arguments.report.empty()) return;
-  const std::string text =
-      arguments.report == "json" ? reportJson(report, status) : reportText(report);
-  if (isStandardOutput(arguments.out))
-    printError(text);
-  else
-    printOut(text);
+  printReport(arguments,
+              arguments.report == "json" ? reportJson(report, status) : reportText(report));
 }
 
 static void printMissed(const tetstream_report& report) {
@@ -61,7 +57,7 @@ ExitCode simplify(const Arguments& arguments) {
   tetstream_report report = {};
   report.struct_size = sizeof report;
   check(tetstream_simplifier_get_report(handle, &report), handle);
-  printReport(arguments, report, status);
+  printClosing(arguments, report, status);
   if (status == TETSTREAM_TARGET_MISSED) printMissed(report);
   return exitCodeOf(status);
 }

@@ -109,7 +109,8 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
-#define TETSTREAM_OPTION_AXIS 210            /* text: sweep of indexed input: "auto", "x", "y", "z" */
+#define TETSTREAM_OPTION_AXIS 210            /* text: of order "spatial": "auto", "x", "y", "z" */
+#define TETSTREAM_OPTION_ORDER 211           /* text: of the input: "auto", "none", "spatial", ... */
 
 #define TETSTREAM_OPTION_IS_INT64 1
 #define TETSTREAM_OPTION_IS_DOUBLE 2
@@ -347,6 +348,8 @@ typedef struct tetstream_progress {
   int64_t cells_read, cells_total, cells_written;
   double fraction; /* of the whole run, 0 to 1, or -1 */
   const char *phase; /* "order", "pilot", "simplify", "convert", ...; static */
+  int64_t temporary_bytes; /* of disk that ordering takes at once, about and at most: told from its
+                              first call on. Since 0.1 */
 } tetstream_progress;
 
 /* Called at least once per window, and often enough for a bar; non-zero cancels the run, which
@@ -378,6 +381,7 @@ typedef struct tetstream_report {
   double estimated_error;       /* RMS field error in percent of the range, from the quadrics; as a
                                    rule not less than the true one. Since 0.1 */
   const char *reached;          /* the target that ended the run: "ratio", "cells", "error", or "" */
+  const char *order;            /* how the input was ordered, in words. Since 0.1 */
 } tetstream_report;
 
 typedef struct tetstream_simplifier tetstream_simplifier;
@@ -415,12 +419,31 @@ TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifie
 
 /* ---------------------------------------------------------------------- without simplifying */
 
-/* Reads everything from `reader`, ordering it if it is indexed, and writes it. `options` may be
- * NULL: defaults; the memory, tmpdir and axis options count. On failure the message is the
- * writer's. Since 0.1. */
+/* Reads everything from `reader` and writes it: `layout` without a report. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_convert(tetstream_reader *reader, tetstream_writer *writer,
                                                  const tetstream_options *options,
                                                  tetstream_progress_callback progress, void *user);
+/* What bringing a mesh into an order came to. The text lives as long as the writer. */
+typedef struct tetstream_layout_report {
+  size_t struct_size;        /* in: sizeof(tetstream_layout_report) */
+  const char *order;         /* the order, and how it was chosen: "spatial, along z" */
+  int64_t vertices, cells;   /* written */
+  int64_t unused_vertices;   /* in no cell, left out */
+  int64_t front_width, front_span, front_cells; /* of what was written */
+  uint64_t temporary_bytes;  /* of disk that was taken at once, at most */
+  double seconds;
+} tetstream_layout_report;
+
+/* Brings a mesh into the order that the options `order` and `axis` name and writes it as a stream:
+ * each vertex just before the first cell that uses it, finalized by the last (Vo et al. 2007,
+ * section 3.2). Memory is bounded by the option `memory` (0: 512 MB), whatever the mesh; the rest
+ * is in temporary files in `tmpdir`. An indexed mesh is always ordered; a stream with order "auto"
+ * only if its front is known and wide, with "none" never: it is copied then. `options` may be NULL:
+ * defaults; `report`, too. On failure the message is the writer's. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_layout(tetstream_reader *reader, tetstream_writer *writer,
+                                                const tetstream_options *options,
+                                                tetstream_progress_callback progress, void *user,
+                                                tetstream_layout_report *report);
 /* Reads everything and fills *info completely: counts, box, front width, span and cells, as it
  * stands or, for an indexed mesh, as `run` would stream it. `options` as for `convert`. The
  * pointers in *info live as long as the reader. On failure the message is the reader's. Since 0.1.

@@ -5,18 +5,42 @@
 using namespace tetstream;
 
 // From the reader to the output, which is started and stays incomplete after a failure.
-static void convertInto(Output& output, tetstream_reader& reader, const RunOptions& options,
-                        const ProgressFunction& progress) {
+static LayoutReport convertInto(Output& output, tetstream_reader& reader, const RunOptions& options,
+                                const ProgressFunction& progress) {
   ReaderUse use(reader);
   output.start(options.temp_dir);
-  convert(use.input(output.mustRound(use.schema())), output, options, progress);
+  LayoutReport report =
+      convert(use.input(output.mustRound(use.schema())), output, options, progress);
   use.done();
+  return report;
+}
+
+static tetstream_layout_report publicReport(const LayoutReport& report) {
+  tetstream_layout_report out = {};
+  out.order = report.order.c_str();
+  out.vertices = report.vertices;
+  out.cells = report.cells;
+  out.unused_vertices = report.unused_vertices;
+  out.front_width = report.front_width;
+  out.front_span = report.front_span;
+  out.front_cells = report.front_cells;
+  out.temporary_bytes = report.temporary_bytes;
+  out.seconds = report.seconds;
+  return out;
 }
 
 tetstream_status tetstream_convert(tetstream_reader* reader, tetstream_writer* writer,
                                    const tetstream_options* options,
                                    tetstream_progress_callback progress, void* user) {
+  return tetstream_layout(reader, writer, options, progress, user, nullptr);
+}
+
+tetstream_status tetstream_layout(tetstream_reader* reader, tetstream_writer* writer,
+                                  const tetstream_options* options,
+                                  tetstream_progress_callback progress, void* user,
+                                  tetstream_layout_report* report) {
   return guard(__func__, writer, [&](tetstream_writer& w) {
+    if (report) checkStruct(report, "report");
     needPlace(reader, "reader");
     needCreated(*reader);
     needState(*reader, State::kReady);
@@ -25,12 +49,14 @@ tetstream_status tetstream_convert(tetstream_reader* reader, tetstream_writer* w
     const RunOptions run = runOptionsOf(options);
     const Busy busy(w);
     try {
-      convertInto(output, *reader, run, progressOf(progress, user));
+      w.laid_out = convertInto(output, *reader, run, progressOf(progress, user));
     } catch (...) {
       output.stop(State::kBroken);
       throw;
     }
     output.complete();
+    if (!report) return;
+    writeStruct(report, publicReport(w.laid_out));
   });
 }
 

@@ -77,6 +77,7 @@ ProgressFunction progressOf(tetstream_progress_callback callback, void* user) {
     shown.cells_written = progress.cells_written;
     shown.fraction = progress.fraction;
     shown.phase = progress.phase;
+    shown.temporary_bytes = progress.temporary_bytes;
     int32_t value = 0;
     try {
       value = callback(user, &shown);

@@ -32,6 +32,7 @@ struct tetstream_reader : tetstream::Handle {
 struct tetstream_writer : tetstream::Handle {
   static constexpr const char* kNoun = "writer";
   std::shared_ptr<tetstream::Output> output;
+  tetstream::LayoutReport laid_out;
 };
 
 struct tetstream_simplifier : tetstream::Handle {

@@ -173,6 +173,7 @@ static tetstream_report publicReport(const Report& report) {
   out.limited_by = report.limited_by.c_str();
   out.estimated_error = report.estimated_error;
   out.reached = report.reached.c_str();
+  out.order = report.order.c_str();
   return out;
 }
 

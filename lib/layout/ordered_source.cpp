@@ -1,263 +1,163 @@
 #include "ordered_source.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstring>
 #include <limits>
-#include <vector>
 
+#include "front_meter.h"
+#include "id_hash.h"
 #include "status.h"
+#include "vertex_keys.h"
 
 namespace tetstream {
 
-constexpr size_t kRowsAtOnce = 16384;
+constexpr double kVerticesPerBrick = 500;
 
-static int axisOf(const std::string& name) {
-  if (name == "x" || name == "y" || name == "z") return name[0] - 'x';
-  if (name != "auto")
-    fail(Status::kBadArgument, "axis \"%s\": auto, x, y and z are possible", name.c_str());
-  return -1;
+// Before anything is read.
+static void check(const Schema& schema, const OrderOptions& options) {
+  bool is_axis = false;
+  for (const char* axis : {"auto", "x", "y", "z"}) is_axis = is_axis || options.axis == axis;
+  if (!is_axis)
+    fail(Status::kBadArgument, "axis \"%s\": auto, x, y and z are possible", options.axis.c_str());
+  constexpr int64_t kMost = std::numeric_limits<uint32_t>::max() - 1;
+  if (schema.vertex_count > kMost)
+    fail(Status::kUnsupported, "a mesh of %lld points: %lld can be ordered",
+         static_cast<long long>(schema.vertex_count), static_cast<long long>(kMost));
 }
 
-static double valueAt(const void* rows, ScalarType type, size_t index) {
-  switch (type) {
-    case ScalarType::kFloat32:
-      return static_cast<const float*>(rows)[index];
-    case ScalarType::kFloat64:
-      return static_cast<const double*>(rows)[index];
-    case ScalarType::kInt32:
-      return static_cast<const int32_t*>(rows)[index];
-    case ScalarType::kInt64:
-      return static_cast<double>(static_cast<const int64_t*>(rows)[index]);
+// Sorted runs and sorted rows are there together; what fits the memory takes no disk.
+uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
+  const uint64_t memory = options.memory_bytes ? options.memory_bytes : kDefaultLayoutMemory;
+  const auto points = static_cast<uint64_t>(std::max<int64_t>(schema.vertex_count, 0));
+  const auto cells = static_cast<uint64_t>(std::max<int64_t>(schema.cell_count, 0));
+  uint64_t values = 3 * sizeOf(schema.position_type), data = 0;
+  for (const Column& c : schema.fields) values += c.bytesPerRow();
+  for (const Column& c : schema.cell_data) data += c.bytesPerRow();
+  const uint64_t point_rows = points * (8 + values), cell_rows = cells * (17 + data);
+  const uint64_t point_runs = points * (16 + values), cell_runs = cells * (24 + data);
+  const auto onDisk = [memory](uint64_t runs) { return runs * 3 > memory ? runs : 0; };
+  return std::max(onDisk(point_runs) + point_rows, point_rows + onDisk(cell_runs) + cell_rows);
+}
+
+// One reading of the stream.
+class OrderedSource::Reading final : public Source {
+ public:
+  // Without values only the connectivity is there.
+  Reading(OrderedSource& ordered, bool with_values)
+      : ordered_(ordered), with_values_(with_values), batch_(ordered.schema_), ids_(account_) {}
+  const Schema& schema() const override { return ordered_.schema_; }
+
+  bool next(BatchView& batch) override {
+    OrderedCells& cells = *ordered_.cells_;
+    if (place_ == cells.count()) return false;
+    batch_.clear(introduced_);
+    for (; place_ < cells.count() && batch_.cellCount() < kBatchCells; ++place_)
+      addCell(cells.cell(place_));
+    batch = batch_.view();
+    return true;
   }
-  return 0;
-}
 
-// Box of `components` values per row, starting at box component `first`, of points that are used.
-static void growBox(Schema& schema, size_t first, const void* rows, ScalarType type,
-                    size_t components, const uint8_t* used, size_t count, uint64_t row,
-                    const char* what) {
-  for (size_t i = 0; i < count * components; ++i) {
-    if (!used[i / components]) continue;
-    const double value = valueAt(rows, type, i);
-    if (!std::isfinite(value))
-      fail(Status::kBadData, "point %llu: its %s is not finite",
-           static_cast<unsigned long long>(row + i / components), what);
-    double& low = schema.box_min[first + i % components];
-    double& high = schema.box_max[first + i % components];
-    low = std::min(low, value);
-    high = std::max(high, value);
+ private:
+  void addCell(const OrderedCell& cell) {
+    const size_t row = batch_.addCells(1);
+    for (int j = 0; j < 4; ++j) batch_.cell(row)[j] = idOf(cell.corners[j]);
+    for (unsigned j = 0; j < 4; ++j)
+      if (cell.last_uses >> j & 1) ids_.remove(cell.corners[j]);
+    batch_.lastUses(row) = static_cast<uint8_t>(cell.last_uses);
+    if (with_values_) ordered_.cells_->copyData(cell, batch_, row);
   }
-}
+  // Ranks get ids in the order of their first use.
+  int64_t idOf(uint32_t rank) {
+    const uint32_t known = ids_.find(rank);
+    if (known != kNoSlot) return known;
+    const size_t row = batch_.addVertices(1);
+    if (with_values_) ordered_.vertices_->copyTo(rank, batch_, row);
+    ids_.add(rank, static_cast<uint32_t>(introduced_));
+    return static_cast<int64_t>(introduced_++);
+  }
+
+  OrderedSource& ordered_;
+  bool with_values_;
+  Batch batch_;
+  Account account_;
+  IdHash ids_;  // of the active vertices
+  uint64_t place_ = 0, introduced_ = 0;
+};
 
 OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
-    : source_(source),
-      options_(options),
-      schema_(source.schema()),
-      mesh_(account_),
-      used_(account_),
-      order_(account_),
-      batch_(schema_) {
-  const int axis = axisOf(options.axis);
-  constexpr int64_t kMost = std::numeric_limits<uint32_t>::max() - 1;
-  if (schema_.vertex_count > kMost || schema_.cell_count > kMost)
-    fail(Status::kUnsupported,
-         "an indexed mesh of %lld points and %lld cells: ordering holds up to %lld of each",
-         static_cast<long long>(schema_.vertex_count), static_cast<long long>(schema_.cell_count),
-         static_cast<long long>(kMost));
-  const auto tell = [this](double fraction) {
-    if (options_.tell) options_.tell(fraction);
-  };
-  mesh_.vertices = static_cast<uint32_t>(schema_.vertex_count);
-  mesh_.cells = static_cast<uint32_t>(schema_.cell_count);
-  schema_.box_min.assign(schema_.boxSize(), std::numeric_limits<double>::infinity());
-  schema_.box_max.assign(schema_.boxSize(), -std::numeric_limits<double>::infinity());
-  tell(0);
-  readCells();
-  tell(0.3);
-  readPoints();
-  tell(0.5);
-  readValues();
-  double fraction = 0.6;
-  orderBySweep(
-      mesh_, axis, account_, [&] { tell(fraction += 0.05); }, order_);
-  mesh_.places.resize(0);
-  used_.resize(0);
-  unused_ = schema_.vertex_count - order_.used_vertices;
-  schema_.vertex_count = order_.used_vertices;
-  schema_.front_cells = order_.front_cells;
-  schema_.front_width = order_.front_width;
-  schema_.front_span = order_.front_span;
-  if (order_.used_vertices == 0) schema_.box_min.clear();
-}
-
-void OrderedSource::readCells() {
-  mesh_.corners.resize(4 * size_t{mesh_.cells});
-  used_.resize(mesh_.vertices);
-  std::fill_n(used_.data(), mesh_.vertices, uint8_t{0});
-  std::vector<int64_t> rows(4 * std::min<size_t>(kRowsAtOnce, mesh_.cells));
-  for (uint32_t at = 0; at < mesh_.cells;) {
-    const size_t count = std::min<size_t>(kRowsAtOnce, mesh_.cells - at);
-    source_.readCells(at, count, rows.data());
-    for (size_t i = 0; i < 4 * count; ++i) {
-      if (rows[i] < 0 || rows[i] >= schema_.vertex_count)
-        fail(Status::kBadData, "cell %zu: point %lld is not one of the mesh's %lld", at + i / 4,
-             static_cast<long long>(rows[i]), static_cast<long long>(schema_.vertex_count));
-      mesh_.corners[4 * size_t{at} + i] = static_cast<uint32_t>(rows[i]);
-      used_[static_cast<size_t>(rows[i])] = 1;
-    }
-    at += static_cast<uint32_t>(count);
-  }
-}
-
-void OrderedSource::readPoints() {
-  mesh_.places.resize(3 * size_t{mesh_.vertices});
-  std::vector<double> rows(3 * std::min<size_t>(kRowsAtOnce, mesh_.vertices));
-  // Twice: the box first, so that places in it fit float32 whatever the unit and the offset.
-  for (int pass = 0; pass < 2; ++pass)
-    for (uint32_t at = 0; at < mesh_.vertices;) {
-      const size_t count = std::min<size_t>(kRowsAtOnce, mesh_.vertices - at);
-      source_.readPositions(at, count, rows.data());
-      if (pass == 0)
-        growBox(schema_, 0, rows.data(), schema_.position_type, 3, &used_[at], count, at,
-                "position");
-      for (size_t i = 0; pass == 1 && i < 3 * count; ++i) {
-        const size_t axis = i % 3;
-        const double low = schema_.box_min[axis], size = schema_.box_max[axis] - low;
-        mesh_.places[axis * mesh_.vertices + at + i / 3] =
-            size > 0 && used_[at + i / 3]
-                ? static_cast<float>((valueAt(rows.data(), schema_.position_type, i) - low) / size)
-                : 0.0f;
-      }
-      at += static_cast<uint32_t>(count);
-    }
-}
-
-// The values of a vertex in one row: position, then each field.
-void OrderedSource::readValues() {
-  size_t width = 3 * sizeOf(schema_.position_type);
-  for (const Column& c : schema_.fields) width += c.bytesPerRow();
-  if (!source_.randomAccess()) vertex_rows_ = std::make_unique<RowSpool>(width, options_.temp_dir);
-  std::vector<unsigned char> rows(width * kRowsAtOnce);
-  std::vector<double> column(static_cast<size_t>(kMaxComponents) * kRowsAtOnce);
-  for (uint32_t at = 0; at < mesh_.vertices;) {
-    const size_t count = std::min<size_t>(kRowsAtOnce, mesh_.vertices - at);
-    size_t place = 0, in_box = 3;
-    const auto scatter = [&](size_t bytes) {
-      const auto* from = reinterpret_cast<const unsigned char*>(column.data());
-      for (size_t i = 0; i < count; ++i)
-        std::memcpy(rows.data() + i * width + place, from + i * bytes, bytes);
-      place += bytes;
+    : source_(source), schema_(source.schema()), account_() {
+  check(schema_, options);
+  Order order = orderOf(options.order);
+  if (order == Order::kAuto) order = Order::kSpatial;
+  const size_t memory = options.memory_bytes ? options.memory_bytes : kDefaultLayoutMemory;
+  const auto part = [&options](double begin, double end) -> Tell {
+    return [&options, begin, end](double share) {
+      if (options.tell) options.tell(begin + share * (end - begin));
     };
-    if (vertex_rows_) source_.readPositions(at, count, column.data());
-    scatter(3 * sizeOf(schema_.position_type));
-    for (size_t f = 0; f < schema_.fields.size(); ++f) {
-      const Column& c = schema_.fields[f];
-      source_.readField(f, at, count, column.data());
-      growBox(schema_, in_box, column.data(), c.type, static_cast<size_t>(c.components), &used_[at],
-              count, at, c.name.c_str());
-      in_box += static_cast<size_t>(c.components);
-      scatter(c.bytesPerRow());
-    }
-    if (vertex_rows_) vertex_rows_->append(rows.data(), count);
-    at += static_cast<uint32_t>(count);
+  };
+  const RankedVertices::Budget budget = {memory, account_, options.temp_dir};
+  {
+    const Survey survey(source, account_, part(0, 0.2));
+    vertices_ = std::make_unique<RankedVertices>(
+        source, survey, keyFor(order, survey, options.axis), budget, schema_, part(0.2, 0.4));
   }
-  if (vertex_rows_) vertex_rows_->finish();
-  spoolCellData();
+  unused_ = schema_.vertex_count - static_cast<int64_t>(vertices_->count());
+  schema_.vertex_count = static_cast<int64_t>(vertices_->count());
+  cells_ = std::make_unique<OrderedCells>(source, *vertices_, order != Order::kNone, budget,
+                                          part(0.4, 0.85));
+  disk_ = std::max(vertices_->mostDiskBytes(), vertices_->diskBytes() + cells_->mostDiskBytes());
+  measureFront(part(0.85, 1));
+  reading_ = std::make_unique<Reading>(*this, true);
 }
 
-void OrderedSource::spoolCellData() {
-  size_t width = 0;
-  for (const Column& c : schema_.cell_data) width += c.bytesPerRow();
-  if (source_.randomAccess() || width == 0) return;
-  cell_rows_ = std::make_unique<RowSpool>(width, options_.temp_dir);
-  std::vector<unsigned char> rows(width * kRowsAtOnce);
-  std::vector<double> column(static_cast<size_t>(kMaxComponents) * kRowsAtOnce);
-  for (uint32_t at = 0; at < mesh_.cells;) {
-    const size_t count = std::min<size_t>(kRowsAtOnce, mesh_.cells - at);
-    size_t place = 0;
-    for (size_t k = 0; k < schema_.cell_data.size(); ++k) {
-      const size_t bytes = schema_.cell_data[k].bytesPerRow();
-      source_.readCellData(k, at, count, column.data());
-      const auto* from = reinterpret_cast<const unsigned char*>(column.data());
-      for (size_t i = 0; i < count; ++i)
-        std::memcpy(rows.data() + i * width + place, from + i * bytes, bytes);
-      place += bytes;
-    }
-    cell_rows_->append(rows.data(), count);
-    at += static_cast<uint32_t>(count);
-  }
-  cell_rows_->finish();
-}
+OrderedSource::~OrderedSource() = default;
 
-void OrderedSource::addVertex(uint32_t vertex) {
-  const size_t row = batch_.addVertices(1);
-  if (source_.locked() && source_.locked()[vertex]) batch_.lock(row);
-  if (!vertex_rows_) {
-    source_.readPositions(vertex, 1, batch_.position(row));
-    for (size_t f = 0; f < schema_.fields.size(); ++f)
-      source_.readField(f, vertex, 1, batch_.field(f, row));
-    return;
-  }
-  const auto* from = static_cast<const unsigned char*>(vertex_rows_->row(vertex));
-  std::memcpy(batch_.position(row), from, 3 * sizeOf(schema_.position_type));
-  from += 3 * sizeOf(schema_.position_type);
-  for (size_t f = 0; f < schema_.fields.size(); ++f) {
-    std::memcpy(batch_.field(f, row), from, schema_.fields[f].bytesPerRow());
-    from += schema_.fields[f].bytesPerRow();
+VertexKey OrderedSource::keyFor(Order order, const Survey& survey, const std::string& axis) {
+  chosen_ = nameOf(order);
+  BoxGrid grid(survey.low(), survey.high());
+  switch (order) {
+    case Order::kSpatial: {
+      const Survey::Direction d = survey.direction(axis);
+      chosen_ += ", along " + d.name;
+      return [d](uint64_t, const double p[3]) {
+        return keyOfNumber(d.along[0] * p[0] + d.along[1] * p[1] + d.along[2] * p[2]);
+      };
+    }
+    case Order::kBrick:
+      grid.setBricks(static_cast<double>(survey.usedCount()), kVerticesPerBrick);
+      return [grid](uint64_t, const double p[3]) { return grid.brickKey(p); };
+    case Order::kZOrder:
+    case Order::kHilbert: {
+      const auto curve = order == Order::kHilbert ? hilbertKey : mortonKey;
+      return [grid, curve](uint64_t, const double p[3]) {
+        uint32_t cell[3];
+        grid.cellOf(p, cell);
+        return curve(cell);
+      };
+    }
+    default:
+      return [](uint64_t point, const double[3]) { return point; };
   }
 }
 
-void OrderedSource::addCellData(uint32_t cell, size_t row) {
-  const auto* from =
-      cell_rows_ ? static_cast<const unsigned char*>(cell_rows_->row(cell)) : nullptr;
-  for (size_t k = 0; k < schema_.cell_data.size(); ++k) {
-    if (!from) {
-      source_.readCellData(k, cell, 1, batch_.cellData(k, row));
-      continue;
-    }
-    std::memcpy(batch_.cellData(k, row), from, schema_.cell_data[k].bytesPerRow());
-    from += schema_.cell_data[k].bytesPerRow();
+void OrderedSource::measureFront(const Tell& tell) {
+  Reading reading(*this, false);
+  FrontMeter meter(account_);
+  BatchView batch;
+  while (reading.next(batch)) {
+    meter.put(batch);
+    tell(static_cast<double>(meter.cellsSeen()) / static_cast<double>(cells_->count()));
   }
+  schema_.front_cells = meter.statistics().cells;
+  schema_.front_width = meter.statistics().width;
+  schema_.front_span = meter.statistics().span;
 }
 
 bool OrderedSource::next(BatchView& batch) {
-  if (place_ == mesh_.cells) return false;
-  batch_.clear(introduced_);
-  while (place_ < mesh_.cells && batch_.cellCount() < kBatchCells) {
-    const uint32_t cell = order_.cell_at[place_];
-    const uint32_t* corners = mesh_.corners.data() + 4 * size_t{cell};
-    const size_t row = batch_.addCells(1);
-    for (int j = 0; j < 4; ++j) {
-      if (order_.rank[corners[j]] == introduced_) {
-        addVertex(corners[j]);
-        ++introduced_;
-      }
-      batch_.cell(row)[j] = order_.rank[corners[j]];
-      if (order_.last_use[corners[j]] == place_)
-        batch_.lastUses(row) |= static_cast<uint8_t>(1 << j);
-    }
-    addCellData(cell, row);
-    ++place_;
-  }
-  batch = batch_.view();
-  return true;
+  return reading_->next(batch);
 }
 
-// The order is known and rows can be had as often as wanted: the places are put back at the end.
-class OrderedSource::SecondReading final : public Source {
- public:
-  explicit SecondReading(OrderedSource& source) : source_(source) {}
-  ~SecondReading() override { source_.place_ = source_.introduced_ = 0; }
-  const Schema& schema() const override { return source_.schema(); }
-  bool next(BatchView& batch) override { return source_.next(batch); }
-
- private:
-  OrderedSource& source_;
-};
-
 std::unique_ptr<Source> OrderedSource::again() {
-  return std::make_unique<SecondReading>(*this);
+  return std::make_unique<Reading>(*this, true);
 }
 
 }  // namespace tetstream

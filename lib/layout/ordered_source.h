@@ -1,56 +1,61 @@
-// layout: an indexed mesh as a stream, swept along an axis. Depends on stream, sweep_order.h.
+// layout: an indexed mesh as a stream, in an order of choice. Depends on ordered_cells.h, orders.h.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
-#include "row_spool.h"
-#include "source.h"
-#include "sweep_order.h"
+#include "ordered_cells.h"
+#include "orders.h"
 
 namespace tetstream {
 
 struct OrderOptions {
-  std::string axis = "auto";  // "x", "y", "z"; auto: the one with the narrowest front
+  std::string order = "auto";
+  std::string axis = "auto";  // of "spatial": "x", "y", "z"; auto: the direction of fewest cuts
   std::string temp_dir;
-  std::function<void(double fraction)> tell;  // may throw to stop
+  size_t memory_bytes = 0;  // 0: kDefaultLayoutMemory
+  Tell tell;                // how much of the ordering is done; may be empty
 };
 
-// Reads the whole mesh once when made: connectivity into memory, values and cell data into
-// temporary files unless the source gives single rows cheaply. Its schema is complete: counts of
-// what is used, box, front. Vertices come just before the first cell that uses them, in that order;
-// vertices that no cell uses are left out.
+constexpr size_t kDefaultLayoutMemory = size_t{512} << 20;
+
+// Bytes of temporary files at once, about and at most, that ordering such a mesh from a file takes.
+uint64_t plannedDisk(const Schema& schema, const OrderOptions& options);
+
+// Orders the mesh when it is made, in bounded memory: points are sorted by their keys and get their
+// ranks, cells by their highest, both outside of memory where they do not fit; then, from the last
+// cell to the first, the last use of each vertex is found. In passes over the cells: two readings
+// of the source, the merge, last uses, the front; and one for each reading of the stream.
+//
+// Its schema is complete: counts of what is used, box, front. Vertices come just before the first
+// cell that uses them, in that order; points that no cell uses are left out.
 class OrderedSource : public Source {
  public:
   OrderedSource(IndexedSource& source, const OrderOptions& options);
+  ~OrderedSource() override;
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
   std::unique_ptr<Source> again() override;
+
   int64_t unusedVertices() const { return unused_; }
-  char axis() const { return static_cast<char>('x' + order_.axis); }
+  const std::string& chosen() const { return chosen_; }  // "spatial, along z"
+  uint64_t diskBytes() const { return disk_; }
 
  private:
-  class SecondReading;
+  class Reading;
 
-  void readCells();
-  void readPoints();
-  void readValues();
-  void spoolCellData();
-  void addVertex(uint32_t vertex);
-  void addCellData(uint32_t cell, size_t row);
+  VertexKey keyFor(Order order, const Survey& survey, const std::string& axis);
+  void measureFront(const Tell& tell);
 
   IndexedSource& source_;
-  OrderOptions options_;
   Schema schema_;
   Account account_;
-  Connectivity mesh_;
-  Array<uint8_t> used_;  // per point, while the mesh is read: whether a cell uses it
-  SweepOrder order_;
-  std::unique_ptr<RowSpool> vertex_rows_, cell_rows_;  // empty with random access
-  Batch batch_;
-  uint32_t place_ = 0, introduced_ = 0;
+  std::unique_ptr<RankedVertices> vertices_;
+  std::unique_ptr<OrderedCells> cells_;
+  std::unique_ptr<Reading> reading_;
+  std::string chosen_;
   int64_t unused_ = 0;
+  uint64_t disk_ = 0;
 };
 
 }  // namespace tetstream

@@ -6,7 +6,7 @@
 
 #include "front_meter.h"
 #include "mesh_collector.h"
-#include "ordered_source.h"
+#include "ordering.h"
 #include "sampler.h"
 #include "simplifier.h"
 #include "status.h"
@@ -22,25 +22,6 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Ordering takes about this share of the time of a whole run on an indexed mesh.
-constexpr double kOrderShare = 0.2;
-
-OrderOptions orderOptions(const RunOptions& options, const ProgressFunction& progress,
-                          int64_t cells) {
-  OrderOptions order;
-  order.axis = options.axis;
-  order.temp_dir = options.temp_dir;
-  if (progress)
-    order.tell = [&progress, cells](double fraction) {
-      Progress p;
-      p.cells_total = cells;
-      p.fraction = kOrderShare * fraction;
-      p.phase = "order";
-      progress(p);
-    };
-  return order;
-}
-
 // A pilot takes this share of the time of the run that it serves.
 constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
@@ -52,21 +33,6 @@ class Nowhere final : public Sink {
   void begin(const Schema&) override {}
   void put(const BatchView&) override {}
   void finish() override {}
-};
-
-// A source of an input, ordered if need be.
-struct Stream {
-  Stream(Input& input, const RunOptions& options, const ProgressFunction& progress) {
-    if (input.stream) {
-      source = input.stream.get();
-      return;
-    }
-    ordered = std::make_unique<OrderedSource>(
-        *input.indexed, orderOptions(options, progress, input.indexed->schema().cell_count));
-    source = ordered.get();
-  }
-  std::unique_ptr<OrderedSource> ordered;
-  Source* source;
 };
 
 void tellCells(Progress& p, size_t more, const ProgressFunction& progress) {
@@ -89,14 +55,13 @@ struct SimplifyRun::State {
   void tell(Progress p) {
     if (!progress) return;
     if (p.fraction >= 0) p.fraction = pilot_share + (1 - pilot_share) * p.fraction;
-    if (after_ordering && p.fraction >= 0)
-      p.fraction = kOrderShare + (1 - kOrderShare) * p.fraction;
+    if (p.fraction >= 0) p.fraction = order_share + (1 - order_share) * p.fraction;
     progress(p);
   }
 
   RunOptions options;
   ProgressFunction progress;
-  bool after_ordering = false;
+  double order_share = 0;  // of the time, of ordering that is done
   double pilot_share = 0;  // of the time, of a pilot that is done
   Simplifier simplifier;
   std::unique_ptr<MeshCollector> collector;
@@ -104,20 +69,21 @@ struct SimplifyRun::State {
   Report report;
 
   void simplify(Input& input) {
-    Stream stream(input, options, progress);
-    after_ordering = stream.ordered != nullptr;
-    if (std::unique_ptr<Source> first = pilotSource(*stream.source)) {
+    Ordering stream(input, options, progress);
+    order_share = stream.share();
+    if (std::unique_ptr<Source> first = pilotSource(stream.source())) {
       if (first->schema().cell_count <= kPilotCells)
         fly(*first);
       else
         sample(*first);
     }
-    simplifier.begin(stream.source->schema());
+    simplifier.begin(stream.source().schema());
     BatchView batch;
-    while (stream.source->next(batch)) simplifier.put(batch);
+    while (stream.source().next(batch)) simplifier.put(batch);
     simplifier.finish();
     close();
-    if (stream.ordered) report.unused_vertices += stream.ordered->unusedVertices();
+    report.unused_vertices += stream.unusedVertices();
+    report.order = stream.chosen();
   }
   // A first reading, where it is worth its time: a mesh larger than its window and small enough.
   std::unique_ptr<Source> pilotSource(Source& source) const {
@@ -211,35 +177,47 @@ const Report& SimplifyRun::report() const {
   return state_->report.cells_in > 0 ? state_->report : state_->simplifier.report();
 }
 
-void convert(Input& input, Sink& out, const RunOptions& options, const ProgressFunction& progress) {
-  Stream stream(input, options, progress);
-  const Schema& schema = stream.source->schema();
+LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
+                     const ProgressFunction& progress) {
+  const Clock::time_point start = Clock::now();
+  Ordering stream(input, options, progress);
+  const Schema& schema = stream.source().schema();
   out.begin(schema);
   // What is ordered here is sound; what comes as a stream is checked before anybody else sees it.
   Account account;
   FrontMeter checker(account);
+  LayoutReport report;
   BatchView batch;
   Progress p;
   p.cells_total = schema.cell_count;
   p.phase = "convert";
-  while (stream.source->next(batch)) {
-    if (!stream.ordered) checker.put(batch);
+  while (stream.source().next(batch)) {
+    if (!stream.isOrdered()) checker.put(batch);
     out.put(batch);
-    p.cells_written += static_cast<int64_t>(batch.cell_count);
+    report.vertices += static_cast<int64_t>(batch.vertex_count);
+    report.cells = p.cells_written += static_cast<int64_t>(batch.cell_count);
     tellCells(p, batch.cell_count, progress);
   }
   out.finish();
+  report.order = stream.chosen();
+  report.front_width = stream.isOrdered() ? schema.front_width : checker.statistics().width;
+  report.front_span = stream.isOrdered() ? schema.front_span : checker.statistics().span;
+  report.front_cells = stream.isOrdered() ? schema.front_cells : checker.statistics().cells;
+  report.unused_vertices = stream.unusedVertices();
+  report.temporary_bytes = stream.diskBytes();
+  report.seconds = secondsSince(start);
+  return report;
 }
 
 Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& progress) {
-  Stream stream(input, options, progress);
-  const int64_t total = stream.source->schema().cell_count;
-  StreamFacts facts(stream.source->schema());
+  Ordering stream(input, options, progress);
+  const int64_t total = stream.source().schema().cell_count;
+  StreamFacts facts(stream.source().schema());
   BatchView batch;
   Progress p;
   p.cells_total = total;
   p.phase = "inspect";
-  while (stream.source->next(batch)) {
+  while (stream.source().next(batch)) {
     facts.put(batch);
     tellCells(p, batch.cell_count, progress);
   }

@@ -11,7 +11,8 @@ namespace tetstream {
 
 struct RunOptions {
   SimplifyOptions simplify;
-  std::string axis = "auto";  // sweep of indexed input
+  std::string order = "auto";  // of input: see orders.h
+  std::string axis = "auto";   // of order "spatial"
   std::string temp_dir;
 };
 
@@ -35,8 +36,18 @@ class SimplifyRun {
   std::unique_ptr<State> state_;
 };
 
-// Copies a mesh, ordering it on the way if it is indexed.
-void convert(Input& input, Sink& out, const RunOptions& options, const ProgressFunction& progress);
+// What bringing a mesh into an order came to.
+struct LayoutReport {
+  std::string order;  // and why
+  int64_t vertices = 0, cells = 0, unused_vertices = 0;
+  int64_t front_width = 0, front_span = 0, front_cells = 0;
+  uint64_t temporary_bytes = 0;  // of disk at once, at most
+  double seconds = 0;
+};
+
+// Copies a mesh, ordering it on the way if it is indexed or an order is asked for.
+LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
+                     const ProgressFunction& progress);
 
 // The schema with everything known: counts, box, front. Reads the whole input.
 Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& progress);

@@ -45,6 +45,7 @@ struct Report {
   double estimated_error = 0;  // RMS, percent of the range, not less than the true one as a rule
   double seconds = 0;
   uint64_t peak_window_bytes = 0;
+  std::string order;       // how the input was ordered
   std::string regions;     // what was taken as region labels, a sentence
   std::string reached;     // the target that ended the run: "ratio", "cells", "error"; or empty
   std::string limited_by;  // what stopped the run short of its target; empty: reached
@@ -54,6 +55,7 @@ struct Progress {
   int64_t cells_read = 0, cells_total = -1, cells_written = 0;
   double fraction = -1;
   const char* phase = "";
+  int64_t temporary_bytes = 0;  // of disk that ordering will take, about
 };
 using ProgressFunction =
     std::function<void(const Progress&)>;  // throws kCancelled to stop; or empty

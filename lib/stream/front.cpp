@@ -28,10 +28,10 @@ void Front::introduce(uint32_t slot) {
 }
 
 void Front::place(uint64_t vertex, uint32_t slot) {
-  if (ring_[vertex & mask_].slot != kNoSlot && hash_count_ > ring_.size() / kDisplacedShare)
+  if (ring_[vertex & mask_].slot != kNoSlot && hash_.count() > ring_.size() / kDisplacedShare)
     growRing();
   Entry& e = ring_[vertex & mask_];
-  if (e.slot != kNoSlot) addToHash(vertexAt(vertex & mask_), e.slot);
+  if (e.slot != kNoSlot) hash_.add(vertexAt(vertex & mask_), e.slot);
   e = {tagOf(vertex), slot};
 }
 
@@ -39,7 +39,7 @@ bool Front::finalize(uint64_t vertex) {
   Entry& e = ring_[vertex & mask_];
   if (e.slot != kNoSlot && e.tag == tagOf(vertex))
     e.slot = kNoSlot;
-  else if (hash_count_ == 0 || !removeFromHash(vertex))
+  else if (!hash_.remove(vertex))
     return false;
   --active_;
   if (active_ > 0 && vertex == lowest_)
@@ -50,8 +50,7 @@ bool Front::finalize(uint64_t vertex) {
 void Front::remap(const uint32_t* new_slot) {
   for (size_t i = 0; i < ring_.size(); ++i)
     if (ring_[i].slot != kNoSlot) ring_[i].slot = new_slot[ring_[i].slot];
-  for (size_t i = 0; i < hash_.size(); ++i)
-    if (hash_[i].slot != kNoSlot) hash_[i].slot = new_slot[hash_[i].slot];
+  hash_.forEach([new_slot](uint64_t, uint32_t& slot) { slot = new_slot[slot]; });
 }
 
 // Doubling splits each place in two: what is in the ring stays in it, and what was displaced may
@@ -70,66 +69,15 @@ void Front::growRing() {
     ring_[i].slot = kNoSlot;
     ring_[vertex & mask_] = moved;
   }
-  Array<HashEntry> displaced(std::move(hash_));
-  const size_t count = displaced.size();
-  hash_count_ = 0;
-  for (size_t i = 0; i < count; ++i) {
-    if (displaced[i].slot == kNoSlot) continue;
-    Entry& e = ring_[displaced[i].vertex & mask_];
+  IdHash displaced(std::move(hash_));
+  hash_.clear();
+  displaced.forEach([this](uint64_t vertex, uint32_t slot) {
+    Entry& e = ring_[vertex & mask_];
     if (e.slot == kNoSlot)
-      e = {tagOf(displaced[i].vertex), displaced[i].slot};
+      e = {tagOf(vertex), slot};
     else
-      addToHash(displaced[i].vertex, displaced[i].slot);
-  }
-}
-
-// --------------------------------------------------------------------------- the auxiliary hash
-
-size_t Front::homeOf(uint64_t vertex) const {
-  return static_cast<size_t>((vertex * 0x9e3779b97f4a7c15ull) >> 20) & (hash_.size() - 1);
-}
-
-uint32_t Front::findInHash(uint64_t vertex) const {
-  for (size_t i = homeOf(vertex); hash_[i].slot != kNoSlot; i = (i + 1) & (hash_.size() - 1))
-    if (hash_[i].vertex == vertex) return hash_[i].slot;
-  return kNoSlot;
-}
-
-void Front::addToHash(uint64_t vertex, uint32_t slot) {
-  if (2 * (hash_count_ + 1) > hash_.size()) growHash();
-  size_t i = homeOf(vertex);
-  while (hash_[i].slot != kNoSlot) i = (i + 1) & (hash_.size() - 1);
-  hash_[i] = {vertex, slot};
-  ++hash_count_;
-}
-
-// Removing closes the gap, so that no markers pile up: every later entry of the run whose home is
-// not after the gap moves into it.
-bool Front::removeFromHash(uint64_t vertex) {
-  const size_t mask = hash_.size() - 1;
-  size_t gap = homeOf(vertex);
-  while (hash_[gap].slot != kNoSlot && hash_[gap].vertex != vertex) gap = (gap + 1) & mask;
-  if (hash_[gap].slot == kNoSlot) return false;
-  for (size_t i = (gap + 1) & mask; hash_[i].slot != kNoSlot; i = (i + 1) & mask) {
-    const size_t from_home = (i - homeOf(hash_[i].vertex)) & mask;
-    if (from_home >= ((i - gap) & mask)) {
-      hash_[gap] = hash_[i];
-      gap = i;
-    }
-  }
-  hash_[gap].slot = kNoSlot;
-  --hash_count_;
-  return true;
-}
-
-void Front::growHash() {
-  Array<HashEntry> old(std::move(hash_));
-  const size_t size = old.size() ? 2 * old.size() : 1024;
-  hash_.resize(size);
-  for (size_t i = 0; i < size; ++i) hash_[i] = {0, kNoSlot};
-  hash_count_ = 0;
-  for (size_t i = 0; i < old.size(); ++i)
-    if (old[i].slot != kNoSlot) addToHash(old[i].vertex, old[i].slot);
+      hash_.add(vertex, slot);
+  });
 }
 
 }  // namespace tetstream

@@ -9,11 +9,9 @@
 
 #include <cstdint>
 
-#include "memory.h"
+#include "id_hash.h"
 
 namespace tetstream {
-
-constexpr uint32_t kNoSlot = 0xffffffffu;
 
 class Front {
  public:
@@ -27,7 +25,7 @@ class Front {
   uint32_t find(uint64_t vertex) const {
     const Entry& e = ring_[vertex & mask_];
     if (e.slot != kNoSlot && e.tag == tagOf(vertex)) return e.slot;
-    return hash_count_ == 0 ? kNoSlot : findInHash(vertex);
+    return hash_.find(vertex);
   }
   // Makes an active vertex inactive; false if it was not active.
   bool finalize(uint64_t vertex);
@@ -42,27 +40,17 @@ class Front {
   struct Entry {
     uint32_t tag, slot;  // tag: the rank without its low bits; slot kNoSlot: free
   };
-  struct HashEntry {
-    uint64_t vertex;
-    uint32_t slot;
-  };
   uint32_t tagOf(uint64_t vertex) const { return static_cast<uint32_t>(vertex >> bits_); }
   uint64_t vertexAt(size_t index) const {
     return static_cast<uint64_t>(ring_[index].tag) << bits_ | index;
   }
-  size_t homeOf(uint64_t vertex) const;
-  uint32_t findInHash(uint64_t vertex) const;
-  void addToHash(uint64_t vertex, uint32_t slot);
-  bool removeFromHash(uint64_t vertex);
   void place(uint64_t vertex, uint32_t slot);
   void growRing();
-  void growHash();
 
   Array<Entry> ring_;
-  Array<HashEntry> hash_;  // open addressing, linear probes, at most half full
+  IdHash hash_;
   unsigned bits_;
   uint64_t mask_;
-  size_t hash_count_ = 0;
   uint64_t next_ = 0, lowest_ = 0;  // lowest_: no active vertex is below
   uint64_t active_ = 0, width_ = 0, span_ = 0;
 };

@@ -60,14 +60,15 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_writer_callbacks, put, 24);
   MEMBER(tetstream_writer_callbacks, finish, 32);
   MEMBER(tetstream_writer_callbacks, close, 40);
-  CHECK_EQUAL(sizeof(tetstream_progress), 48);
+  CHECK_EQUAL(sizeof(tetstream_progress), 56);
   MEMBER(tetstream_progress, struct_size, 0);
   MEMBER(tetstream_progress, cells_read, 8);
   MEMBER(tetstream_progress, cells_total, 16);
   MEMBER(tetstream_progress, cells_written, 24);
   MEMBER(tetstream_progress, fraction, 32);
   MEMBER(tetstream_progress, phase, 40);
-  CHECK_EQUAL(sizeof(tetstream_report), 200);
+  MEMBER(tetstream_progress, temporary_bytes, 48);
+  CHECK_EQUAL(sizeof(tetstream_report), 208);
   MEMBER(tetstream_report, struct_size, 0);
   MEMBER(tetstream_report, cells_in, 8);
   MEMBER(tetstream_report, vertices_in, 16);
@@ -93,6 +94,18 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_report, limited_by, 176);
   MEMBER(tetstream_report, estimated_error, 184);
   MEMBER(tetstream_report, reached, 192);
+  MEMBER(tetstream_report, order, 200);
+  CHECK_EQUAL(sizeof(tetstream_layout_report), 80);
+  MEMBER(tetstream_layout_report, struct_size, 0);
+  MEMBER(tetstream_layout_report, order, 8);
+  MEMBER(tetstream_layout_report, vertices, 16);
+  MEMBER(tetstream_layout_report, cells, 24);
+  MEMBER(tetstream_layout_report, unused_vertices, 32);
+  MEMBER(tetstream_layout_report, front_width, 40);
+  MEMBER(tetstream_layout_report, front_span, 48);
+  MEMBER(tetstream_layout_report, front_cells, 56);
+  MEMBER(tetstream_layout_report, temporary_bytes, 64);
+  MEMBER(tetstream_layout_report, seconds, 72);
 }
 
 static void numbers_keep_their_values(void) {
@@ -130,6 +143,7 @@ static void numbers_keep_their_values(void) {
   CHECK_EQUAL(TETSTREAM_OPTION_MEMORY, 201);
   CHECK_EQUAL(TETSTREAM_OPTION_TMPDIR, 202);
   CHECK_EQUAL(TETSTREAM_OPTION_AXIS, 210);
+  CHECK_EQUAL(TETSTREAM_OPTION_ORDER, 211);
 }
 
 static void the_library_has_the_version_of_its_header(void) {

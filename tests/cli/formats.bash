@@ -35,11 +35,11 @@ tetstream convert - named.vtu --format sva <mesh.sva
 [[ $(cells_in named.vtu) == "$cells" ]] || fail "--format changed OUT's format though IN is -"
 
 # Properties of the writer.
-expect 0 convert mesh.tets post.sva --order post
+expect 0 convert mesh.tets post.sva --vertex-order post
 [[ $(cells_in post.sva) == "$cells" ]] || fail "post-order loses cells"
-[[ $(bytes_of post.sva) != "$(bytes_of mesh.sva)" ]] || fail "--order post changes nothing"
+[[ $(bytes_of post.sva) != "$(bytes_of mesh.sva)" ]] || fail "--vertex-order post changes nothing"
 expect 0 convert mesh.tets plain.vtu --compress no
 (($(stat -c %s plain.vtu) > $(stat -c %s mesh.vtu))) || fail "--compress no changes nothing"
-expect_error 1 "order" convert mesh.tets none.vtu --order post
+expect_error 1 "order" convert mesh.tets none.vtu --vertex-order post
 expect_error 1 "compress" convert mesh.tets none.vtu --compress perhaps
 [[ ! -e none.vtu ]] || fail "a refused property left a file"

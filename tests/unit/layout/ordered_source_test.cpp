@@ -132,21 +132,21 @@ struct Ordered {
   Recorder out;
   Schema schema;
   FrontStatistics front;
-  char axis = 0;
+  std::string chosen;
   int64_t unused = 0;
+  uint64_t disk = 0;
 };
 
-Ordered ordered(TestMesh mesh, const std::string& axis, bool spooled) {
+Ordered ordered(TestMesh mesh, const OrderOptions& options, bool spooled) {
   Ordered result;
   MemorySource memory(mesh.schema, mesh.view());
   SequentialSource sequential(memory);
-  OrderOptions options;
-  options.axis = axis;
   OrderedSource source(spooled ? static_cast<IndexedSource&>(sequential) : memory, options);
   const size_t reads = sequential.reads;
   result.schema = source.schema();
-  result.axis = source.axis();
+  result.chosen = source.chosen();
   result.unused = source.unusedVertices();
+  result.disk = source.diskBytes();
   Account account;
   FrontMeter meter(account);
   result.out.begin(source.schema());
@@ -162,17 +162,44 @@ Ordered ordered(TestMesh mesh, const std::string& axis, bool spooled) {
   return result;
 }
 
+OrderOptions inOrder(const std::string& order, size_t memory_bytes = 0) {
+  OrderOptions options;
+  options.order = order;
+  options.memory_bytes = memory_bytes;
+  return options;
+}
+
+Ordered ordered(const TestMesh& mesh, const std::string& axis, bool spooled) {
+  OrderOptions options;
+  options.axis = axis;
+  return ordered(mesh, options, spooled);
+}
+
+void expectSound(const TestMesh& mesh, const Ordered& result) {
+  EXPECT_EQ(result.out.problem, "");
+  EXPECT_TRUE(result.out.exact_finalization);
+  EXPECT_TRUE(result.out.compact);
+  expectSameMesh(mesh, result.out.mesh);
+  expectTruthful(result.schema, result.out.mesh, result.front);
+}
+
+constexpr const char* kOrders[] = {"auto", "none", "spatial", "brick", "z-order", "hilbert"};
+
+// In memory, in runs, and with points in several parts.
 void expectOrdered(const TestMesh& mesh) {
-  for (bool spooled : {false, true})
-    for (const char* axis : {"auto", "x", "y", "z"}) {
+  for (bool spooled : {false, true}) {
+    for (const char* axis : {"x", "y", "z"}) {
       SCOPED_TRACE(std::string(axis) + (spooled ? ", spooled" : ""));
-      const Ordered result = ordered(mesh, axis, spooled);
-      EXPECT_EQ(result.out.problem, "");
-      EXPECT_TRUE(result.out.exact_finalization);
-      EXPECT_TRUE(result.out.compact);
-      expectSameMesh(mesh, result.out.mesh);
-      expectTruthful(result.schema, result.out.mesh, result.front);
+      expectSound(mesh, ordered(mesh, axis, spooled));
     }
+    for (const char* order : kOrders) {
+      SCOPED_TRACE(std::string(order) + (spooled ? ", spooled" : ""));
+      const Ordered result = ordered(mesh, inOrder(order), spooled);
+      expectSound(mesh, result);
+      const Ordered small = ordered(mesh, inOrder(order, 1), spooled);
+      EXPECT_TRUE(small.out.allBytes() == result.out.allBytes());
+    }
+  }
 }
 
 TEST(OrderedSource, GivesTheSameMesh) {
@@ -233,27 +260,65 @@ TEST(OrderedSource, GivesTheSameLargeMesh) {
   if (slowRun()) return;
   const TestMesh mesh = withColumns(shuffled(fullGrid(26, 26, 26, 0.1), 6));
   ASSERT_GT(mesh.vertexCount(), 16384u);
-  const Ordered result = ordered(mesh, "auto", true);
-  EXPECT_EQ(result.out.problem, "");
-  EXPECT_TRUE(result.out.exact_finalization);
-  EXPECT_GT(result.out.batches, 10u);
-  expectSameMesh(mesh, result.out.mesh);
-  expectTruthful(result.schema, result.out.mesh, result.front);
+  for (const char* order : kOrders) {
+    SCOPED_TRACE(order);
+    const Ordered result = ordered(mesh, inOrder(order, 1 << 18), true);
+    EXPECT_GT(result.out.batches, 10u);
+    EXPECT_GT(result.disk, size_t{1} << 20);
+    expectSound(mesh, result);
+  }
 }
 
 TEST(OrderedSource, SweepsAlongTheNarrowestFront) {
-  EXPECT_EQ(ordered(shuffled(fullGrid(12, 3, 3), 1), "auto", false).axis, 'x');
-  EXPECT_EQ(ordered(shuffled(fullGrid(3, 12, 3), 1), "auto", false).axis, 'y');
-  EXPECT_EQ(ordered(shuffled(fullGrid(3, 3, 12), 1), "auto", false).axis, 'z');
+  EXPECT_EQ(ordered(shuffled(fullGrid(12, 3, 3), 1), "auto", false).chosen, "spatial, along x");
+  EXPECT_EQ(ordered(shuffled(fullGrid(3, 12, 3), 1), "auto", false).chosen, "spatial, along y");
+  EXPECT_EQ(ordered(shuffled(fullGrid(3, 3, 12), 1), "auto", false).chosen, "spatial, along z");
   const TestMesh mesh = shuffled(fullGrid(3, 4, 8), 2);
   const int64_t best = ordered(mesh, "auto", false).front.cells;
   for (const char* axis : {"x", "y", "z"}) {
     const Ordered result = ordered(mesh, axis, false);
-    EXPECT_EQ(result.axis, axis[0]);
+    EXPECT_EQ(result.chosen, "spatial, along " + std::string(axis));
     EXPECT_GE(result.front.cells, best);
   }
   // A layer of 3 x 4 x 6 = 72 cells, and the next one half begun.
   EXPECT_LT(best, 3 * 72);
+}
+
+// Turned, a long box is swept along it as it was before, not along an axis.
+TEST(OrderedSource, SweepsAlongATiltedDirection) {
+  const TestMesh box = fullGrid(6, 6, 40, 0.2);
+  std::vector<double> turned;
+  for (size_t v = 0; v < box.vertexCount(); ++v) {
+    const double x = box.position(v, 0), z = box.position(v, 2);
+    const double c = std::cos(0.7), s = std::sin(0.7);
+    turned.insert(turned.end(), {c * x - s * z, box.position(v, 1), c * z + s * x});
+  }
+  const TestMesh mesh = shuffled(makeMesh(ScalarType::kFloat64, turned, box.cells), 3);
+  const Ordered result = ordered(mesh, "auto", false);
+  EXPECT_EQ(result.chosen.find("spatial, along ("), 0u) << result.chosen;
+  const Ordered straight = ordered(box, "auto", false);
+  EXPECT_LE(result.front.width, straight.front.width + straight.front.width / 10);
+  for (const char* axis : {"x", "y", "z"})
+    EXPECT_GT(ordered(mesh, axis, false).front.width, result.front.width + 6) << axis;
+}
+
+// Cells as they are in the mesh.
+TEST(OrderedSource, LeavesCellsWhereTheyAre) {
+  const TestMesh mesh = withColumns(shuffled(fullGrid(3, 3, 3), 2));
+  const Ordered result = ordered(mesh, inOrder("none"), true);
+  for (size_t c = 0; c < mesh.cellCount(); ++c)
+    EXPECT_EQ(result.out.mesh.cellInteger(0, c), mesh.cellInteger(0, c));
+}
+
+TEST(OrderedSource, RefusesOrdersThatThereAreNot) {
+  const TestMesh mesh = fullGrid(2, 2, 2);
+  try {
+    ordered(mesh, inOrder("zigzag"), false);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::kBadArgument);
+    EXPECT_NE(std::string(error.text()).find("hilbert"), std::string::npos) << error.text();
+  }
 }
 
 TEST(OrderedSource, ComesAlongTheAxis) {

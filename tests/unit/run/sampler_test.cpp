@@ -25,9 +25,14 @@ TestMesh halfDetailed(int length, int width) {
   return mesh;
 }
 
+OrderOptions alongX() {
+  OrderOptions options;
+  options.axis = "x";
+  return options;
+}
+
 struct Swept {
-  explicit Swept(TestMesh& mesh)
-      : indexed(mesh.schema, mesh.view()), stream(indexed, OrderOptions{"x", "", {}}) {}
+  explicit Swept(TestMesh& mesh) : indexed(mesh.schema, mesh.view()), stream(indexed, alongX()) {}
   MemorySource indexed;
   OrderedSource stream;
 };
@@ -110,7 +115,7 @@ TEST(Sampler, TakesNoWrongCellsWhereTheSpanIsALie) {
 }
 
 TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
-  TestMesh mesh = halfDetailed(slowRun() ? 20 : 60, slowRun() ? 12 : 16);
+  TestMesh mesh = halfDetailed(slowRun() ? 30 : 60, slowRun() ? 14 : 16);
   Swept swept(mesh);
   Sampler sampler(swept.stream.schema());
   BatchView batch;

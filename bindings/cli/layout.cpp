@@ -1,0 +1,24 @@
+// layout: a mesh brought into an order, and what came of it.
+#include "commands.h"
+#include "report.h"
+
+namespace tetstream::cli {
+
+ExitCode layout(const Arguments& arguments) {
+  const Options options = makeOptions(arguments.options);
+  checkOutput(arguments.out);
+  const Writer writer = createWriter(arguments.out, arguments.properties);
+  const Reader reader = openReader(arguments.in, options.get());
+  ProgressBar bar(progressOf(arguments));
+  tetstream_layout_report report = {};
+  report.struct_size = sizeof report;
+  const tetstream_status status = tetstream_layout(reader.get(), writer.get(), options.get(),
+                                                   ProgressBar::callback, &bar, &report);
+  bar.clear();
+  printNotes(arguments, reader.get(), writer.get());
+  check(status, writer.get());
+  if (!arguments.quiet) printReport(arguments, layoutText(report));
+  return exitCodeOf(status);
+}
+
+}  // namespace tetstream::cli

@@ -1,0 +1,44 @@
+// layout: an indexed mesh, read from end to end in pieces. Depends on stream.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "source.h"
+
+namespace tetstream {
+
+constexpr size_t kRowsAtOnce = 16384;
+
+// A share of something that is done; may throw to stop.
+using Tell = std::function<void(double)>;
+
+// visit(first, count) for each piece of `rows` rows.
+template <class Visit>
+void readInPieces(uint64_t rows, const Tell& tell, Visit visit) {
+  for (uint64_t at = 0; at < rows; at += kRowsAtOnce) {
+    visit(at, static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, rows - at)));
+    tell(static_cast<double>(at) / static_cast<double>(rows));
+  }
+}
+
+[[noreturn]] void failPoint(uint64_t cell, int64_t point, int64_t points);
+
+// visit(first, count, corners [count][4]), which are points of the mesh.
+template <class Visit>
+void readAllCells(IndexedSource& source, const Tell& tell, Visit visit) {
+  const auto cells = static_cast<uint64_t>(source.schema().cell_count);
+  const int64_t points = source.schema().vertex_count;
+  std::vector<int64_t> corners(4 * std::min<uint64_t>(kRowsAtOnce, cells));
+  readInPieces(cells, tell, [&](uint64_t first, size_t count) {
+    source.readCells(first, count, corners.data());
+    for (size_t i = 0; i < 4 * count; ++i)
+      if (corners[i] < 0 || corners[i] >= points) failPoint(first + i / 4, corners[i], points);
+    visit(first, count, corners.data());
+  });
+}
+
+double valueAt(const void* rows, ScalarType type, size_t index);
+
+}  // namespace tetstream

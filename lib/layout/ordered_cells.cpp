@@ -1,0 +1,219 @@
+#include "ordered_cells.h"
+
+#include <cstring>
+#include <limits>
+
+namespace tetstream {
+
+constexpr uint64_t kLeastPart = 1 << 14;  // points
+
+static size_t dataBytes(const IndexedSource& source) {
+  if (source.randomAccess()) return source.schema().cell_data.empty() ? 0 : sizeof(uint64_t);
+  size_t bytes = 0;
+  for (const Column& c : source.schema().cell_data) bytes += c.bytesPerRow();
+  return bytes;
+}
+
+OrderedCells::OrderedCells(IndexedSource& source, RankedVertices& vertices, bool sorts,
+                           RankedVertices::Budget budget, const Tell& tell)
+    : source_(source),
+      data_bytes_(dataBytes(source)),
+      rows_(kCorners + data_bytes_, budget.temp_dir),
+      last_uses_(1, budget.temp_dir) {
+  sortCells(vertices, sorts, budget, [&](double share) { tell(0.8 * share); });
+  findLastUses(vertices.count(), budget.account, [&](double share) { tell(0.8 + 0.2 * share); });
+  disk_ += rows_.diskBytes() + last_uses_.diskBytes();
+}
+
+// ------------------------------------------------------------------------- points become ranks
+
+// Part by part, as many points as fit the memory: cells with points of other parts wait in a spool
+// for theirs.
+class OrderedCells::Translation {
+ public:
+  Translation(RankedVertices& vertices, uint64_t points, uint64_t part_points, Account& account)
+      : vertices_(vertices),
+        points_(points),
+        ranks_(account, static_cast<size_t>(std::min(points, part_points))) {}
+
+  bool isLast() const { return first_ + ranks_.size() >= points_; }
+  void begin() { vertices_.tellRanks(first_, ranks_); }
+  void goOn() {
+    first_ += ranks_.size();
+    begin();
+  }
+  void prefetch(int64_t point) const {
+    const uint64_t place = static_cast<uint64_t>(point) - first_;
+    if (place < ranks_.size()) __builtin_prefetch(ranks_.data() + place);
+  }
+  void translate(uint32_t corners[4], uint32_t& known) const {
+    for (int j = 0; j < 4; ++j) {
+      const uint64_t place = uint64_t{corners[j]} - first_;
+      if (known >> j & 1 || place >= ranks_.size()) continue;
+      corners[j] = ranks_[static_cast<size_t>(place)];
+      known |= 1u << j;
+    }
+  }
+
+ private:
+  RankedVertices& vertices_;
+  uint64_t points_, first_ = 0;
+  Array<uint32_t> ranks_;
+};
+
+namespace {
+
+// The cell data of a piece of the cells, row by row.
+class DataRows {
+ public:
+  DataRows(IndexedSource& source, size_t bytes) : source_(source), bytes_(bytes) {
+    if (bytes == 0) return;
+    rows_.resize(bytes * kRowsAtOnce);
+    column_.resize(static_cast<size_t>(kMaxComponents) * kRowsAtOnce);
+  }
+  void read(uint64_t first, size_t count) {
+    if (bytes_ == 0) return;
+    if (source_.randomAccess()) {
+      for (size_t i = 0; i < count; ++i) {
+        const uint64_t number = first + i;
+        std::memcpy(rows_.data() + i * bytes_, &number, sizeof number);
+      }
+      return;
+    }
+    size_t place = 0;
+    const std::vector<Column>& columns = source_.schema().cell_data;
+    for (size_t k = 0; k < columns.size(); ++k) {
+      const size_t width = columns[k].bytesPerRow();
+      source_.readCellData(k, first, count, column_.data());
+      const auto* from = reinterpret_cast<const unsigned char*>(column_.data());
+      for (size_t i = 0; i < count; ++i)
+        std::memcpy(rows_.data() + i * bytes_ + place, from + i * width, width);
+      place += width;
+    }
+  }
+  void copy(size_t row, unsigned char* to) const {
+    if (bytes_ > 0) std::memcpy(to, rows_.data() + row * bytes_, bytes_);
+  }
+
+ private:
+  IndexedSource& source_;
+  size_t bytes_;
+  std::vector<unsigned char> rows_;
+  std::vector<double> column_;
+};
+
+}  // namespace
+
+void OrderedCells::sortCells(RankedVertices& vertices, bool sorts,
+                             const RankedVertices::Budget& budget, const Tell& tell) {
+  const auto points = static_cast<uint64_t>(source_.schema().vertex_count);
+  const uint64_t part = std::max<uint64_t>(budget.memory_bytes / 2 / sizeof(uint32_t), kLeastPart);
+  Translation translation(vertices, points, part, budget.account);
+  const size_t row_bytes = kCorners + data_bytes_, waiting_bytes = row_bytes + sizeof(uint32_t);
+  const size_t of_ranks = sizeof(uint32_t) * static_cast<size_t>(std::min(points, part));
+  ExternalSort sort(row_bytes, budget.memory_bytes - of_ranks, budget.account, budget.temp_dir);
+  std::unique_ptr<RowSpool> waiting;
+  const auto startSpool = [&] {
+    waiting =
+        translation.isLast() ? nullptr : std::make_unique<RowSpool>(waiting_bytes, budget.temp_dir);
+  };
+  // A row with its four bytes at the end.
+  const auto take = [&](unsigned char* row) {
+    uint32_t corners[4], known;
+    std::memcpy(corners, row, kCorners);
+    std::memcpy(&known, row + row_bytes, sizeof known);
+    translation.translate(corners, known);
+    std::memcpy(row, corners, kCorners);
+    std::memcpy(row + row_bytes, &known, sizeof known);
+    if (waiting)
+      waiting->append(row, 1);
+    else if (sorts)
+      std::memcpy(sort.add(std::max({corners[0], corners[1], corners[2], corners[3]})), row,
+                  row_bytes);
+    else
+      rows_.append(row, 1);
+  };
+  std::vector<unsigned char> row(waiting_bytes);
+  DataRows data(source_, data_bytes_);
+  translation.begin();
+  startSpool();
+  readAllCells(source_, tell, [&](uint64_t first, size_t count, const int64_t* corners) {
+    data.read(first, count);
+    for (size_t i = 0; i < count; ++i) {
+      constexpr size_t kAhead = 12;
+      for (size_t j = 0; j < 4 && i + kAhead < count; ++j)
+        translation.prefetch(corners[4 * (i + kAhead) + j]);
+      for (size_t j = 0; j < 4; ++j) {
+        const auto corner = static_cast<uint32_t>(corners[4 * i + j]);
+        std::memcpy(row.data() + j * sizeof corner, &corner, sizeof corner);
+      }
+      data.copy(i, row.data() + kCorners);
+      std::memset(row.data() + row_bytes, 0, sizeof(uint32_t));
+      take(row.data());
+    }
+  });
+  while (waiting) {
+    waiting->finish();
+    disk_ = std::max(disk_, 2 * waiting->diskBytes());
+    const std::unique_ptr<RowSpool> before = std::move(waiting);
+    translation.goOn();
+    startSpool();
+    for (uint64_t i = 0; i < before->rows(); ++i) {
+      std::memcpy(row.data(), before->row(i), waiting_bytes);
+      take(row.data());
+    }
+  }
+  sort.finish();
+  uint64_t key;
+  while (const unsigned char* sorted = sorts ? sort.next(&key) : nullptr) rows_.append(sorted, 1);
+  rows_.finish();
+  disk_ = std::max(disk_, sort.diskBytes());
+}
+
+// From the last cell to the first: the first that has a vertex is the last to use it.
+void OrderedCells::findLastUses(uint64_t vertices, Account& account, const Tell& tell) {
+  Array<uint64_t> seen(account, static_cast<size_t>(vertices / 64 + 1));
+  std::fill_n(seen.data(), seen.size(), uint64_t{0});
+  for (uint64_t left = rows_.rows(); left-- > 0;) {
+    uint32_t corners[4];
+    std::memcpy(corners, rows_.row(left), kCorners);
+    unsigned char uses = 0;
+    for (unsigned j = 0; j < 4; ++j) {
+      uint64_t& word = seen[corners[j] / 64];
+      const uint64_t bit = uint64_t{1} << (corners[j] % 64);
+      if (!(word & bit)) uses |= static_cast<unsigned char>(1u << j);
+      word |= bit;
+    }
+    last_uses_.append(&uses, 1);
+    if (left % kRowsAtOnce == 0)
+      tell(1 - static_cast<double>(left) / static_cast<double>(rows_.rows()));
+  }
+  last_uses_.finish();
+}
+
+OrderedCell OrderedCells::cell(uint64_t place) {
+  OrderedCell cell;
+  const auto* row = static_cast<const unsigned char*>(rows_.row(place));
+  std::memcpy(cell.corners, row, kCorners);
+  cell.last_uses =
+      *static_cast<const unsigned char*>(last_uses_.row(last_uses_.rows() - 1 - place));
+  cell.data = row + kCorners;
+  return cell;
+}
+
+void OrderedCells::copyData(const OrderedCell& cell, Batch& batch, size_t row) {
+  const std::vector<Column>& columns = source_.schema().cell_data;
+  const unsigned char* from = cell.data;
+  for (size_t k = 0; k < columns.size(); ++k) {
+    if (source_.randomAccess()) {
+      uint64_t number;
+      std::memcpy(&number, cell.data, sizeof number);
+      source_.readCellData(k, number, 1, batch.cellData(k, row));
+      continue;
+    }
+    std::memcpy(batch.cellData(k, row), from, columns[k].bytesPerRow());
+    from += columns[k].bytesPerRow();
+  }
+}
+
+}  // namespace tetstream

@@ -1,0 +1,139 @@
+#include "ranked_vertices.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "status.h"
+
+namespace tetstream {
+
+size_t RankedVertices::valueBytes(const IndexedSource& source) {
+  const Schema& schema = source.schema();
+  size_t bytes = 3 * sizeOf(schema.position_type);
+  for (const Column& c : schema.fields) bytes += c.bytesPerRow();
+  return source.randomAccess() ? 0 : bytes;
+}
+
+RankedVertices::RankedVertices(IndexedSource& source, const Survey& survey, const VertexKey& key,
+                               Budget budget, Schema& schema, const Tell& tell)
+    : source_(source),
+      holds_values_(!source.randomAccess()),
+      rows_(kHead + valueBytes(source), budget.temp_dir) {
+  ExternalSort sort(kHead + valueBytes(source), budget.memory_bytes, budget.account,
+                    budget.temp_dir);
+  sortPoints(survey, key, sort, schema, [&](double share) { tell(0.7 * share); });
+  sort.finish();
+  uint64_t sorted_key;
+  while (const unsigned char* row = sort.next(&sorted_key)) rows_.append(row, 1);
+  rows_.finish();
+  disk_ = sort.diskBytes() + rows_.diskBytes();
+}
+
+namespace {
+
+// A column of a piece of the points: its values, and where they go in a row and in the box.
+struct PieceColumn {
+  std::vector<double> values;  // of any type
+  size_t bytes, components, place, in_box;
+  ScalarType type;
+  const char* name;
+};
+
+void growBox(const PieceColumn& column, size_t row, uint64_t point, Schema& schema) {
+  for (size_t k = 0; k < column.components; ++k) {
+    const double value = valueAt(column.values.data(), column.type, row * column.components + k);
+    if (!std::isfinite(value))
+      fail(Status::kBadData, "point %llu: its %s is not finite",
+           static_cast<unsigned long long>(point), column.name);
+    double& low = schema.box_min[column.in_box + k];
+    double& high = schema.box_max[column.in_box + k];
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+}
+
+std::vector<PieceColumn> columnsOf(const Schema& schema) {
+  std::vector<PieceColumn> columns;
+  size_t place = 0, in_box = 0;
+  const auto add = [&](size_t components, ScalarType type, const char* name) {
+    PieceColumn column{{}, components * sizeOf(type), components, place, in_box, type, name};
+    column.values.resize(components * kRowsAtOnce);
+    place += column.bytes;
+    in_box += components;
+    columns.push_back(std::move(column));
+  };
+  add(3, schema.position_type, "position");
+  for (const Column& c : schema.fields)
+    add(static_cast<size_t>(c.components), c.type, c.name.c_str());
+  return columns;
+}
+
+}  // namespace
+
+void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, ExternalSort& sort,
+                                Schema& schema, const Tell& tell) {
+  schema.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
+  schema.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
+  std::vector<PieceColumn> columns = columnsOf(schema);
+  readInPieces(static_cast<uint64_t>(schema.vertex_count), tell, [&](uint64_t first, size_t count) {
+    source_.readPositions(first, count, columns[0].values.data());
+    for (size_t f = 0; f < schema.fields.size(); ++f)
+      source_.readField(f, first, count, columns[f + 1].values.data());
+    for (size_t i = 0; i < count; ++i) {
+      const uint64_t point = first + i;
+      if (!survey.isUsed(point)) continue;
+      for (const PieceColumn& column : columns) growBox(column, i, point, schema);
+      double place[3];
+      for (size_t k = 0; k < 3; ++k)
+        place[k] = valueAt(columns[0].values.data(), columns[0].type, 3 * i + k);
+      unsigned char* row = sort.add(key(point, place));
+      const bool locked = source_.locked() && source_.locked()[point];
+      const uint64_t head = point | (locked ? kLockedBit : 0);
+      std::memcpy(row, &head, kHead);
+      for (const PieceColumn& column : columns)
+        if (holds_values_)
+          std::memcpy(
+              row + kHead + column.place,
+              reinterpret_cast<const unsigned char*>(column.values.data()) + i * column.bytes,
+              column.bytes);
+    }
+  });
+  if (sort.empty()) {
+    schema.box_min.clear();
+    schema.box_max.clear();
+  }
+}
+
+void RankedVertices::tellRanks(uint64_t first, Array<uint32_t>& ranks) {
+  for (uint64_t rank = 0; rank < rows_.rows(); ++rank) {
+    uint64_t head;
+    std::memcpy(&head, rows_.row(rank), kHead);
+    const uint64_t place = (head & ~kLockedBit) - first;
+    if (place < ranks.size()) ranks[static_cast<size_t>(place)] = static_cast<uint32_t>(rank);
+  }
+}
+
+void RankedVertices::copyTo(uint64_t rank, Batch& batch, size_t row) {
+  const auto* from = static_cast<const unsigned char*>(rows_.row(rank));
+  uint64_t head;
+  std::memcpy(&head, from, kHead);
+  const uint64_t point = head & ~kLockedBit;
+  const Schema& schema = source_.schema();
+  if (head & kLockedBit) batch.lock(row);
+  if (!holds_values_) {
+    source_.readPositions(point, 1, batch.position(row));
+    for (size_t f = 0; f < schema.fields.size(); ++f)
+      source_.readField(f, point, 1, batch.field(f, row));
+    return;
+  }
+  from += kHead;
+  std::memcpy(batch.position(row), from, 3 * sizeOf(schema.position_type));
+  from += 3 * sizeOf(schema.position_type);
+  for (size_t f = 0; f < schema.fields.size(); ++f) {
+    std::memcpy(batch.field(f, row), from, schema.fields[f].bytesPerRow());
+    from += schema.fields[f].bytesPerRow();
+  }
+}
+
+}  // namespace tetstream

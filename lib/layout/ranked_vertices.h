@@ -1,0 +1,50 @@
+// layout: the used points of a mesh in the order of their keys, with their values. Depends on
+// survey.h, external_sort.h.
+#pragma once
+
+#include <functional>
+
+#include "external_sort.h"
+#include "survey.h"
+
+namespace tetstream {
+
+using VertexKey = std::function<uint64_t(uint64_t point, const double place[3])>;
+
+class RankedVertices {
+ public:
+  struct Budget {
+    size_t memory_bytes;
+    Account& account;
+    const std::string& temp_dir;
+  };
+  // Reads the points once. Fills the box of `schema`, which is the source's, over the used points;
+  // values that are not finite are kBadData. Equal keys rank as the points do.
+  RankedVertices(IndexedSource& source, const Survey& survey, const VertexKey& key, Budget budget,
+                 Schema& schema, const Tell& tell);
+
+  uint64_t count() const { return rows_.rows(); }
+  // ranks[i] becomes the rank of point first + i, where that is used.
+  void tellRanks(uint64_t first, Array<uint32_t>& ranks);
+  // The values of a vertex into a row of a batch.
+  void copyTo(uint64_t rank, Batch& batch, size_t row);
+
+  uint64_t diskBytes() const { return rows_.diskBytes(); }
+  uint64_t mostDiskBytes() const { return disk_; }  // while they were sorted
+
+ private:
+  // A row: the point, whether it is locked, and its values where the source gives no single rows.
+  static constexpr size_t kHead = sizeof(uint64_t);
+  static constexpr uint64_t kLockedBit = uint64_t{1} << 63;
+  static size_t valueBytes(const IndexedSource& source);
+
+  void sortPoints(const Survey& survey, const VertexKey& key, ExternalSort& sort, Schema& schema,
+                  const Tell& tell);
+
+  IndexedSource& source_;
+  bool holds_values_;
+  RowSpool rows_;
+  uint64_t disk_ = 0;
+};
+
+}  // namespace tetstream

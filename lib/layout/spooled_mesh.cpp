@@ -1,0 +1,90 @@
+#include "spooled_mesh.h"
+
+#include <cstring>
+
+#include "status.h"
+
+namespace tetstream {
+
+constexpr SpoolShape kInSequence = {2, 256 << 10};
+
+static std::vector<std::unique_ptr<RowSpool>> spoolsFor(const std::vector<Column>& columns,
+                                                        const std::string& temp_dir) {
+  std::vector<std::unique_ptr<RowSpool>> spools;
+  for (const Column& c : columns)
+    spools.push_back(std::make_unique<RowSpool>(c.bytesPerRow(), temp_dir, kInSequence));
+  return spools;
+}
+
+SpooledMesh::SpooledMesh(Source& source, const std::string& temp_dir, const Tell& tell)
+    : schema_(source.schema()),
+      positions_(3 * sizeOf(schema_.position_type), temp_dir, kInSequence),
+      cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
+      fields_(spoolsFor(schema_.fields, temp_dir)),
+      cell_data_(spoolsFor(schema_.cell_data, temp_dir)),
+      locked_(account_) {
+  const auto all = static_cast<double>(std::max<int64_t>(schema_.cell_count, 1));
+  BatchView batch;
+  while (source.next(batch)) {
+    take(batch);
+    if (schema_.cell_count > 0) tell(std::min(static_cast<double>(cells_.rows()) / all, 1.0));
+  }
+  schema_.vertex_count = static_cast<int64_t>(positions_.rows());
+  schema_.cell_count = static_cast<int64_t>(cells_.rows());
+  if (any_locked_) makeRoomForLocks(static_cast<size_t>(positions_.rows()));
+  for (RowSpool* spool : {&positions_, &cells_}) spool->finish();
+  for (auto* columns : {&fields_, &cell_data_})
+    for (auto& spool : *columns) spool->finish();
+}
+
+void SpooledMesh::take(const BatchView& batch) {
+  if (batch.face_count > 0)
+    fail(Status::kUnsupported,
+         "the stream has labelled boundary faces, which another order cannot keep yet");
+  if (batch.locked) {
+    const auto before = static_cast<size_t>(positions_.rows());
+    makeRoomForLocks(before + batch.vertex_count);
+    std::copy_n(batch.locked, batch.vertex_count, locked_.data() + before);
+    any_locked_ = true;
+  }
+  positions_.append(batch.positions, batch.vertex_count);
+  for (size_t f = 0; f < fields_.size(); ++f)
+    fields_[f]->append(batch.fields[f], batch.vertex_count);
+  cells_.append(batch.cells, batch.cell_count);
+  for (size_t k = 0; k < cell_data_.size(); ++k)
+    cell_data_[k]->append(batch.cell_data[k], batch.cell_count);
+}
+
+void SpooledMesh::makeRoomForLocks(size_t vertices) {
+  const size_t known = locked_.size();
+  if (known >= vertices) return;
+  locked_.resize(vertices + vertices / 2);
+  std::fill(locked_.data() + known, locked_.data() + locked_.size(), uint8_t{0});
+}
+
+static void readRows(RowSpool& spool, size_t bytes, uint64_t first, size_t count, void* out) {
+  auto* to = static_cast<unsigned char*>(out);
+  for (size_t i = 0; i < count; ++i) std::memcpy(to + i * bytes, spool.row(first + i), bytes);
+}
+
+void SpooledMesh::readPositions(uint64_t first, size_t count, void* out) {
+  readRows(positions_, 3 * sizeOf(schema_.position_type), first, count, out);
+}
+void SpooledMesh::readField(size_t column, uint64_t first, size_t count, void* out) {
+  readRows(*fields_[column], schema_.fields[column].bytesPerRow(), first, count, out);
+}
+void SpooledMesh::readCells(uint64_t first, size_t count, int64_t* out) {
+  readRows(cells_, 4 * sizeof(int64_t), first, count, out);
+}
+void SpooledMesh::readCellData(size_t column, uint64_t first, size_t count, void* out) {
+  readRows(*cell_data_[column], schema_.cell_data[column].bytesPerRow(), first, count, out);
+}
+
+uint64_t SpooledMesh::diskBytes() const {
+  uint64_t bytes = positions_.diskBytes() + cells_.diskBytes();
+  for (const auto* columns : {&fields_, &cell_data_})
+    for (const auto& spool : *columns) bytes += spool->diskBytes();
+  return bytes;
+}
+
+}  // namespace tetstream
