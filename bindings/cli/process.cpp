@@ -44,7 +44,9 @@ void prepareProcess() {
   // held is not held on top of the run that it serves.
   ::mallopt(M_MMAP_THRESHOLD, 128 << 10);
 #endif
+  // Broken pipes and files that grow beyond a limit are errors of write.
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction old = {}, action = {};
     if (::sigaction(number, nullptr, &old) == 0 && old.sa_handler == SIG_IGN) continue;

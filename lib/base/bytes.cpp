@@ -3,18 +3,13 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
-#include "status.h"
+#include "io_error.h"
+#include "named_temporary.h"
 
 namespace tetstream {
-
-[[noreturn]] static void failIo(const std::string& name, const char* what) {
-  const int error = errno;
-  fail(Status::kIo, "%s: cannot %s: %s", name.c_str(), what, std::strerror(error));
-}
 
 static size_t readSome(int fd, void* out, size_t size, const std::string& name) {
   for (;;) {
@@ -209,47 +204,20 @@ class DescriptorSink final : public ByteSink {
   bool owned_, seekable_;
 };
 
-// A temporary beside the final name: the rename is atomic only within one file system.
-class TemporaryNamedSink final : public ByteSink {
+class NamedSink final : public ByteSink {
  public:
-  explicit TemporaryNamedSink(const std::string& path) : ByteSink(path), target_(path) {
-    // A link stays one: what it points to is replaced.
-    const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
-    if (real) target_ = real.get();
-    // A name has 255 bytes at most: a long one leaves no room for a suffix.
-    const size_t slash = target_.find_last_of('/') + 1;
-    const std::string stem =
-        target_.size() - slash > 220 ? target_.substr(0, slash) + ".tetstream" : target_;
-    // note: not mkstemp, which would not give the file the mode that the user's umask allows.
-    for (unsigned attempt = 0; fd_ < 0; ++attempt) {
-      temporary_ = textOf("%s.%lx-%x", stem.c_str(), static_cast<long>(::getpid()), attempt);
-      fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (fd_ < 0 && errno != EEXIST) failIo(path, "create");
-    }
-    struct stat old;  // what is replaced keeps its mode
-    if (::stat(target_.c_str(), &old) == 0) ::fchmod(fd_, old.st_mode & 07777);
+  explicit NamedSink(const std::string& path) : ByteSink(path), file_(path) {}
+  void write(const void* data, size_t size) override {
+    writeFully(file_.descriptor(), data, size, name());
   }
-  ~TemporaryNamedSink() override {
-    if (fd_ >= 0) ::close(fd_);
-    if (!committed_) ::unlink(temporary_.c_str());
-  }
-  void write(const void* data, size_t size) override { writeFully(fd_, data, size, name()); }
   void writeAt(uint64_t offset, const void* data, size_t size) override {
-    writeFullyAt(fd_, offset, data, size, name());
+    writeFullyAt(file_.descriptor(), offset, data, size, name());
   }
   bool seekable() const override { return true; }
-  void commit() override {
-    const int fd = fd_;
-    fd_ = -1;
-    if (::close(fd) != 0) failIo(name(), "write");
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) failIo(name(), "rename into place");
-    committed_ = true;
-  }
+  void commit() override { file_.commit(); }
 
  private:
-  std::string target_, temporary_;
-  int fd_ = -1;
-  bool committed_ = false;
+  NamedTemporary file_;
 };
 
 class MemorySink final : public ByteSink {
@@ -282,7 +250,7 @@ std::unique_ptr<ByteSink> createFile(const std::string& path) {
     if (fd < 0) failIo(path, "open");
     return std::make_unique<DescriptorSink>(fd, true, path);
   }
-  return std::make_unique<TemporaryNamedSink>(path);
+  return std::make_unique<NamedSink>(path);
 }
 
 std::unique_ptr<ByteSink> createDescriptor(int fd, const std::string& name) {
@@ -301,6 +269,13 @@ SpoolFile::SpoolFile(const std::string& temp_dir) {
     const char* set = std::getenv("TMPDIR");
     dir = set && *set ? set : "/tmp";
   }
+  // Never with a name, so that not even a kill leaves one; where the file system has no such files,
+  // with one for a moment.
+#ifdef O_TMPFILE
+  name_ = dir + "/(a temporary file)";
+  fd_ = ::open(dir.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (fd_ >= 0) return;
+#endif
   name_ = dir + "/tetstream.XXXXXX";
   fd_ = ::mkostemp(name_.data(), O_CLOEXEC);
   if (fd_ < 0) failIo(name_, "create a temporary file");

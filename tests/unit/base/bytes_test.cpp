@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
@@ -314,6 +315,33 @@ TEST(CreateFile, KeepsTheModeOfWhatItReplaces) {
   struct stat info;
   ASSERT_EQ(::stat(folder.file("private").c_str(), &info), 0);
   EXPECT_EQ(info.st_mode & 07777, 0600u);
+}
+
+// Nobody holds a lock on it any more: removed. Somebody does, or it has another name: not.
+TEST(CreateFile, RemovesWhatAKilledProcessLeft) {
+  const Folder folder;
+  for (const char* left : {"out.1a2b-0", "out.1a2b-1", "out.bak-x", "out.1a2b", "about.1-0"})
+    writeFile(folder.file(left), "left");
+  const int fd = ::open(folder.file("out.1a2b-1").c_str(), O_RDWR);
+  ASSERT_EQ(::flock(fd, LOCK_EX), 0);
+  writeFile(folder.file("out"), "new");
+  const Names others = {"out", "out.bak-x", "out.1a2b", "about.1-0"};
+  Names expected = others;
+  expected.insert("out.1a2b-1");
+  EXPECT_EQ(folder.names(), expected);
+  ::close(fd);
+  writeFile(folder.file("out"), "newer");
+  EXPECT_EQ(folder.names(), others);
+}
+
+// Two of the same name at once: neither takes the other's for abandoned.
+TEST(CreateFile, LeavesWhatIsBeingWritten) {
+  const Folder folder;
+  const auto first = createFile(folder.file("out")), second = createFile(folder.file("out"));
+  EXPECT_EQ(folder.names().size(), 2u);
+  first->commit();
+  second->commit();
+  EXPECT_EQ(folder.names(), Names{"out"});
 }
 
 TEST(CreateFile, WritesThroughALink) {
