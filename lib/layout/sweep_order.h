@@ -1,38 +1,25 @@
-// layout: the order of an indexed mesh's cells along an axis. Depends on base.
+// layout: the order of an indexed mesh's cells along an axis. Depends on order_front.h.
 //
 // Spatial sort (Vo et al. 2007, section 3.2): vertices are ranked along the axis, a cell comes with
 // its last vertex. Holds the connectivity in memory: 24 bytes a cell, 24 a vertex at most.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 
-#include "memory.h"
+#include "order_front.h"
 
 namespace tetstream {
 
-// A mesh's connectivity and the places of its vertices, each along three axes in [0, 1].
-struct Connectivity {
-  explicit Connectivity(Account& account) : corners(account), places(account) {}
-  uint32_t vertices = 0, cells = 0;
-  Array<uint32_t> corners;  // [cells][4]
-  Array<float> places;      // [3][vertices]
-};
-
-struct SweepOrder {
-  explicit SweepOrder(Account& account) : cell_at(account), rank(account), last_use(account) {}
+struct SweepOrder : StreamOrder {
+  using StreamOrder::StreamOrder;
   int axis = 0;
-  Array<uint32_t> cell_at;   // which cell comes at each place
-  Array<uint32_t> rank;      // of each vertex: how many others are used before it; kUnused: never
-  Array<uint32_t> last_use;  // of each vertex: the place of the last cell that uses it
-  uint32_t used_vertices = 0;
-  int64_t front_cells = 0, front_width = 0, front_span = 0;
 };
 
-constexpr uint32_t kUnused = 0xffffffffu;
+// rank[v]: how many vertices lie before v along the axis; equal places go by vertex number.
+void rankAlong(const Connectivity& mesh, int axis, Account& account, Array<uint32_t>& rank);
 
-// Sweeps along `axis` (0, 1, 2), or, if it is negative, along the one with the narrowest front.
-// `tell` is called now and then and may throw.
+// Sweeps along `axis` (0, 1, 2), or, if it is negative, along the one with the fewest cells in the
+// front. `tell` is called now and then and may throw.
 void orderBySweep(const Connectivity& mesh, int axis, Account& account,
                   const std::function<void()>& tell, SweepOrder& order);
 
