@@ -8,6 +8,7 @@
 
 #include "breadth_first.h"
 #include "registry.h"
+#include "spectral.h"
 #include "status.h"
 #include "structures.h"
 #include "sweep_order.h"
@@ -169,6 +170,9 @@ void compareOrders(const char* path) {
   time("hilbert", mesh, [&](Account&, Array<uint32_t>& rank) { orderHilbert(mesh, rank); });
   time("breadth-first", mesh, [&](Account& account, Array<uint32_t>& rank) {
     orderBreadthFirst(in, account, tell, rank);
+  });
+  time("spectral", mesh, [&](Account& account, Array<uint32_t>& rank) {
+    orderSpectral(in, account, tell, rank);
   });
   std::printf("\n");
 }
