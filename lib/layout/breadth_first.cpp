@@ -74,8 +74,8 @@ class Traversal {
   const Connectivity& mesh_;
   const Meeting& meet_;
   Array<uint32_t> queue_;
-  Array<uint32_t> met_;        // when a neighbour was first taken, from 1; 0: not yet
-  Array<uint8_t> completes_;   // whether it is the last vertex of some cell
+  Array<uint32_t> met_;           // when a neighbour was first taken, from 1; 0: not yet
+  Array<uint8_t> completes_;      // whether it is the last vertex of some cell
   Array<uint8_t> taken_corners_;  // of each cell
   Array<uint32_t>& rank_;
   uint32_t taken_ = 0, meetings_ = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "symmetric_eigen.h"
+#include "random.h"
 
 namespace tetstream {
 
@@ -27,8 +27,16 @@ class Space {
   Array<Four>& vectors() { return blocks_[0]; }
   const std::array<double, kBlock>& values() const { return values_; }
 
-  // Makes the vectors orthogonal, of length 1, and eigenvectors as far as their own space goes.
-  void begin() {
+  // From the vectors of the next coarser level. They are made orthogonal, of length 1, and
+  // eigenvectors as far as their own space goes. The noise stands in for vectors that are 0 there.
+  void begin(const Array<Four>& coarse, const uint32_t* parent) {
+    Random random(level_);
+    const float noise = 1e-4f / std::sqrt(static_cast<float>(graph_.vertices));
+    for (uint32_t i = 0; i < graph_.vertices; ++i) {
+      blocks_[0][i] = coarse[parent[i]];
+      for (size_t k = 0; k < kBlock; ++k)
+        blocks_[0][i][k] += noise * (static_cast<float>(random.below(1 << 20)) * 0x1p-19f - 1);
+    }
     centre(blocks_[0]);
     applyLaplacian(graph_, blocks_[0].data(), products_[0].data());
     size_ = kBlock;
@@ -140,7 +148,8 @@ void Space::choose() {
   for (size_t k = 0; k < kBlock && k < m; ++k) {
     values_[k] = found.values[k];
     for (size_t a = 0; a < m; ++a)
-      for (size_t i = 0; i < n; ++i) weights[k * n + i] += found.vectors[k * m + a] * rows[a * n + i];
+      for (size_t i = 0; i < n; ++i)
+        weights[k * n + i] += found.vectors[k * m + a] * rows[a * n + i];
   }
   combine(weights);
 }
@@ -170,23 +179,19 @@ void Space::combine(const std::vector<double>& weights) {
 
 std::array<double, 4> lowestVectors(const GraphView& graph, Account& account,
                                     const std::function<void()>& tell, Array<Four>& x) {
-  constexpr int kMostRounds = 30;
+  constexpr int kMostRounds = 30;  // some ten are enough
   constexpr double kEnough = 1e-2;
   LaplacianLevels levels(graph, account);
   size_t level = levels.count() - 1;
   x.resize(levels.graph(level).vertices);
-  levels.lowest(x.data());
-  std::array<double, 4> values{};
+  std::array<double, 4> values = levels.lowest(x.data());
   while (level-- > 0) {
     Space space(levels, level, account);
-    const uint32_t* parent = levels.parents(level);
-    for (uint32_t i = 0; i < levels.graph(level).vertices; ++i) space.vectors()[i] = x[parent[i]];
-    space.begin();
+    space.begin(x, levels.parents(level));
+    x.resize(0);
     for (int round = 0; round < kMostRounds; ++round) {
       tell();
-      double r = space.improve();
-      if (getenv("DBG")) fprintf(stderr, "level %zu n %u round %d residual %g values %g %g %g %g\n", level, levels.graph(level).vertices, round, r, space.values()[0], space.values()[1], space.values()[2], space.values()[3]);
-      if (r < kEnough) break;
+      if (space.improve() < kEnough) break;
     }
     x.swap(space.vectors());
     values = space.values();

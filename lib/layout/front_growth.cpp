@@ -93,4 +93,23 @@ void FrontGrowth::sink(uint32_t place) {
   place_[vertex] = place;
 }
 
+uint32_t findLayers(const GraphView& graph, const uint32_t* sequence, Account& account,
+                    float* layer) {
+  Array<uint8_t> opened(account, graph.vertices);
+  std::fill_n(opened.data(), graph.vertices, uint8_t{0});
+  uint32_t active = 0, widest = 0;
+  double sum = 0;
+  const auto open = [&](uint32_t vertex) {
+    active += !opened[vertex];
+    opened[vertex] = 1;
+  };
+  for (const uint32_t* v = sequence; v < sequence + graph.vertices; ++v) {
+    open(*v);
+    for (uint32_t i = graph.first[*v]; i < graph.first[*v + 1]; ++i) open(graph.neighbour[i]);
+    widest = std::max(widest, active);
+    layer[*v] = static_cast<float>(sum += 1.0 / active--);
+  }
+  return widest;
+}
+
 }  // namespace tetstream

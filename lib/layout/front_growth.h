@@ -37,7 +37,9 @@ class FrontGrowth {
   uint32_t heap_size_ = 0, active_ = 0;
 };
 
-// The same figure of a given sequence.
-uint32_t widthOfSequence(const GraphView& graph, const uint32_t* sequence, Account& account);
+// The same figure of a given sequence. layer[v]: how far along it v is closed, where closing as
+// many vertices as are active counts as 1.
+uint32_t findLayers(const GraphView& graph, const uint32_t* sequence, Account& account,
+                    float* layer);
 
 }  // namespace tetstream

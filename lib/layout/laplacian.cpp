@@ -5,7 +5,7 @@
 
 namespace tetstream {
 
-constexpr uint32_t kCoarsest = 64;  // vertices of which all eigenvectors are taken: O(n^3)
+constexpr uint32_t kCoarsest = 32;  // vertices of which all eigenvectors are taken: O(n^3)
 constexpr uint32_t kNobody = 0xffffffffu;
 
 namespace {
@@ -74,71 +74,85 @@ LaplacianLevels::Level::Level(Account& account)
 LaplacianLevels::LaplacianLevels(const GraphView& finest, Account& account) : account_(account) {
   levels_.push_back(std::make_unique<Level>(account));
   levels_[0]->graph = finest;
-  invertDiagonal(*levels_[0]);
-  while (levels_.back()->graph.vertices > kCoarsest) {
-    Level& fine = *levels_.back();
-    fine.parent.resize(fine.graph.vertices);
-    const uint32_t pairs = pairUp(fine.graph, fine.parent);
-    const auto half = coarser(fine.graph, fine.parent, pairs);
-    half->parent.resize(pairs);
-    const uint32_t quarter = pairUp(half->graph, half->parent);
-    levels_.push_back(coarser(half->graph, half->parent, quarter));
-    for (uint32_t v = 0; v < fine.graph.vertices; ++v) fine.parent[v] = half->parent[fine.parent[v]];
-    levels_.back()->right.resize(quarter);
-    levels_.back()->solution.resize(quarter);
-    invertDiagonal(*levels_.back());
-  }
-  const GraphView& coarsest = levels_.back()->graph;
-  const size_t n = coarsest.vertices;
+  levels_[0]->invertDiagonal();
+  while (levels_.back()->graph.vertices > kCoarsest) addCoarser();
+  prepareCoarsest();
+}
+
+// Pairs of pairs.
+void LaplacianLevels::addCoarser() {
+  Level& fine = *levels_.back();
+  fine.parent.resize(fine.graph.vertices);
+  const uint32_t pairs = pairUp(fine.graph, fine.parent);
+  const auto half = join(fine.graph, fine.parent, pairs);
+  half->parent.resize(pairs);
+  const uint32_t vertices = pairUp(half->graph, half->parent);
+  levels_.push_back(join(half->graph, half->parent, vertices));
+  for (uint32_t v = 0; v < fine.graph.vertices; ++v) fine.parent[v] = half->parent[fine.parent[v]];
+  Level& added = *levels_.back();
+  added.right.resize(vertices);
+  added.solution.resize(vertices);
+  added.invertDiagonal();
+}
+
+void LaplacianLevels::prepareCoarsest() {
+  const GraphView& graph = levels_.back()->graph;
+  const size_t n = graph.vertices;
   std::vector<double> matrix(n * n, 0.0);
   for (uint32_t i = 0; i < n; ++i)
-    for (uint32_t k = coarsest.first[i]; k < coarsest.first[i + 1]; ++k) {
-      const double weight = static_cast<double>(coarsest.weightAt(k));
-      matrix[i * n + coarsest.neighbour[k]] -= weight;
+    for (uint32_t k = graph.first[i]; k < graph.first[i + 1]; ++k) {
+      const auto weight = static_cast<double>(graph.weightAt(k));
+      matrix[i * n + graph.neighbour[k]] -= weight;
       matrix[i * n + i] += weight;
     }
   coarsest_ = symmetricEigen(std::move(matrix), n);
 }
 
-void LaplacianLevels::invertDiagonal(Level& level) {
-  level.inverse_diagonal.resize(level.graph.vertices);
-  for (uint32_t i = 0; i < level.graph.vertices; ++i) {
+void LaplacianLevels::Level::invertDiagonal() {
+  inverse_diagonal.resize(graph.vertices);
+  for (uint32_t i = 0; i < graph.vertices; ++i) {
     float sum = 0;
-    for (uint32_t k = level.graph.first[i]; k < level.graph.first[i + 1]; ++k)
-      sum += level.graph.weightAt(k);
-    level.inverse_diagonal[i] = sum > 0 ? 1 / sum : 0;
+    for (uint32_t k = graph.first[i]; k < graph.first[i + 1]; ++k) sum += graph.weightAt(k);
+    inverse_diagonal[i] = sum > 0 ? 1 / sum : 0;
   }
 }
 
+// Children of each parent: child[start[p]] up to child[start[p + 1] - 1].
+static void listChildren(const Array<uint32_t>& parent, uint32_t children, uint32_t parents,
+                         Array<uint32_t>& start, Array<uint32_t>& child) {
+  std::fill_n(start.data(), size_t{parents} + 1, 0u);
+  for (uint32_t v = 0; v < children; ++v) ++start[parent[v]];
+  std::partial_sum(start.data(), start.data() + start.size(), start.data());
+  for (uint32_t v = children; v-- > 0;) child[--start[parent[v]]] = v;
+}
+
 // Edges between the same two parents become one with the sum of their weights.
-std::unique_ptr<LaplacianLevels::Level> LaplacianLevels::coarser(const GraphView& fine,
-                                                                 const Array<uint32_t>& parent,
-                                                                 uint32_t vertices) {
+std::unique_ptr<LaplacianLevels::Level> LaplacianLevels::join(const GraphView& fine,
+                                                              const Array<uint32_t>& parent,
+                                                              uint32_t vertices) {
   auto level = std::make_unique<Level>(account_);
   Array<uint32_t> child(account_, fine.vertices), start(account_, size_t{vertices} + 1);
-  std::fill_n(start.data(), start.size(), 0u);
-  for (uint32_t v = 0; v < fine.vertices; ++v) ++start[parent[v]];
-  std::partial_sum(start.data(), start.data() + start.size(), start.data());
-  for (uint32_t v = fine.vertices; v-- > 0;) child[--start[parent[v]]] = v;
+  listChildren(parent, fine.vertices, vertices, start, child);
   level->first.resize(size_t{vertices} + 1);
   level->neighbour.resize(fine.first[fine.vertices] - fine.first[0]);
   level->weight.resize(level->neighbour.size());
-  Array<uint32_t> entry(account_, vertices);  // where the edge to each other parent is
+  Array<uint32_t> entry(account_, vertices);  // of the last edge to each parent
   std::fill_n(entry.data(), vertices, kNobody);
   uint32_t end = 0;
+  const auto add = [&](uint32_t p, uint32_t other, float weight) {
+    if (other == p) return;
+    if (entry[other] == kNobody || entry[other] < level->first[p]) {
+      entry[other] = end++;
+      level->neighbour[entry[other]] = other;
+      level->weight[entry[other]] = 0;
+    }
+    level->weight[entry[other]] += weight;
+  };
   for (uint32_t p = 0; p < vertices; ++p) {
     level->first[p] = end;
     for (uint32_t i = start[p]; i < start[p + 1]; ++i)
-      for (uint32_t k = fine.first[child[i]]; k < fine.first[child[i] + 1]; ++k) {
-        const uint32_t other = parent[fine.neighbour[k]];
-        if (other == p) continue;
-        if (entry[other] == kNobody || entry[other] < level->first[p]) {
-          entry[other] = end++;
-          level->neighbour[entry[other]] = other;
-          level->weight[entry[other]] = 0;
-        }
-        level->weight[entry[other]] += fine.weightAt(k);
-      }
+      for (uint32_t k = fine.first[child[i]]; k < fine.first[child[i] + 1]; ++k)
+        add(p, parent[fine.neighbour[k]], fine.weightAt(k));
   }
   level->first[vertices] = end;
   level->neighbour.resize(end);
@@ -147,11 +161,15 @@ std::unique_ptr<LaplacianLevels::Level> LaplacianLevels::coarser(const GraphView
   return level;
 }
 
-void LaplacianLevels::lowest(Four* x) const {
+std::array<double, 4> LaplacianLevels::lowest(Four* x) const {
   const size_t n = levels_.back()->graph.vertices;
-  for (size_t i = 0; i < n; ++i)
-    for (size_t k = 0; k < 4; ++k)
-      x[i][k] = k + 1 < n ? static_cast<float>(coarsest_.vectors[(k + 1) * n + i]) : 0;
+  std::array<double, 4> values{};
+  std::fill_n(x, n, Four{});
+  for (size_t k = 0; k < 4 && k + 1 < n; ++k) {
+    values[k] = coarsest_.values[k + 1];
+    for (size_t i = 0; i < n; ++i) x[i][k] = static_cast<float>(coarsest_.vectors[(k + 1) * n + i]);
+  }
+  return values;
 }
 
 // By all eigenvectors but the constant one.
@@ -167,8 +185,20 @@ void LaplacianLevels::solveCoarsest(const Four* b, Four* x) const {
   }
 }
 
+// What is missing of A x = b, summed up for the next level.
+void LaplacianLevels::restrictRest(const Level& fine, const Four* b, const Four* x, Level& next) {
+  const GraphView& graph = fine.graph;
+  std::fill_n(next.right.data(), next.graph.vertices, Four{});
+  for (uint32_t i = 0; i < graph.vertices; ++i) {
+    Four rest = b[i];
+    for (uint32_t k = graph.first[i]; k < graph.first[i + 1]; ++k)
+      rest -= graph.weightAt(k) * (x[i] - x[graph.neighbour[k]]);
+    next.right[fine.parent[i]] += rest;
+  }
+}
+
 // Gauss-Seidel forwards, a correction from the next level, Gauss-Seidel backwards. Corrections that
-// are constant on each parent are too short; made longer, they need fewer rounds.
+// are constant on each parent are too short; made longer, they save rounds.
 void LaplacianLevels::solveRoughly(size_t level, const Four* b, Four* x) {
   constexpr float kLonger = 1.6f;
   if (level + 1 == levels_.size()) return solveCoarsest(b, x);
@@ -177,13 +207,7 @@ void LaplacianLevels::solveRoughly(size_t level, const Four* b, Four* x) {
   const uint32_t n = fine.graph.vertices;
   std::fill_n(x, n, Four{});
   for (uint32_t i = 0; i < n; ++i) relax(fine.graph, fine.inverse_diagonal, i, b, x);
-  std::fill_n(next.right.data(), next.graph.vertices, Four{});
-  for (uint32_t i = 0; i < n; ++i) {
-    Four rest = b[i];
-    for (uint32_t k = fine.graph.first[i]; k < fine.graph.first[i + 1]; ++k)
-      rest -= fine.graph.weightAt(k) * (x[i] - x[fine.graph.neighbour[k]]);
-    next.right[fine.parent[i]] += rest;
-  }
+  restrictRest(fine, b, x, next);
   solveRoughly(level + 1, next.right.data(), next.solution.data());
   for (uint32_t i = 0; i < n; ++i) x[i] += kLonger * next.solution[fine.parent[i]];
   for (uint32_t i = n; i-- > 0;) relax(fine.graph, fine.inverse_diagonal, i, b, x);

@@ -4,6 +4,7 @@
 // connected, A x = 0 for constant vectors only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -41,23 +42,26 @@ class LaplacianLevels {
   // x of A x = b, roughly: linear in b, symmetric and positive definite.
   void solveRoughly(size_t level, const Four* b, Four* x);
   // On the coarsest level: the eigenvectors of the lowest eigenvalues above 0, as many of four as
-  // there are, and zeros.
-  void lowest(Four* x) const;
+  // there are, and zeros. Returns the eigenvalues.
+  std::array<double, 4> lowest(Four* x) const;
 
  private:
   struct Level {
     explicit Level(Account& account);
+    void invertDiagonal();
     GraphView graph;  // of the arrays here, but on the finest level
     Array<uint32_t> first, neighbour;
     Array<float> weight, inverse_diagonal;
     Array<uint32_t> parent;
-    Array<Four> right, solution;  // scratch, of the level after the finest on
+    Array<Four> right, solution;  // scratch, not of the finest level
   };
 
-  void invertDiagonal(Level& level);
-  std::unique_ptr<Level> coarser(const GraphView& fine, const Array<uint32_t>& parent,
-                                 uint32_t vertices);
+  void addCoarser();
+  std::unique_ptr<Level> join(const GraphView& fine, const Array<uint32_t>& parent,
+                              uint32_t vertices);
+  void prepareCoarsest();
   void solveCoarsest(const Four* b, Four* x) const;
+  static void restrictRest(const Level& fine, const Four* b, const Four* x, Level& next);
 
   Account& account_;
   std::vector<std::unique_ptr<Level>> levels_;

@@ -1,7 +1,6 @@
 #include "order_front.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace tetstream {
 
@@ -12,10 +11,11 @@ uint32_t highest(const uint32_t* v, const Array<uint32_t>& number) {
   return std::max({number[v[0]], number[v[1]], number[v[2]], number[v[3]]});
 }
 
-// A counting sort. `start` is scratch, one more than there are vertices.
-void sortCells(const Connectivity& mesh, const Array<uint32_t>& rank, Array<uint32_t>& start,
+// A counting sort.
+void sortCells(const Connectivity& mesh, const Array<uint32_t>& rank, Account& account,
                Array<uint32_t>& cell_at) {
-  std::fill_n(start.data(), size_t{mesh.vertices} + 1, 0u);
+  Array<uint32_t> start(account, size_t{mesh.vertices} + 1);
+  std::fill_n(start.data(), start.size(), 0u);
   for (uint32_t c = 0; c < mesh.cells; ++c) ++start[highest(mesh.cell(c), rank) + 1];
   for (uint32_t i = 0; i < mesh.vertices; ++i) start[i + 1] += start[i];
   for (uint32_t c = 0; c < mesh.cells; ++c) cell_at[start[highest(mesh.cell(c), rank)]++] = c;
@@ -34,17 +34,19 @@ void rankByUse(const Connectivity& mesh, StreamOrder& order) {
   }
 }
 
-// Walks through the order once. `last_of_rank` is scratch, one per vertex.
+// Walks through the order once.
 class Walk {
  public:
-  Walk(const Connectivity& mesh, Account& account, Array<uint32_t>& last_of_rank,
-       StreamOrder& order)
-      : mesh_(mesh), order_(order), last_of_rank_(last_of_rank), leave_(account, mesh.cells) {}
+  Walk(const Connectivity& mesh, Account& account, StreamOrder& order)
+      : mesh_(mesh),
+        order_(order),
+        last_of_rank_(account, order.used_vertices),
+        leave_(account, mesh.cells) {}
 
   void measure() {
     for (uint32_t v = 0; v < mesh_.vertices; ++v)
       if (order_.rank[v] != kUnused) last_of_rank_[order_.rank[v]] = order_.last_use[v];
-    std::memset(leave_.data(), 0, leave_.size() * sizeof(uint32_t));
+    std::fill_n(leave_.data(), leave_.size(), 0u);
     double sum = 0;
     for (uint32_t place = 0; place < mesh_.cells; ++place) sum += static_cast<double>(step(place));
     if (mesh_.cells) order_.mean_width = sum / mesh_.cells;
@@ -77,7 +79,7 @@ class Walk {
 
   const Connectivity& mesh_;
   StreamOrder& order_;
-  Array<uint32_t>& last_of_rank_;
+  Array<uint32_t> last_of_rank_;
   Array<uint32_t> leave_;  // how many cells leave the front at each place
   int64_t cells_ = 0, active_ = 0;
   uint32_t introduced_ = 0, oldest_ = 0;
@@ -85,14 +87,18 @@ class Walk {
 
 }  // namespace
 
-void makeStream(const Connectivity& mesh, Account& account, StreamOrder& order) {
+void followCells(const Connectivity& mesh, Account& account, StreamOrder& order) {
   static_cast<OrderFront&>(order) = {};
-  Array<uint32_t> scratch(account, size_t{mesh.vertices} + 1);
-  order.cell_at.resize(mesh.cells);
-  sortCells(mesh, order.rank, scratch, order.cell_at);
+  order.rank.resize(mesh.vertices);
   order.last_use.resize(mesh.vertices);
   rankByUse(mesh, order);
-  Walk(mesh, account, scratch, order).measure();
+  Walk(mesh, account, order).measure();
+}
+
+void makeStream(const Connectivity& mesh, Account& account, StreamOrder& order) {
+  order.cell_at.resize(mesh.cells);
+  sortCells(mesh, order.rank, account, order.cell_at);
+  followCells(mesh, account, order);
 }
 
 OrderFront frontOfRanks(const Connectivity& mesh, const Array<uint32_t>& rank, Account& account) {
@@ -100,7 +106,7 @@ OrderFront frontOfRanks(const Connectivity& mesh, const Array<uint32_t>& rank, A
   order.rank.resize(mesh.vertices);
   std::copy_n(rank.data(), mesh.vertices, order.rank.data());
   makeStream(mesh, account, order);
-  return order;
+  return static_cast<const OrderFront&>(order);
 }
 
 }  // namespace tetstream

@@ -26,10 +26,13 @@ struct StreamOrder : OrderFront {
 };
 
 // `order.rank` holds the ranks, each below the number of vertices, and takes those of the stream.
-// 8 bytes a cell and 12 a vertex, of which 4 a cell and 8 a vertex stay.
+// Takes 8 bytes a cell and 12 a vertex, of which 4 a cell and 8 a vertex stay.
 void makeStream(const Connectivity& mesh, Account& account, StreamOrder& order);
 
-// The figures alone, of the same stream.
+// The stream of cells that already have their places: `order.cell_at` holds them. Memory as above.
+void followCells(const Connectivity& mesh, Account& account, StreamOrder& order);
+
+// The figures alone, of the stream that comes of ranks.
 OrderFront frontOfRanks(const Connectivity& mesh, const Array<uint32_t>& rank, Account& account);
 
 }  // namespace tetstream

@@ -1,87 +1,201 @@
 #include "spectral.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
 #include "fiedler.h"
 #include "front_growth.h"
 #include "vertex_graph.h"
-#include "order_front.h"
-#include <algorithm>
-#include <numeric>
-#include <ctime>
-#include <cstdio>
-namespace tetstream {
-namespace {
-double now() { timespec t; clock_gettime(CLOCK_PROCESS_CPUTIME_ID,&t); return t.tv_sec+1e-9*t.tv_nsec; }
-}
-void orderSpectral(const Connectivity& mesh, Account& account,
-                   const std::function<void()>& tell, Array<uint32_t>& rank) {
-  double t0=now();
-  VertexGraph graph(account);
-  { CellLists lists(account); listCells(mesh, lists); buildGraph(mesh, lists, account, graph); }
-  double t1=now();
-  Array<uint32_t> member(account), start(account);
-  uint32_t count = findComponents(graph, account, member, start);
-  // renumber
-  Array<uint32_t> number(account, mesh.vertices), first(account, mesh.vertices+1), neighbour(account, graph.neighbour.size());
-  for (uint32_t c=0;c<count;++c) for (uint32_t i=start[c];i<start[c+1];++i) number[member[i]]=i-start[c];
-  uint32_t end=0;
-  for (uint32_t i=0;i<mesh.vertices;++i){ first[i]=end; for(const uint32_t*u=graph.begin(member[i]);u<graph.end(member[i]);++u) neighbour[end++]=number[*u]; }
-  first[mesh.vertices]=end;
-  double t2=now();
-  fprintf(stderr,"graph %.2f renumber %.2f components %u\n",t1-t0,t2-t1,count);
-  for (uint32_t c=0;c<count;++c){
-    GraphView view{start[c+1]-start[c], first.data()+start[c], neighbour.data(), nullptr};
-    if (view.vertices<2) { rank[member[start[c]]]=start[c]; continue; }
-    double t3=now();
-    Array<Four> x(account);
-    auto values=lowestVectors(view, account, tell, x);
-    double t4=now();
-    if (view.vertices>1000) fprintf(stderr,"component of %u: %.2f s values %g %g %g %g\n",view.vertices,t4-t3,values[0],values[1],values[2],values[3]);
 
-    const uint32_t n=view.vertices;
-    std::vector<uint32_t> order(n), best(n), seq(n), when(n); 
-    std::vector<float> guide(n), g(n);
-    FrontGrowth growth(view, account);
-    uint32_t widest_best=~0u;
-    auto layers=[&](const std::vector<uint32_t>& sequence){
-      // width at each step, then guide = sum of 1/width
-      std::vector<uint8_t> opened(n); uint32_t active=0, widest=0; double at=0;
-      for(uint32_t v: sequence){ if(!opened[v]){opened[v]=1;++active;}
-        for(uint32_t i=view.first[v];i<view.first[v+1];++i) if(!opened[view.neighbour[i]]){opened[view.neighbour[i]]=1;++active;}
-        widest=std::max(widest,active); at+=1.0/active; g[v]=at; --active; }
-      return widest; };
-    int nv = getenv("NV")?atoi(getenv("NV")):1;
-    for (int k=0;k<nv;++k) for(int sign=-1;sign<=1;sign+=2){
-      std::iota(order.begin(),order.end(),0u);
-      std::stable_sort(order.begin(),order.end(),[&](uint32_t a,uint32_t b){return sign*x[a][k]<sign*x[b][k];});
-      uint32_t plain=layers(order);
-      if(n>1000) fprintf(stderr," vector %d sign %d plain %u:",k,sign,plain);
-      if (plain<widest_best){widest_best=plain;best=order;}
-      for(float pull: {0.5f,1.0f,2.0f}){
-        for(uint32_t v=0;v<n;++v) guide[v]=g[v]*pull;
-        double t5=now();
-        uint32_t w=growth.run(guide.data(), seq.data());
-        if(n>1000) fprintf(stderr," %g: %u (%.2f s)",pull,w,now()-t5);
-        if(w<widest_best){widest_best=w;best=seq;}
-      }
-      if(n>1000) fprintf(stderr,"\n");
-      int iters=getenv("IT")?atoi(getenv("IT")):0;
-      seq=best;
-      for(int it=0;it<iters;++it){
-        layers(seq);
-        int blur=getenv("BLUR")?atoi(getenv("BLUR")):2;
-        for(int b=0;b<blur;++b){ for(uint32_t v=0;v<n;++v){ float s=g[v]; for(uint32_t i=view.first[v];i<view.first[v+1];++i) s+=g[view.neighbour[i]]; guide[v]=s/(1+view.first[v+1]-view.first[v]); } g.swap(guide);}        
-        uint32_t wb=~0u; std::vector<uint32_t> sb;
-        for(float pull: {0.5f,1.0f,2.0f}){
-          for(uint32_t v=0;v<n;++v) guide[v]=g[v]*pull;
-          uint32_t w=growth.run(guide.data(), seq.data());
-          if(n>1000) fprintf(stderr," %g: %u",pull,w);
-          if(w<wb){wb=w;sb=seq;}
-          if(w<widest_best){widest_best=w;best=seq;}
-        }
-        seq=sb;
-      if(n>1000) fprintf(stderr,"\n");
-      }
+namespace tetstream {
+
+namespace {
+
+// The mesh's graph, its vertices renumbered: component by component, in breadth-first order, so
+// that neighbours are near in memory. Neighbours are counted from the component's first vertex.
+struct Components {
+  Components(const Connectivity& mesh, Account& account, const std::function<void()>& tell);
+  uint32_t count() const { return static_cast<uint32_t>(start.size() - 1); }
+  GraphView graph(uint32_t component) const {
+    return {start[component + 1] - start[component], first.data() + start[component],
+            neighbour.data(), nullptr};
+  }
+  Array<uint32_t> member, start;  // as findComponents has them
+  Array<uint32_t> first, neighbour;
+};
+
+Components::Components(const Connectivity& mesh, Account& account,
+                       const std::function<void()>& tell)
+    : member(account), start(account), first(account), neighbour(account) {
+  VertexGraph graph(account);
+  {
+    CellLists lists(account);
+    listCells(mesh, lists);
+    tell();
+    buildGraph(mesh, lists, account, graph);
+  }
+  tell();
+  findComponents(graph, account, member, start);
+  Array<uint32_t> number(account, mesh.vertices);
+  for (uint32_t c = 0; c < count(); ++c)
+    for (uint32_t i = start[c]; i < start[c + 1]; ++i) number[member[i]] = i - start[c];
+  first.resize(size_t{mesh.vertices} + 1);
+  neighbour.resize(graph.neighbour.size());
+  uint32_t end = 0;
+  for (uint32_t i = 0; i < mesh.vertices; ++i) {
+    first[i] = end;
+    for (const uint32_t* u = graph.begin(member[i]); u < graph.end(member[i]); ++u)
+      neighbour[end++] = number[*u];
+  }
+  first[mesh.vertices] = end;
+}
+
+// The sequence in which the vertices of one component are closed, best of several.
+class ComponentOrder {
+ public:
+  ComponentOrder(const GraphView& graph, Account& account, const std::function<void()>& tell)
+      : graph_(graph),
+        account_(account),
+        tell_(tell),
+        vectors_(account),
+        keys_(account, graph.vertices),
+        layer_(account, graph.vertices),
+        guide_(account, graph.vertices),
+        trial_(account, graph.vertices),
+        best_(account, graph.vertices) {}
+
+  const Array<uint32_t>& find() {
+    lowestVectors(graph_, account_, tell_, vectors_);
+    const Four direction = findDirection();
+    FrontGrowth growth(graph_, account_);
+    for (const float sign : {1.0f, -1.0f}) {
+      sweep(sign * direction);
+      grow(growth);
+      smoothen(growth);
     }
-    for(uint32_t i=0;i<n;++i) rank[member[start[c]+best[i]]]=start[c]+n-1-i;
+    return best_;
+  }
+
+ private:
+  uint32_t sweep(Four direction);
+  Four findDirection();
+  void keep(uint32_t width);
+  uint32_t grow(FrontGrowth& growth);
+  void smoothen(FrontGrowth& growth);
+  void blur();
+
+  const GraphView graph_;
+  Account& account_;
+  const std::function<void()>& tell_;
+  Array<Four> vectors_;
+  Array<uint64_t> keys_;
+  Array<float> layer_, guide_;
+  Array<uint32_t> trial_, best_;
+  uint32_t least_ = 0xffffffffu;  // width of `best_`
+};
+
+// A number that is ordered as the values are.
+uint32_t ordered(float value) {
+  uint32_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits >> 31 ? ~bits : bits | 1u << 31;
+}
+
+// The trial becomes the sweep along a combination of the eigenvectors. Returns its width.
+uint32_t ComponentOrder::sweep(Four direction) {
+  tell_();
+  for (uint32_t v = 0; v < graph_.vertices; ++v) {
+    const Four part = direction * vectors_[v];
+    keys_[v] = uint64_t{ordered(part[0] + part[1] + part[2] + part[3])} << 32 | v;
+  }
+  std::sort(keys_.data(), keys_.data() + graph_.vertices);
+  for (uint32_t i = 0; i < graph_.vertices; ++i) trial_[i] = static_cast<uint32_t>(keys_[i]);
+  return findLayers(graph_, trial_.data(), account_, layer_.data());
+}
+
+// Where eigenvalues are near each other, as in compact domains, any combination of their vectors is
+// as good an eigenvector, and the fronts differ. From the best single vector, steps of a pattern
+// search that shrink.
+Four ComponentOrder::findDirection() {
+  Four best = {1, 0, 0, 0};
+  uint32_t least = sweep(best);
+  const auto tryOne = [&](Four direction) {
+    const uint32_t width = sweep(direction);
+    if (width >= least) return false;
+    least = width;
+    best = direction;
+    return true;
+  };
+  for (size_t k = 1; k < 4; ++k) {
+    Four single = {};
+    single[k] = 1;
+    tryOne(single);
+  }
+  for (float step = 1; step > 0.1f; step /= 2) {
+    for (size_t k = 0; k < 4; ++k)
+      for (const float sign : {1.0f, -1.0f}) {
+        Four direction = best;
+        direction[k] += sign * step;
+        if (tryOne(direction)) break;
+      }
+  }
+  return best;
+}
+
+void ComponentOrder::keep(uint32_t width) {
+  if (width >= least_) return;
+  least_ = width;
+  std::copy_n(trial_.data(), graph_.vertices, best_.data());
+}
+
+// Lets the front grow by the layers. The less they pull, the narrower it is, if only a little, and
+// the longer some vertices stay.
+uint32_t ComponentOrder::grow(FrontGrowth& growth) {
+  tell_();
+  const uint32_t width = growth.run(layer_.data(), trial_.data());
+  keep(width);
+  return width;
+}
+
+// Takes the layers of what was found, smoothed, as the next guide.
+void ComponentOrder::smoothen(FrontGrowth& growth) {
+  constexpr int kRounds = 4, kBlurs = 10;
+  for (int round = 0; round < kRounds; ++round) {
+    findLayers(graph_, trial_.data(), account_, layer_.data());
+    for (int i = 0; i < kBlurs; ++i) blur();
+    grow(growth);
   }
 }
+
+void ComponentOrder::blur() {
+  for (uint32_t v = 0; v < graph_.vertices; ++v) {
+    float sum = layer_[v];
+    for (uint32_t i = graph_.first[v]; i < graph_.first[v + 1]; ++i)
+      sum += layer_[graph_.neighbour[i]];
+    guide_[v] = sum / static_cast<float>(graph_.first[v + 1] - graph_.first[v] + 1);
+  }
+  layer_.swap(guide_);
 }
+
+}  // namespace
+
+void orderSpectral(const Connectivity& mesh, Account& account, const std::function<void()>& tell,
+                   Array<uint32_t>& rank) {
+  rank.resize(mesh.vertices);
+  const Components components(mesh, account, tell);
+  for (uint32_t c = 0; c < components.count(); ++c) {
+    const uint32_t start = components.start[c], end = components.start[c + 1];
+    if (end - start == 1) {
+      rank[components.member[start]] = start;
+      continue;
+    }
+    ComponentOrder order(components.graph(c), account, tell);
+    const Array<uint32_t>& sequence = order.find();
+    for (uint32_t i = 0; i < end - start; ++i)
+      rank[components.member[start + sequence[i]]] = end - 1 - i;
+  }
+}
+
+}  // namespace tetstream

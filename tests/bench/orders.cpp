@@ -1,5 +1,6 @@
 // orders MESH...: what front each order of a mesh's vertices gives, one Markdown table per mesh.
-// Seconds are those of the processor, the order alone. Principal directions are the eigenvectors of
+// Seconds are those of the processor, MB the memory beside the mesh, both of the ranks alone (none:
+// of the measure). Principal directions are the eigenvectors of
 // the covariance of the vertices, the longest one first.
 #include <array>
 #include <cstdio>
@@ -59,21 +60,32 @@ void read(const char* path, Mesh& mesh) {
   readPlaces(*input.indexed, mesh);
 }
 
-void print(const char* name, const Mesh& mesh, const Array<uint32_t>& rank, double seconds) {
-  Account account;
-  const OrderFront front = frontOfRanks(mesh.connectivity, rank, account);
-  std::printf("| %s | %lld | %lld | %.0f | %lld | %.2f |\n", name,
+void print(const char* name, const OrderFront& front, double seconds, const Account& account) {
+  std::printf("| %s | %lld | %lld | %.0f | %lld | %.2f | %.0f |\n", name,
               static_cast<long long>(front.front_width), static_cast<long long>(front.front_span),
-              front.mean_width, static_cast<long long>(front.front_cells), seconds);
+              front.mean_width, static_cast<long long>(front.front_cells), seconds,
+              static_cast<double>(account.peak()) / (1 << 20));
   std::fflush(stdout);
 }
 
 template <class Order>
 void time(const char* name, const Mesh& mesh, Order order) {
-  Account account;
+  Account account, of_measure;
   Array<uint32_t> rank(account, mesh.connectivity.vertices);
   const double seconds = nsOf([&] { order(account, rank); }) * 1e-9;
-  print(name, mesh, rank, seconds);
+  print(name, frontOfRanks(mesh.connectivity, rank, of_measure), seconds, account);
+}
+
+// Cells as they stand in the file.
+void timeFileOrder(const Mesh& mesh) {
+  Account account;
+  StreamOrder order(account);
+  const double seconds = nsOf([&] {
+    order.cell_at.resize(mesh.connectivity.cells);
+    std::iota(order.cell_at.data(), order.cell_at.data() + order.cell_at.size(), 0u);
+    followCells(mesh.connectivity, account, order);
+  });
+  print("none", order, seconds * 1e-9, account);
 }
 
 template <class Key>
@@ -88,7 +100,8 @@ void sortBy(const std::vector<Key>& key, Array<uint32_t>& rank) {
 Eigen covariance(const Mesh& mesh) {
   const size_t count = mesh.connectivity.vertices;
   double mean[3] = {}, sum[9] = {};
-  for (size_t i = 0; i < 3 * count; ++i) mean[i % 3] += mesh.positions[i] / static_cast<double>(count);
+  for (size_t i = 0; i < 3 * count; ++i)
+    mean[i % 3] += mesh.positions[i] / static_cast<double>(count);
   for (size_t v = 0; v < count; ++v)
     for (size_t i = 0; i < 9; ++i)
       sum[i] += (mesh.positions[3 * v + i / 3] - mean[i / 3]) *
@@ -155,25 +168,29 @@ void compareOrders(const char* path) {
   const Connectivity& in = mesh.connectivity;
   const auto tell = [] {};
   std::printf("%s: %u cells, %u vertices\n\n", path, in.cells, in.vertices);
-  std::printf("| order | width | span | mean width | front cells | s |\n");
-  std::printf("| --- | --- | --- | --- | --- | --- |\n");
+  std::printf("| order | width | span | mean width | front cells | s | MB |\n");
+  std::printf("| --- | --- | --- | --- | --- | --- | --- |\n");
+  timeFileOrder(mesh);
   for (int axis = 0; axis < 3; ++axis)
-    time(axis == 0 ? "x" : axis == 1 ? "y" : "z", mesh, [&](Account& account, Array<uint32_t>& rank) {
-      rankAlong(in, axis, account, rank);
-    });
+    time(axis == 0   ? "x"
+         : axis == 1 ? "y"
+                     : "z",
+         mesh,
+         [&](Account& account, Array<uint32_t>& rank) { rankAlong(in, axis, account, rank); });
   const Eigen directions = covariance(mesh);
   for (size_t i = 3; i-- > 0;)
-    time(i == 2 ? "principal 1" : i == 1 ? "principal 2" : "principal 3", mesh,
-         [&](Account&, Array<uint32_t>& rank) {
+    time(i == 2   ? "principal 1"
+         : i == 1 ? "principal 2"
+                  : "principal 3",
+         mesh, [&](Account&, Array<uint32_t>& rank) {
            sweepAlong(mesh, &directions.vectors[3 * i], rank);
          });
   time("hilbert", mesh, [&](Account&, Array<uint32_t>& rank) { orderHilbert(mesh, rank); });
   time("breadth-first", mesh, [&](Account& account, Array<uint32_t>& rank) {
     orderBreadthFirst(in, account, tell, rank);
   });
-  time("spectral", mesh, [&](Account& account, Array<uint32_t>& rank) {
-    orderSpectral(in, account, tell, rank);
-  });
+  time("spectral", mesh,
+       [&](Account& account, Array<uint32_t>& rank) { orderSpectral(in, account, tell, rank); });
   std::printf("\n");
 }
 
