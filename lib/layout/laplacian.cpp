@@ -27,7 +27,7 @@ uint32_t heaviest(const GraphView& graph, uint32_t v, const Array<uint32_t>& par
 }
 
 // Pairs along heavy edges; who is left over joins the pair of its heaviest edge. So there are at
-// most half as many parents as vertices. Returns how many.
+// most half as many parents as vertices, if there are two. Returns how many.
 uint32_t pairUp(const GraphView& graph, Array<uint32_t>& parent) {
   std::fill_n(parent.data(), graph.vertices, kNobody);
   uint32_t parents = 0;
@@ -37,8 +37,11 @@ uint32_t pairUp(const GraphView& graph, Array<uint32_t>& parent) {
     if (entry == kNobody) continue;
     parent[v] = parent[graph.neighbour[entry]] = parents++;
   }
-  for (uint32_t v = 0; v < graph.vertices; ++v)
-    if (parent[v] == kNobody) parent[v] = parent[graph.neighbour[heaviest(graph, v, parent, true)]];
+  for (uint32_t v = 0; v < graph.vertices; ++v) {
+    if (parent[v] != kNobody) continue;
+    const uint32_t entry = heaviest(graph, v, parent, true);
+    parent[v] = entry == kNobody ? parents++ : parent[graph.neighbour[entry]];
+  }
   return parents;
 }
 
