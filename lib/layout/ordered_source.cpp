@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "front_meter.h"
+#include "graph_order.h"
 #include "id_hash.h"
 #include "status.h"
 #include "vertex_keys.h"
@@ -84,7 +85,7 @@ class OrderedSource::Reading final : public Source {
 };
 
 OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
-    : source_(source), schema_(source.schema()), account_() {
+    : source_(source), schema_(source.schema()), graph_rank_(account_) {
   check(schema_, options);
   Order order = orderOf(options.order);
   if (order == Order::kAuto) order = Order::kSpatial;
@@ -96,22 +97,43 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
   };
   const RankedVertices::Budget budget = {memory, account_, options.temp_dir};
   {
-    const Survey survey(source, account_, part(0, 0.2));
-    vertices_ = std::make_unique<RankedVertices>(
-        source, survey, keyFor(order, survey, options.axis), budget, schema_, part(0.2, 0.4));
+    const bool by_graph = order == Order::kBreadthFirst || order == Order::kSpectral;
+    const Survey survey(source, account_, part(0, by_graph ? 0.1 : 0.2));
+    const VertexKey key =
+        by_graph ? graphKey(order, memory, part(0.1, 0.6)) : placeKey(order, survey, options.axis);
+    vertices_ = std::make_unique<RankedVertices>(source, survey, key, budget, schema_,
+                                                 part(by_graph ? 0.6 : 0.2, by_graph ? 0.7 : 0.4));
+    graph_rank_.resize(0);
   }
   unused_ = schema_.vertex_count - static_cast<int64_t>(vertices_->count());
   schema_.vertex_count = static_cast<int64_t>(vertices_->count());
   cells_ = std::make_unique<OrderedCells>(source, *vertices_, order != Order::kNone, budget,
-                                          part(0.4, 0.85));
+                                          part(0.7, 0.9));
   disk_ = std::max(vertices_->mostDiskBytes(), vertices_->diskBytes() + cells_->mostDiskBytes());
-  measureFront(part(0.85, 1));
+  measureFront(part(0.9, 1));
   reading_ = std::make_unique<Reading>(*this, true);
 }
 
 OrderedSource::~OrderedSource() = default;
 
-VertexKey OrderedSource::keyFor(Order order, const Survey& survey, const std::string& axis) {
+VertexKey OrderedSource::graphKey(Order order, size_t memory_bytes, const Tell& tell) {
+  const auto points = static_cast<uint64_t>(source_.schema().vertex_count);
+  const auto cells = static_cast<uint64_t>(source_.schema().cell_count);
+  const uint64_t needed = graphOrderBytes(order, points, cells);
+  if (needed > memory_bytes)
+    fail(Status::kNoMemory,
+         "order \"%s\" takes about %llu MB for this mesh, and %llu are allowed: give it more "
+         "memory, or another order",
+         nameOf(order), static_cast<unsigned long long>(needed >> 20),
+         static_cast<unsigned long long>(memory_bytes >> 20));
+  chosen_ = nameOf(order);
+  rankByGraph(source_, order, account_, tell, graph_rank_);
+  return [this](uint64_t point, const double[3]) {
+    return uint64_t{graph_rank_[static_cast<size_t>(point)]};
+  };
+}
+
+VertexKey OrderedSource::placeKey(Order order, const Survey& survey, const std::string& axis) {
   chosen_ = nameOf(order);
   BoxGrid grid(survey.low(), survey.high());
   switch (order) {

@@ -44,12 +44,14 @@ class OrderedSource : public Source {
  private:
   class Reading;
 
-  VertexKey keyFor(Order order, const Survey& survey, const std::string& axis);
+  VertexKey placeKey(Order order, const Survey& survey, const std::string& axis);
+  VertexKey graphKey(Order order, size_t memory_bytes, const Tell& tell);
   void measureFront(const Tell& tell);
 
   IndexedSource& source_;
   Schema schema_;
   Account account_;
+  Array<uint32_t> graph_rank_;  // of points, while vertices are sorted by it
   std::unique_ptr<RankedVertices> vertices_;
   std::unique_ptr<OrderedCells> cells_;
   std::unique_ptr<Reading> reading_;

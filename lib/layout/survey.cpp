@@ -6,6 +6,7 @@
 
 #include "mix.h"
 #include "status.h"
+#include "symmetric_eigen.h"
 
 namespace tetstream {
 
@@ -78,34 +79,17 @@ void Survey::takePoint(uint64_t point, const double place[3]) {
   ++next_sampled_;
 }
 
-// The covariance's eigenvectors, by Jacobi's rotations.
-void Survey::findPrincipalDirections(double v[3][3]) const {
+// The covariance's eigenvectors.
+void Survey::findPrincipalDirections(double directions[3][3]) const {
   const auto n = static_cast<double>(std::max<uint64_t>(used_count_, 1));
-  double a[3][3];
-  for (int i = 0, at = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j, ++at)
-      a[i][j] = a[j][i] = products_[at] / n - sums_[i] / n * (sums_[j] / n);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) v[i][j] = i == j;
-  for (int round = 0; round < 30; ++round) {
-    const int p = round % 3 == 2 ? 1 : 0, q = round % 3 == 0 ? 1 : 2;
-    if (a[p][q] == 0 || !std::isfinite(a[p][q])) continue;
-    const double angle = 0.5 * std::atan2(2 * a[p][q], a[q][q] - a[p][p]);
-    const double c = std::cos(angle), s = std::sin(angle);
-    for (int k = 0; k < 3; ++k) {  // columns, then rows
-      const double x = a[k][p], y = a[k][q];
-      a[k][p] = c * x - s * y;
-      a[k][q] = s * x + c * y;
+  std::vector<double> covariance(9);
+  for (size_t i = 0, at = 0; i < 3; ++i)
+    for (size_t j = 0; j <= i; ++j, ++at) {
+      const double c = products_[at] / n - sums_[i] / n * (sums_[j] / n);
+      covariance[3 * i + j] = covariance[3 * j + i] = std::isfinite(c) ? c : 0;
     }
-    for (int k = 0; k < 3; ++k) {
-      const double x = a[p][k], y = a[q][k];
-      a[p][k] = c * x - s * y;
-      a[q][k] = s * x + c * y;
-      const double u = v[p][k], w = v[q][k];
-      v[p][k] = c * u - s * w;
-      v[q][k] = s * u + c * w;
-    }
-  }
+  const Eigen eigen = symmetricEigen(covariance, 3);
+  for (size_t i = 0; i < 9; ++i) directions[i / 3][i % 3] = eigen.vectors[i];
 }
 
 // Of the sampled cells, the most that a plane across the direction cuts.
