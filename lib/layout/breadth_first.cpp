@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "order_front.h"
-#include "vertex_graph.h"
+#include "traversal.h"
 
 namespace tetstream {
 
@@ -15,75 +14,6 @@ namespace {
 constexpr size_t kStarts = 48;  // looked at; a search each
 constexpr size_t kTries = 4;    // of them followed to the end; seven searches each
 constexpr uint32_t kFar = std::numeric_limits<uint32_t>::max();
-
-struct Meeting {
-  explicit Meeting(Account& account) : lists(account), graph(account) {}
-  CellLists lists;
-  VertexGraph graph;
-};
-
-// The traversal itself, from one start after the other.
-class Traversal {
- public:
-  Traversal(const Connectivity& mesh, const Meeting& meet, Account& account, Array<uint32_t>& rank)
-      : mesh_(mesh),
-        meet_(meet),
-        queue_(account, mesh.vertices),
-        met_(account, mesh.vertices),
-        completes_(account, mesh.vertices),
-        taken_corners_(account, mesh.cells),
-        rank_(rank) {
-    std::fill_n(rank.data(), mesh.vertices, kUnused);
-    std::fill_n(met_.data(), mesh.vertices, 0u);
-    std::fill_n(completes_.data(), mesh.vertices, uint8_t{0});
-    std::fill_n(taken_corners_.data(), mesh.cells, uint8_t{0});
-  }
-
-  // Ranks the whole component of the start.
-  void from(uint32_t start) {
-    if (rank_[start] != kUnused) return;
-    uint32_t oldest = taken_;
-    take(start);
-    for (; oldest < taken_; ++oldest)
-      for (uint32_t next; (next = best(queue_[oldest])) != kUnused;) take(next);
-  }
-
- private:
-  uint32_t best(uint32_t vertex) const {
-    uint32_t found = kUnused;
-    uint64_t most = 0;
-    for (const uint32_t* u = meet_.graph.begin(vertex); u < meet_.graph.end(vertex); ++u) {
-      if (rank_[*u] != kUnused) continue;
-      const uint64_t key = uint64_t{completes_[*u]} << 32 | met_[*u];
-      if (found != kUnused && key <= most) continue;
-      found = *u;
-      most = key;
-    }
-    return found;
-  }
-
-  void take(uint32_t vertex) {
-    rank_[vertex] = taken_;
-    queue_[taken_++] = vertex;
-    for (const uint32_t* u = meet_.graph.begin(vertex); u < meet_.graph.end(vertex); ++u)
-      if (rank_[*u] == kUnused && met_[*u] == 0) met_[*u] = ++meetings_;
-    const CellLists& lists = meet_.lists;
-    for (uint32_t i = lists.first[vertex]; i < lists.first[vertex + 1]; ++i) {
-      if (++taken_corners_[lists.cell[i]] != 3) continue;
-      for (const uint32_t *v = mesh_.cell(lists.cell[i]), *end = v + 4; v < end; ++v)
-        if (rank_[*v] == kUnused) completes_[*v] = 1;
-    }
-  }
-
-  const Connectivity& mesh_;
-  const Meeting& meet_;
-  Array<uint32_t> queue_;
-  Array<uint32_t> met_;           // when a neighbour was first taken, from 1; 0: not yet
-  Array<uint8_t> completes_;      // whether it is the last vertex of some cell
-  Array<uint8_t> taken_corners_;  // of each cell
-  Array<uint32_t>& rank_;
-  uint32_t taken_ = 0, meetings_ = 0;
-};
 
 // Searches of single components, to find good starts.
 class Search {
@@ -191,9 +121,7 @@ void findStarts(const VertexGraph& graph, const Array<uint8_t>& boundary, Accoun
 void orderBreadthFirst(const Connectivity& mesh, Account& account,
                        const std::function<void()>& tell, Array<uint32_t>& rank) {
   Meeting meet(account);
-  listCells(mesh, meet.lists);
-  tell();
-  buildGraph(mesh, meet.lists, account, meet.graph);
+  meet.find(mesh, account);
   Array<uint8_t> boundary(account);
   markBoundary(mesh, meet.lists, boundary);
   tell();

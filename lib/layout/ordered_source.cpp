@@ -7,6 +7,7 @@
 #include "graph_order.h"
 #include "id_hash.h"
 #include "status.h"
+#include "swept_mesh.h"
 #include "vertex_keys.h"
 
 namespace tetstream {
@@ -36,7 +37,11 @@ uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
   const uint64_t point_rows = points * (8 + values), cell_rows = cells * (17 + data);
   const uint64_t point_runs = points * (16 + values), cell_runs = cells * (24 + data);
   const auto onDisk = [memory](uint64_t runs) { return runs * 3 > memory ? runs : 0; };
-  return std::max(onDisk(point_runs) + point_rows, point_rows + onDisk(cell_runs) + cell_rows);
+  const uint64_t once =
+      std::max(onDisk(point_runs) + point_rows, point_rows + onDisk(cell_runs) + cell_rows);
+  const bool by_pieces = orderOf(options.order) == Order::kBreadthFirst &&
+                         graphOrderBytes(Order::kBreadthFirst, points, cells) > memory;
+  return by_pieces ? 2 * once + points * (values + 32) + cells * (32 + data) : once;
 }
 
 // One reading of the stream.
@@ -85,7 +90,7 @@ class OrderedSource::Reading final : public Source {
 };
 
 OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
-    : source_(source), schema_(source.schema()), graph_rank_(account_) {
+    : source_(&source), schema_(source.schema()), graph_rank_(account_) {
   check(schema_, options);
   Order order = orderOf(options.order);
   if (order == Order::kAuto) order = Order::kSpatial;
@@ -95,42 +100,52 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
       if (options.tell) options.tell(begin + share * (end - begin));
     };
   };
+  const bool by_graph = order == Order::kBreadthFirst || order == Order::kSpectral;
+  VertexKey key = by_graph ? graphKey(order, options, memory, part(0, 0.5)) : nullptr;
   const RankedVertices::Budget budget = {memory, account_, options.temp_dir};
   {
-    const bool by_graph = order == Order::kBreadthFirst || order == Order::kSpectral;
-    const Survey survey(source, account_, part(0, by_graph ? 0.1 : 0.2));
-    const VertexKey key =
-        by_graph ? graphKey(order, memory, part(0.1, 0.6)) : placeKey(order, survey, options.axis);
-    vertices_ = std::make_unique<RankedVertices>(source, survey, key, budget, schema_,
-                                                 part(by_graph ? 0.6 : 0.2, by_graph ? 0.7 : 0.4));
+    const Survey survey(*source_, account_, part(0.5, 0.6));
+    if (!key) key = placeKey(order, survey, options.axis);
+    vertices_ =
+        std::make_unique<RankedVertices>(*source_, survey, key, budget, schema_, part(0.6, 0.7));
     graph_rank_.resize(0);
   }
-  unused_ = schema_.vertex_count - static_cast<int64_t>(vertices_->count());
+  unused_ += schema_.vertex_count - static_cast<int64_t>(vertices_->count());
   schema_.vertex_count = static_cast<int64_t>(vertices_->count());
-  cells_ = std::make_unique<OrderedCells>(source, *vertices_, order != Order::kNone, budget,
+  cells_ = std::make_unique<OrderedCells>(*source_, *vertices_, order != Order::kNone, budget,
                                           part(0.7, 0.9));
-  disk_ = std::max(vertices_->mostDiskBytes(), vertices_->diskBytes() + cells_->mostDiskBytes());
+  disk_ += std::max(vertices_->mostDiskBytes(), vertices_->diskBytes() + cells_->mostDiskBytes());
   measureFront(part(0.9, 1));
   reading_ = std::make_unique<Reading>(*this, true);
 }
 
 OrderedSource::~OrderedSource() = default;
 
-VertexKey OrderedSource::graphKey(Order order, size_t memory_bytes, const Tell& tell) {
-  const auto points = static_cast<uint64_t>(source_.schema().vertex_count);
-  const auto cells = static_cast<uint64_t>(source_.schema().cell_count);
-  const uint64_t needed = graphOrderBytes(order, points, cells);
-  if (needed > memory_bytes)
+// A mesh that is too large is ranked piece by piece, where that can be done.
+VertexKey OrderedSource::graphKey(Order order, const OrderOptions& options, size_t memory_bytes,
+                                  const Tell& tell) {
+  const auto points = static_cast<uint64_t>(schema_.vertex_count);
+  const uint64_t needed = graphOrderBytes(order, points, static_cast<uint64_t>(schema_.cell_count));
+  chosen_ = nameOf(order);
+  if (needed <= memory_bytes) {
+    rankByGraph(*source_, order, account_, tell, graph_rank_);
+    return [this](uint64_t point, const double[3]) {
+      return uint64_t{graph_rank_[static_cast<size_t>(point)]};
+    };
+  }
+  if (order != Order::kBreadthFirst)
     fail(Status::kNoMemory,
          "order \"%s\" takes about %llu MB for this mesh, and %llu are allowed: give it more "
          "memory, or another order",
          nameOf(order), static_cast<unsigned long long>(needed >> 20),
          static_cast<unsigned long long>(memory_bytes >> 20));
-  chosen_ = nameOf(order);
-  rankByGraph(source_, order, account_, tell, graph_rank_);
-  return [this](uint64_t point, const double[3]) {
-    return uint64_t{graph_rank_[static_cast<size_t>(point)]};
-  };
+  chosen_ += ", piece by piece";
+  swept_ = std::make_unique<SweptMesh>(*source_, options, memory_bytes, account_, tell);
+  source_ = &swept_->mesh();
+  unused_ = swept_->unusedVertices();
+  disk_ = swept_->diskBytes();
+  schema_ = source_->schema();
+  return swept_->key();
 }
 
 VertexKey OrderedSource::placeKey(Order order, const Survey& survey, const std::string& axis) {

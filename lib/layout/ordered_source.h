@@ -22,6 +22,8 @@ constexpr size_t kDefaultLayoutMemory = size_t{512} << 20;
 // Bytes of temporary files at once, about and at most, that ordering such a mesh from a file takes.
 uint64_t plannedDisk(const Schema& schema, const OrderOptions& options);
 
+class SweptMesh;
+
 // Orders the mesh when it is made, in bounded memory: points are sorted by their keys and get their
 // ranks, cells by their highest, both outside of memory where they do not fit; then, from the last
 // cell to the first, the last use of each vertex is found. In passes over the cells: two readings
@@ -45,13 +47,15 @@ class OrderedSource : public Source {
   class Reading;
 
   VertexKey placeKey(Order order, const Survey& survey, const std::string& axis);
-  VertexKey graphKey(Order order, size_t memory_bytes, const Tell& tell);
+  VertexKey graphKey(Order order, const OrderOptions& options, size_t memory_bytes,
+                     const Tell& tell);
   void measureFront(const Tell& tell);
 
-  IndexedSource& source_;
+  IndexedSource* source_;
   Schema schema_;
   Account account_;
-  Array<uint32_t> graph_rank_;  // of points, while vertices are sorted by it
+  std::unique_ptr<SweptMesh> swept_;  // in place of a source too large for its graph
+  Array<uint32_t> graph_rank_;        // of points, while vertices are sorted by it
   std::unique_ptr<RankedVertices> vertices_;
   std::unique_ptr<OrderedCells> cells_;
   std::unique_ptr<Reading> reading_;

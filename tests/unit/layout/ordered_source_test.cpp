@@ -302,6 +302,43 @@ TEST(OrderedSource, SweepsAlongATiltedDirection) {
     EXPECT_GT(ordered(mesh, axis, false).front.width, result.front.width + 6) << axis;
 }
 
+TEST(OrderedSource, RanksByTheGraph) {
+  const TestMesh mesh = withColumns(shuffled(fullGrid(4, 5, 9, 0.1), 3));
+  const int64_t swept = ordered(mesh, inOrder("spatial"), true).front.width;
+  for (const char* order : {"breadth-first", "spectral"})
+    for (bool spooled : {false, true}) {
+      SCOPED_TRACE(order);
+      const Ordered result = ordered(mesh, inOrder(order), spooled);
+      expectSound(mesh, result);
+      EXPECT_EQ(result.chosen, order);
+      EXPECT_LE(result.front.width, swept + swept / 2);
+      if (order[0] == 'b') {
+        EXPECT_LE(result.front.span, result.front.width * 3 / 2);
+      }
+    }
+  try {
+    ordered(mesh, inOrder("spectral", 1000), false);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::kNoMemory);
+  }
+}
+
+// Pieces of 4096 cells; several parts, points that are not used, the same whatever the source.
+TEST(OrderedSource, RanksBreadthFirstPieceByPiece) {
+  const int n = slowRun() ? 8 : 14;
+  TestMesh mesh = withColumns(shuffled(fullGrid(n, n, 2 * n, 0.1), 3));
+  const Ordered result = ordered(mesh, inOrder("breadth-first", 1), true);
+  EXPECT_EQ(result.chosen, "breadth-first, piece by piece");
+  expectSound(mesh, result);
+  const Ordered swept = ordered(mesh, inOrder("spatial"), true);
+  EXPECT_LE(result.front.width, 2 * swept.front.width);
+  EXPECT_TRUE(ordered(mesh, inOrder("breadth-first", 1), false).out.allBytes() ==
+              result.out.allBytes());
+  expectSound(withColumns(apart(3)),
+              ordered(withColumns(apart(3)), inOrder("breadth-first", 1), true));
+}
+
 // Cells as they are in the mesh.
 TEST(OrderedSource, LeavesCellsWhereTheyAre) {
   const TestMesh mesh = withColumns(shuffled(fullGrid(3, 3, 3), 2));
