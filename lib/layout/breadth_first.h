@@ -11,7 +11,7 @@ namespace tetstream {
 // vertex of the queue whose neighbours are not all taken, (2) preferably one that completes a cell,
 // (3) the one that was met last. Starts at vertices far from each other, on the boundary where
 // there are such, and keeps the start with the least span. Components come one after the other.
-// `tell` is called now and then and may throw. About 50 bytes a cell and 100 a vertex.
+// `tell` is called now and then and may throw. About 25 bytes a cell and 100 a vertex.
 void orderBreadthFirst(const Connectivity& mesh, Account& account,
                        const std::function<void()>& tell, Array<uint32_t>& rank);
 

@@ -16,7 +16,7 @@
 namespace tetstream {
 
 // The first four vectors above the constant one, of length 1, orthogonal, by rising eigenvalue; the
-// first is Fiedler's. Zeros where the graph has not as many. Returns the eigenvalues. About 300
+// first is Fiedler's. Zeros where the graph has not as many. Returns the eigenvalues. About 200
 // bytes a vertex.
 std::array<double, 4> lowestVectors(const GraphView& graph, Account& account,
                                     const std::function<void()>& tell, Array<Four>& x);

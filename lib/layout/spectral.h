@@ -11,7 +11,7 @@ namespace tetstream {
 // Ranks vertices along the lowest eigenvectors of their graph's Laplacian (Vo et al. 2007, section
 // 3.2, with unit weights): along the combination of them with the narrowest front, vertices of
 // about the same value so that the front grows least. Components come one after the other; places
-// in space play no part. `tell` is called now and then and may throw. About 400 bytes a vertex,
+// in space play no part. `tell` is called now and then and may throw. About 270 bytes a vertex,
 // 16 a cell for a while.
 void orderSpectral(const Connectivity& mesh, Account& account, const std::function<void()>& tell,
                    Array<uint32_t>& rank);

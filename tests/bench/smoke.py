@@ -94,6 +94,17 @@ def check_structures(build):
     assert len(stars) == 4 and all(float(row[4]) > 0 and float(row[6]) > 16 for row in stars), rows
 
 
+def check_orders(build):
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        fluid(build, folder)
+        words = [harness.bench_path(build, "orders"), os.path.join(folder, "fluid.vtu")]
+        done = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True)
+    rows = [line[2:-2].split(" | ") for line in done.stdout.splitlines() if line[:1] == "|"]
+    width = {row[0]: int(row[1]) for row in rows[2:]}
+    assert len(width) == 10 and width["spectral"] == min(width.values()), rows
+    assert all(int(row[2]) >= int(row[1]) >= float(row[3]) > 4 for row in rows[2:]), rows
+
+
 def check_windows(build, mesh):
     rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000")
     assert [row["window"] for row in rows] == ["in core", "4"] * 2, rows
@@ -136,6 +147,7 @@ def main():
     check_memory_limit(build)
     check_slope(build)
     check_structures(build)
+    check_orders(build)
     if not os.path.isdir(os.environ.get("TETSTREAM_JUDGE", "")):
         return print("not run: what asks the judge")
     with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
