@@ -59,6 +59,7 @@ class Parser {
   void addIn(CLI::App* command);
   void addOut(CLI::App* command);
   void addFormat(CLI::App* command);
+  void addReport(CLI::App* command);
   void addProgress(CLI::App* command);
   void addTableOption(CLI::App* command, const tetstream_option_info& info);
   void addStreamOptions(CLI::App* command);
@@ -135,6 +136,12 @@ void Parser::addFormat(CLI::App* command) {
       ->option_text("NAME");
 }
 
+void Parser::addReport(CLI::App* command) {
+  command->add_option("--report", arguments_.report, "Form of the closing report (default text)")
+      ->option_text("text|json")
+      ->check(CLI::IsMember({"text", "json"}));
+}
+
 void Parser::addProgress(CLI::App* command) {
   command->add_flag("--progress", arguments_.always_progress,
                     "Show progress even where standard error is no terminal");
@@ -178,9 +185,7 @@ void Parser::addSimplify() {
       ->option_text("NAME[:WEIGHT]")
       ->allow_extra_args(false);
   addFormat(command);
-  command->add_option("--report", arguments_.report, "Form of the closing report (default text)")
-      ->option_text("text|json")
-      ->check(CLI::IsMember({"text", "json"}));
+  addReport(command);
   addProgress(command);
   command->footer(std::string("One of --ratio and --cells has to be given. ") +
                   "The report goes to standard output, or to\nstandard error if OUT is -.\n" +
@@ -219,6 +224,7 @@ void Parser::addLayout() {
   addOut(command);
   addFormat(command);
   addStreamOptions(command);
+  addReport(command);
   addProgress(command);
   command->footer("The report goes to standard output, or to standard error if OUT is -.");
 }

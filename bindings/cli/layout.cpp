@@ -17,7 +17,8 @@ ExitCode layout(const Arguments& arguments) {
   bar.clear();
   printNotes(arguments, reader.get(), writer.get());
   check(status, writer.get());
-  if (!arguments.quiet) printReport(arguments, layoutText(report));
+  if (!arguments.quiet || !arguments.report.empty())
+    printReport(arguments, arguments.report == "json" ? layoutJson(report) : layoutText(report));
   return exitCodeOf(status);
 }
 

@@ -68,6 +68,21 @@ std::string layoutText(const tetstream_layout_report& r) {
   return text;
 }
 
+std::string layoutJson(const tetstream_layout_report& r) {
+  JsonText json;
+  json.open('{');
+  json.key("order").value(std::string_view(r.order ? r.order : ""));
+  json.key("cells").value(r.cells);
+  json.key("vertices").value(r.vertices);
+  json.key("unused_vertices").value(r.unused_vertices);
+  json.key("front_width").value(r.front_width);
+  json.key("front_span").value(r.front_span);
+  json.key("front_cells").value(r.front_cells);
+  json.key("temporary_bytes").value(r.temporary_bytes);
+  json.key("seconds").value(r.seconds);
+  return json.close('}').take();
+}
+
 std::string reportJson(const tetstream_report& r, tetstream_status status) {
   JsonText json;
   const auto add = [&](const char* name, auto value) { json.key(name).value(value); };

@@ -97,12 +97,11 @@ def check_structures(build):
 def check_orders(build):
     with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
         fluid(build, folder)
-        words = [harness.bench_path(build, "orders"), os.path.join(folder, "fluid.vtu")]
-        done = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True)
-    rows = [line[2:-2].split(" | ") for line in done.stdout.splitlines() if line[:1] == "|"]
-    width = {row[0]: int(row[1]) for row in rows[2:]}
-    assert len(width) == 10 and width["spectral"] == min(width.values()), rows
-    assert all(int(row[2]) >= int(row[1]) >= float(row[3]) > 4 for row in rows[2:]), rows
+        rows = table(build, "orders.py", "--mesh", os.path.join(folder, "fluid.vtu") + ":density")
+    width = {row["order"]: int(row["width"]) for row in rows}
+    assert len(width) == 8 and width["spectral"] == min(width.values()), rows
+    assert all(int(row["span"]) >= int(row["width"]) > 4 for row in rows), rows
+    assert all(float(row["simplified: RMS %"]) > 0 for row in rows), rows
 
 
 def check_windows(build, mesh):

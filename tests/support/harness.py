@@ -119,6 +119,11 @@ class Tetstream(Program):
         self.run("convert", source, target, "--quiet")
         return target
 
+    def layout(self, source, target, *words):
+        """The report of a layout, with the measurements under "measured"."""
+        text, taken = self.run("layout", source, target, "--quiet", "--report", "json", *words)
+        return {**json.loads(text), "measured": taken}
+
     def simplify(self, source, target, *words, stdin=None):
         """The report of a run, with the measurements under "measured"."""
         text, taken = self.run("simplify", source, target, "--quiet", "--report", "json", *words,
