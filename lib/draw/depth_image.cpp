@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tetstream {
+
+// Faces reach so far past their edges, as a share of their height: rounding leaves no gaps.
+static constexpr float kEdge = 1e-4f;
 
 DepthImage::DepthImage(Account& account, size_t width, size_t height)
     : width_(width),
@@ -11,45 +15,85 @@ DepthImage::DepthImage(Account& account, size_t width, size_t height)
       depths_(account, width * height),
       tags_(account, width * height) {
   std::fill_n(tags_.data(), tags_.size(), kNothing);
+  std::fill_n(depths_.data(), depths_.size(), std::numeric_limits<float>::infinity());
 }
 
-void DepthImage::add(const Seen p[4], uint8_t tag) {
+// How many pixels of 0 .. size have centres up to `place`.
+static size_t pixelsUpTo(float place, size_t size) {
+  return static_cast<size_t>(std::clamp(place + 0.5f, 0.0f, static_cast<float>(size)));
+}
+
+// Those whose centres may be inside the corners; none if anything is not finite.
+DepthImage::Pixels DepthImage::around(const Seen* corners, int count) const {
+  Seen low = corners[0], high = corners[0];
   float sum = 0;
-  for (int j = 0; j < 4; ++j) sum += p[j].x + p[j].y + p[j].depth;
-  if (!std::isfinite(sum)) return;
-  for (int j = 0; j < 4; ++j) addFace(p[(j + 1) % 4], p[(j + 2) % 4], p[(j + 3) % 4], tag);
+  for (int j = 0; j < count; ++j) {
+    const Seen& p = corners[j];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.depth, p.depth)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+    sum += p.x + p.y + p.depth;
+  }
+  if (!std::isfinite(sum)) return {0, 0, 0, 0, 0};
+  return {pixelsUpTo(low.x, width_), pixelsUpTo(high.x, width_), pixelsUpTo(low.y, height_),
+          pixelsUpTo(high.y, height_), low.depth};
 }
 
-// The pixels whose centres are between `low` and `high`, within 0 .. size: [first, end).
-static void pixelsBetween(float low, float high, size_t size, size_t* first, size_t* end) {
-  const auto limit = static_cast<float>(size);
-  *first = static_cast<size_t>(std::ceil(std::clamp(low - 0.5f, 0.0f, limit)));
-  *end = static_cast<size_t>(std::floor(std::clamp(high + 0.5f, 0.0f, limit)));
+// Whether something may be seen there that is no nearer than pixels.nearest.
+bool DepthImage::isOpen(const Pixels& pixels) const {
+  for (size_t y = pixels.top; y < pixels.bottom; ++y)
+    for (size_t x = pixels.left; x < pixels.right; ++x)
+      if (pixels.nearest < depths_[y * width_ + x]) return true;
+  return false;
 }
 
-// Twice the area of a, b, (x, y).
-static float turn(const Seen& a, const Seen& b, float x, float y) {
-  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+// Most cells of a large mesh meet no centre of a pixel, or are hidden: done at once.
+void DepthImage::add(const Seen corners[4], uint8_t tag) {
+  if (!isOpen(around(corners, 4))) return;
+  for (int j = 0; j < 4; ++j) {
+    const Seen face[3] = {corners[(j + 1) % 4], corners[(j + 2) % 4], corners[(j + 3) % 4]};
+    addFace(face, corners[j], tag);
+  }
 }
 
-// Most faces of a large mesh meet no centre of a pixel, and are done after the first lines. The
-// edges belong to both sides: no gap is left between two faces.
-void DepthImage::addFace(const Seen& a, const Seen& b, const Seen& c, uint8_t tag) {
-  size_t left, right, top, bottom;
-  pixelsBetween(std::min({a.x, b.x, c.x}), std::max({a.x, b.x, c.x}), width_, &left, &right);
-  if (left >= right) return;
-  pixelsBetween(std::min({a.y, b.y, c.y}), std::max({a.y, b.y, c.y}), height_, &top, &bottom);
-  const float area = turn(a, b, c.x, c.y);
-  if (top >= bottom || area == 0) return;
-  for (size_t y = top; y < bottom; ++y)
-    for (size_t x = left; x < right; ++x) {
-      const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
-      const float wa = turn(b, c, px, py) / area, wb = turn(c, a, px, py) / area;
-      const float wc = turn(a, b, px, py) / area;
-      if (!(wa >= 0 && wb >= 0 && wc >= 0)) continue;
-      const float depth = wa * a.depth + wb * b.depth + wc * c.depth;
+namespace {
+
+// 0 on the line through a and b, 1 at c, linear.
+struct Weight {
+  Weight(const Seen& a, const Seen& b, const Seen& c) {
+    x = a.y - b.y;
+    y = b.x - a.x;
+    constant = -(x * a.x + y * a.y);
+    const float at_c = x * c.x + y * c.y + constant;
+    x /= at_c;
+    y /= at_c;
+    constant /= at_c;
+  }
+  float at(float px, float py) const { return x * px + y * py + constant; }
+  float x, y, constant;
+};
+
+}  // namespace
+
+// Of a face that does not look away from the eye: the fourth corner is behind it. Its edges belong
+// to both sides, so that no gap is left between two faces. note: a face seen from its edge has
+// weights that are not finite, and is in no pixel.
+void DepthImage::addFace(const Seen face[3], const Seen& fourth, uint8_t tag) {
+  const Seen &a = face[0], &b = face[1], &c = face[2];
+  const Weight of_a(b, c, a), of_b(c, a, b);
+  const auto depthAt = [&](float wa, float wb) {
+    return c.depth + wa * (a.depth - c.depth) + wb * (b.depth - c.depth);
+  };
+  if (depthAt(of_a.at(fourth.x, fourth.y), of_b.at(fourth.x, fourth.y)) > fourth.depth) return;
+  const Pixels pixels = around(face, 3);
+  for (size_t y = pixels.top; y < pixels.bottom; ++y)
+    for (size_t x = pixels.left; x < pixels.right; ++x) {
       const size_t at = y * width_ + x;
-      if (tags_[at] != kNothing && depths_[at] <= depth) continue;
+      if (depths_[at] <= pixels.nearest) continue;
+      const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
+      const float wa = of_a.at(px, py), wb = of_b.at(px, py);
+      if (!(wa >= -kEdge && wb >= -kEdge && wa + wb <= 1 + kEdge)) continue;
+      const float depth = std::max(depthAt(wa, wb), pixels.nearest);
+      if (depths_[at] <= depth) continue;
       depths_[at] = depth;
       tags_[at] = tag;
     }

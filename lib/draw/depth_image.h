@@ -28,7 +28,13 @@ class DepthImage {
   float light(size_t x, size_t y) const;
 
  private:
-  void addFace(const Seen& a, const Seen& b, const Seen& c, uint8_t tag);
+  struct Pixels {
+    size_t left, right, top, bottom;  // right and bottom are past the last
+    float nearest;                    // depth of what they may show
+  };
+  Pixels around(const Seen* corners, int count) const;
+  bool isOpen(const Pixels& pixels) const;
+  void addFace(const Seen face[3], const Seen& fourth, uint8_t tag);
   float slope(size_t x, size_t y, bool across) const;
 
   size_t width_, height_;
