@@ -9,45 +9,66 @@ namespace tetstream {
 
 // ------------------------------------------------------------------------------------- the eye
 
-// Turned by so much to the right and up, in radians, so that three sides of a box are seen.
+// Turned by so much to the side and up, in radians, so that three sides of a box are seen.
 static constexpr double kTurn = 0.45, kLift = 0.35;
 static constexpr double kMargin = 0.03;  // of the image, on each side
 
-// Right, down and away from the eye, for a mesh whose axes are sorted: long, middle, short.
-static void turnedAxes(double out[3][3]) {
-  const double ct = std::cos(kTurn), st = std::sin(kTurn);
+namespace {
+
+// The axes of a box by its size: to the right, up and toward the eye, each with its sign.
+struct BoxAxes {
+  int axis[3] = {0, 1, 2};
+  double sign[3] = {1, 1, 1};
+};
+
+// `start`: the first vertex from the middle of the box. What is written away first is to be in
+// front of what is to come, so it is turned toward the eye; the mirror image is not shown.
+BoxAxes axesOf(const double size[3], const double start[3]) {
+  BoxAxes box;
+  std::stable_sort(box.axis, box.axis + 3, [&](int a, int b) { return size[a] > size[b]; });
+  if (start[box.axis[2]] < 0) box.sign[2] = -1;
+  const bool odd = (box.axis[1] - box.axis[0] + 3) % 3 != 1;
+  if (odd != (box.sign[2] < 0)) box.sign[0] = -1;
+  return box;
+}
+
+}  // namespace
+
+// Right, down and away from the eye, in the axes of the box.
+static void turnedAxes(double turn, double out[3][3]) {
+  const double ct = std::cos(turn), st = std::sin(turn);
   const double cl = std::cos(kLift), sl = std::sin(kLift);
   const double rows[3][3] = {{ct, 0, -st}, {sl * st, -cl, sl * ct}, {-cl * st, -sl, -cl * ct}};
   for (int r = 0; r < 3; ++r) std::copy(rows[r], rows[r] + 3, out[r]);
 }
 
-Eye::Eye(const Schema& schema, size_t width, size_t height) {
-  double size[3];
-  int axis[3] = {0, 1, 2};
-  for (int a = 0; a < 3; ++a) {
-    const auto at = static_cast<size_t>(a);
-    size[a] = schema.box_max[at] - schema.box_min[at];
-    middle_[a] = (schema.box_min[at] + schema.box_max[at]) / 2;
+Eye::Eye(const Schema& schema, const double first[3], size_t width, size_t height) {
+  double size[3], start[3];
+  for (size_t a = 0; a < 3; ++a) {
+    size[a] = schema.box_max[a] - schema.box_min[a];
+    middle_[a] = (schema.box_min[a] + schema.box_max[a]) / 2;
+    start[a] = first[a] - middle_[a];
   }
-  std::stable_sort(axis, axis + 3, [&](int a, int b) { return size[a] > size[b]; });
-  // An odd exchange of axes would show the mirror image.
-  const bool odd = (axis[1] - axis[0] + 3) % 3 != 1;
+  const BoxAxes box = axesOf(size, start);
   double turned[3][3];
-  turnedAxes(turned);
+  turnedAxes(box.sign[0] * start[box.axis[0]] < 0 ? -kTurn : kTurn, turned);
   for (int r = 0; r < 3; ++r)
-    for (int a = 0; a < 3; ++a) rows_[r][axis[a]] = odd && a == 2 ? -turned[r][a] : turned[r][a];
+    for (int a = 0; a < 3; ++a) rows_[r][box.axis[a]] = box.sign[a] * turned[r][a];
+  fit(size, static_cast<double>(width), static_cast<double>(height));
+}
 
-  double extent[3] = {};
-  for (int r = 0; r < 3; ++r)
+// The whole box into the image, with a margin.
+void Eye::fit(const double size[3], double width, double height) {
+  double extent[2] = {};
+  for (int r = 0; r < 2; ++r)
     for (int a = 0; a < 3; ++a) extent[r] += std::fabs(rows_[r][a]) * size[a];
-  const double room[2] = {(1 - 2 * kMargin) * static_cast<double>(width),
-                          (1 - 2 * kMargin) * static_cast<double>(height)};
-  const double across = extent[0] > 0 ? room[0] / extent[0] : room[0];
-  const double down = extent[1] > 0 ? room[1] / extent[1] : room[1];
+  const double room = 1 - 2 * kMargin;
+  const double scale = std::min(extent[0] > 0 ? room * width / extent[0] : 1,
+                                extent[1] > 0 ? room * height / extent[1] : 1);
   for (auto& row : rows_)
-    for (double& entry : row) entry *= std::min(across, down);
-  centre_[0] = static_cast<double>(width) / 2;
-  centre_[1] = static_cast<double>(height) / 2;
+    for (double& entry : row) entry *= scale;
+  centre_[0] = width / 2;
+  centre_[1] = height / 2;
 }
 
 Seen Eye::look(const double position[3]) const {
@@ -67,8 +88,7 @@ bool SweepViews::serves(const Schema& schema) {
 
 SweepViews::SweepViews(const Schema& schema)
     : meter_(account_),
-      eye_(schema, kWidth, kHeight),
-      position_type_(schema.position_type),
+      schema_(schema),
       declared_(account_),
       places_(account_),
       cells_(account_),
@@ -91,13 +111,14 @@ void SweepViews::addVertices(const BatchView& batch) {
   constexpr size_t kStep = 256;
   double positions[3 * kStep];
   const auto* from = static_cast<const unsigned char*>(batch.positions);
-  const size_t row_bytes = 3 * sizeOf(position_type_);
+  const size_t row_bytes = 3 * sizeOf(schema_.position_type);
   reserve(declared_, declared_count_ + batch.vertex_count);
   for (size_t row = 0; row < batch.vertex_count; row += kStep) {
     const size_t count = std::min(kStep, batch.vertex_count - row);
-    convertScalars(from + row * row_bytes, position_type_, positions, ScalarType::kFloat64,
+    convertScalars(from + row * row_bytes, schema_.position_type, positions, ScalarType::kFloat64,
                    3 * count);
-    for (size_t i = 0; i < count; ++i) declared_[declared_count_++] = eye_.look(positions + 3 * i);
+    if (!eye_) eye_.emplace(schema_, positions, kWidth, kHeight);
+    for (size_t i = 0; i < count; ++i) declared_[declared_count_++] = eye_->look(positions + 3 * i);
   }
 }
 

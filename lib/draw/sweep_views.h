@@ -6,6 +6,7 @@
 // away are splatted while the stream passes: memory is that of the images and of the front.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "depth_image.h"
@@ -13,14 +14,17 @@
 
 namespace tetstream {
 
-// The eye looks at the box from a little to the right of and above its largest side.
+// The eye looks at the box's largest side from a little beside and above, from where the stream's
+// first vertex is nearer.
 class Eye {
  public:
   // Pixels of an image in which the whole box is seen.
-  Eye(const Schema& schema, size_t width, size_t height);
+  Eye(const Schema& schema, const double first[3], size_t width, size_t height);
   Seen look(const double position[3]) const;
 
  private:
+  void fit(const double size[3], double width, double height);
+
   double rows_[3][3] = {}, centre_[3] = {}, middle_[3] = {};
 };
 
@@ -60,8 +64,8 @@ class SweepViews {
 
   Account account_;
   FrontMeter meter_;
-  Eye eye_;
-  ScalarType position_type_;
+  Schema schema_;
+  std::optional<Eye> eye_;  // once there is a vertex
   Array<Seen> declared_;  // places of vertices from first_declared_ on that were not introduced yet
   uint64_t first_declared_ = 0;
   size_t declared_count_ = 0;
