@@ -38,6 +38,8 @@ static ExitCode run(const Arguments& arguments) {
       return convert(arguments);
     case Arguments::Command::kGenerate:
       return generate(arguments);
+    case Arguments::Command::kDiagram:
+      return diagram(arguments);
   }
   return kInternal;
 }
