@@ -143,12 +143,15 @@ std::vector<Point> LayoutPage::curve(Value&& value) const {
   return points;
 }
 
+// Thinner where the front is narrow, so as not to hide what is between.
 void LayoutPage::drawFront() {
+  const double band = kDiagram.height * figures_.mean_span / static_cast<double>(figures_.vertices);
+  const double width = std::clamp(band / 6, 0.35, kCurve);
   canvas_.line(curve([&](const DiagramColumn& c) { return down(static_cast<double>(c.lowest)); }),
-               kCurve, kAccent);
+               width, kAccent);
   canvas_.line(
-      curve([&](const DiagramColumn& c) { return down(static_cast<double>(c.newest + 1)); }),
-      kCurve, kAccent);
+      curve([&](const DiagramColumn& c) { return down(static_cast<double>(c.newest + 1)); }), width,
+      kAccent);
 }
 
 // Of the columns of the greatest width, the one nearest to the middle.

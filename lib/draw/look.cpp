@@ -24,11 +24,14 @@ std::string groupedMean(double number) {
 }
 
 void drawTitle(Canvas& canvas, const Frame& page, double baseline, const std::string& title) {
+  const double room = 0.75 * page.width;
   std::string shown = title;
-  for (size_t cut = 1; cut < title.size(); ++cut) {
-    if (canvas.textWidth(shown, kTitleStyle) <= 0.75 * page.width) break;
+  for (size_t cut = 0; cut < title.size();) {
+    const double width = canvas.textWidth(shown, kTitleStyle);
+    if (width <= room) break;
+    cut += 1 + static_cast<size_t>((1 - room / width) * static_cast<double>(title.size() - cut));
     while (cut < title.size() && (title[cut] & 0xc0) == 0x80) ++cut;  // not inside a letter
-    shown = kEllipsis + title.substr(cut);
+    shown = kEllipsis + title.substr(std::min(cut, title.size()));
   }
   canvas.text({page.left, baseline}, shown, kTitleStyle);
 }
