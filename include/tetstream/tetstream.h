@@ -34,8 +34,9 @@
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
  * and report, and destroyed; the same holds for the reader and the writer of a failed `run`,
- * `convert`, `inspect` or `read`. A failure of any other function had no effect, nor has a call that is
- * refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too small.
+ * `convert`, `inspect` or `read`. A failure of any other function had no effect, nor has a call
+ * that is refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too
+ * small.
  */
 #ifndef TETSTREAM_H
 #define TETSTREAM_H
@@ -434,8 +435,8 @@ TETSTREAM_API tetstream_status tetstream_inspect(tetstream_reader *reader,
 /* ------------------------------------------------------------------------ layout diagrams */
 
 /* How good the order of a stream is, as a picture and as numbers: cells across, vertices down, one
- * line for each vertex from its introduction to its finalization; a vertical line anywhere meets the
- * front of that moment. Memory is that of the front and of the raster, for a stream of any length.
+ * line for each vertex from its introduction to its finalization; a vertical line anywhere meets
+ * the front of that moment. Memory is that of the front and of the raster, however long the stream.
  *
  *   tetstream_diagram_create(NULL, 1200, 800, &diagram);
  *   tetstream_diagram_read(diagram, reader, 0, NULL, NULL);
@@ -464,17 +465,17 @@ typedef struct tetstream_diagram_info {
   int64_t longest_cell;           /* the first one of the greatest span; -1: there are no cells */
   int32_t columns, rows;          /* of the raster: as many as were asked for, or fewer */
   int64_t cells_per_column, vertices_per_row; /* the last column and row may stand for fewer */
-  const float *coverage;   /* [rows][columns], 0 to 1: how much of the place the lines of its vertices
-                              cover of its cells */
+  const float *coverage;   /* [rows][columns], 0 to 1: how much of a place, its vertices by its
+                              cells, the lines cover */
   const int64_t *widths;   /* [columns]: active vertices, at most */
   const int64_t *lowest;   /* [columns]: the lowest active vertex */
   const int64_t *newest;   /* [columns]: the last vertex that was introduced */
 } tetstream_diagram_info;
 
-/* A diagram whose raster has at most `columns` x `rows` places, 1 to TETSTREAM_DIAGRAM_LARGEST each,
- * and at least half as many each way, if there are so many cells and vertices. It takes 12 bytes a
- * place. The options are copied; NULL: the defaults; those count that count for `inspect`. Since
- * 0.1. */
+/* A diagram whose raster has at most `columns` x `rows` places, each 1 to
+ * TETSTREAM_DIAGRAM_LARGEST, and at least half as many each way, if there are so many cells and
+ * vertices. It takes 12 bytes a place. The options are copied; NULL: the defaults; those count that
+ * count for `inspect`. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_diagram_create(const tetstream_options *options,
                                                         int32_t columns, int32_t rows,
                                                         tetstream_diagram **diagram);

@@ -21,11 +21,11 @@ static Cairo load() {
   void* library = ::dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
   if (!library) failLoading();
   Cairo functions;
-#define TETSTREAM_LOAD(name)                                                                     \
+#define CAIRO_FUNCTION(name)                                                                     \
   functions.name = reinterpret_cast<decltype(functions.name)>(::dlsym(library, "cairo_" #name)); \
   if (!functions.name) failLoading();
-  TETSTREAM_CAIRO_FUNCTIONS(TETSTREAM_LOAD)
-#undef TETSTREAM_LOAD
+#include "cairo_functions.def"
+#undef CAIRO_FUNCTION
   return functions;
 }
 

@@ -11,26 +11,10 @@
 
 namespace tetstream {
 
-// The functions that are used, each by its name without "cairo_".
-#define TETSTREAM_CAIRO_FUNCTIONS(USE)                                                            \
-  USE(create)                                                                                     \
-  USE(destroy)                                                                                    \
-  USE(status)                                                                                     \
-  USE(scale)                                                                                      \
-  USE(save)                                                                                       \
-  USE(restore) USE(translate) USE(rotate) USE(new_path) USE(move_to) USE(line_to) USE(close_path) \
-      USE(rectangle) USE(fill) USE(stroke) USE(paint) USE(set_source_rgba) USE(set_line_width)    \
-          USE(set_line_join) USE(set_dash) USE(set_source_surface) USE(get_source)                \
-              USE(pattern_set_filter) USE(show_text) USE(select_font_face) USE(set_font_size)     \
-                  USE(text_extents) USE(status_to_string) USE(image_surface_create)               \
-                      USE(image_surface_create_for_data) USE(svg_surface_create_for_stream)       \
-                          USE(surface_finish) USE(surface_status) USE(surface_destroy)            \
-                              USE(surface_write_to_png_stream)
-
 struct Cairo {
-#define TETSTREAM_MEMBER(name) decltype(&::cairo_##name) name;
-  TETSTREAM_CAIRO_FUNCTIONS(TETSTREAM_MEMBER)
-#undef TETSTREAM_MEMBER
+#define CAIRO_FUNCTION(name) decltype(&::cairo_##name) name;
+#include "cairo_functions.def"
+#undef CAIRO_FUNCTION
 };
 
 // Throws kUnsupported if the library is not there, or lacks one of them.

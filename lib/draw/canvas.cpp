@@ -1,6 +1,7 @@
 #include "canvas.h"
 
 #include <cctype>
+#include <cmath>
 #include <exception>
 
 #include "bytes.h"
@@ -11,7 +12,7 @@
 namespace tetstream {
 
 static uint32_t byteOf(double share) {
-  return static_cast<uint32_t>(share * 255 + 0.5);
+  return static_cast<uint32_t>(std::lround(share * 255));
 }
 
 void Image::set(size_t x, size_t y, Colour c) {

@@ -14,6 +14,7 @@ constexpr Frame kPage{24, 0, 852, 724};      // what is between the margins
 constexpr Frame kDiagram{84, 96, 792, 470};  // the lines of the vertices
 constexpr Frame kStrip{84, 580, 792, 88};    // the width of the front
 constexpr double kHair = 0.6, kCurve = 1.1;  // widths of lines
+constexpr Colour kPlate{1, 1, 1, 0.88};      // below words that lie on lines
 constexpr size_t kFewColumns = 300;          // so few are drawn as steps
 constexpr size_t kFineImage = 900;           // so many places are not seen one by one
 
@@ -38,10 +39,12 @@ class LayoutPage {
     return kDiagram.top + kDiagram.height * vertex / static_cast<double>(figures_.vertices);
   }
   double high(double width) const { return kStrip.bottom() - kStrip.height * width / stripTop(); }
+  double cellsPerColumn() const { return static_cast<double>(diagram_.cellsPerColumn()); }
   double stripTop() const { return 1.12 * static_cast<double>(figures_.front.width); }
 
   void drawHead(const std::string& title);
   void drawRaster();
+  void separateLines();
   void drawAxes();
   void drawFrame(const Frame& frame);
   template <class Value>
@@ -84,14 +87,25 @@ void LayoutPage::drawRaster() {
     for (size_t x = 0; x < image.width(); ++x)
       image.set(x, y,
                 mixed(kWhite, kInk, toneOf(diagram_.coverage()[y / tall * columns + x / wide])));
-  // The last column and row may stand for less than the others.
-  canvas_.image(
-      {kDiagram.left, kDiagram.top,
-       across(static_cast<double>(columns) * static_cast<double>(diagram_.cellsPerColumn())) -
-           kDiagram.left,
-       down(static_cast<double>(rows) * static_cast<double>(diagram_.verticesPerRow())) -
-           kDiagram.top},
-      image);
+  const double right = across(static_cast<double>(columns) * cellsPerColumn());
+  const double bottom =
+      down(static_cast<double>(rows) * static_cast<double>(diagram_.verticesPerRow()));
+  canvas_.image({kDiagram.left, kDiagram.top, right - kDiagram.left, bottom - kDiagram.top}, image);
+  // The last column and row may stand for less than the others: what is too much is wiped off.
+  canvas_.fill(Frame{kDiagram.right(), 0, right - kDiagram.left, bottom}, kWhite);
+  canvas_.fill(Frame{0, kDiagram.bottom(), right, bottom - kDiagram.top}, kWhite);
+}
+
+// Where each vertex has a row that can be seen, its line is one.
+void LayoutPage::separateLines() {
+  constexpr size_t kMostLines = 120;
+  constexpr double kGap = 0.15;  // of a row
+  const size_t rows = diagram_.rows();
+  if (diagram_.verticesPerRow() > 1 || rows > kMostLines) return;
+  const double gap = kGap * kDiagram.height / static_cast<double>(rows);
+  for (size_t r = 1; r < rows; ++r)
+    canvas_.fill(Frame{kDiagram.left, down(static_cast<double>(r)) - gap / 2, kDiagram.width, gap},
+                 kWhite);
 }
 
 void LayoutPage::drawFrame(const Frame& f) {
@@ -131,7 +145,7 @@ void LayoutPage::drawAxes() {
 template <class Value>
 std::vector<Point> LayoutPage::curve(Value&& value) const {
   std::vector<Point> points;
-  const auto width = static_cast<double>(diagram_.cellsPerColumn());
+  const double width = cellsPerColumn();
   const auto cells = static_cast<double>(figures_.cells);
   const bool steps = diagram_.columns() <= kFewColumns;
   for (size_t c = 0; c < diagram_.columns(); ++c) {
@@ -168,11 +182,12 @@ size_t LayoutPage::widestColumn() const {
 }
 
 // The front where it is widest. Its words stand where there is no line: below the newest vertex, to
-// the left; or, where that is too narrow, at the bottom.
+// the left; or, where that is too narrow, at the bottom. In a bad order there is no such place:
+// they have a plate.
 void LayoutPage::drawWidest() {
   const size_t column = widestColumn();
   const DiagramColumn& front = diagram_.front()[column];
-  const double width = static_cast<double>(diagram_.cellsPerColumn());
+  const double width = cellsPerColumn();
   const double x = across((static_cast<double>(column) + 0.5) * width);
   const double top = down(static_cast<double>(front.lowest));
   const double bottom = down(static_cast<double>(front.newest + 1));
@@ -181,11 +196,12 @@ void LayoutPage::drawWidest() {
   const std::string words = grouped(front.width) + " active vertices";
   TextStyle style = kTextStyle;
   style.colour = kAccent;
-  const bool fits = x - kDiagram.left > canvas_.textWidth(words, style) + 12;
-  style.anchor = fits ? 1 : 0;
-  const double lowest_line = kDiagram.bottom() - 7;
-  canvas_.text({fits ? x - 6 : x + 6, fits ? std::min(bottom + 14, lowest_line) : lowest_line},
-               words, style);
+  const double length = canvas_.textWidth(words, style), lowest_line = kDiagram.bottom() - 7;
+  const bool fits = x - kDiagram.left > length + 12;
+  const Point at{fits ? x - 6 - length : x + 6,
+                 fits ? std::min(bottom + 15, lowest_line) : lowest_line};
+  canvas_.fill(Frame{at.x - 3, at.y - 11, length + 6, 15}, kPlate);
+  canvas_.text(at, words, style);
 }
 
 void LayoutPage::drawStrip() {
@@ -208,6 +224,7 @@ void LayoutPage::draw(const std::string& title) {
   drawHead(title);
   if (figures_.cells > 0) {
     drawRaster();
+    separateLines();
     drawStrip();
     drawFront();
     drawWidest();

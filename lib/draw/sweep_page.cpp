@@ -80,9 +80,10 @@ void drawSweep(const std::string& path, const SweepViews& views, const DiagramFi
                 kTextStyle);
     drawLegend(canvas, 78);
     for (size_t i = 0; i < views.moments().size(); ++i) {
+      const size_t row = i / kPanelsInRow, column = i % kPanelsInRow;
       Frame panel = kFirstPanel;
-      panel.left += kNextPanel * static_cast<double>(i % kPanelsInRow);
-      panel.top += kNextRow * static_cast<double>(i / kPanelsInRow);
+      panel.left += kNextPanel * static_cast<double>(column);
+      panel.top += kNextRow * static_cast<double>(row);
       drawPanel(canvas, panel, views.whole(), views.moments()[i]);
       drawCaption(canvas, panel, views.moments()[i]);
     }

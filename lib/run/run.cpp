@@ -253,7 +253,7 @@ static Schema sweptSchema(Source& source, const ProgressFunction& progress) {
   if (!first)
     fail(Status::kUnsupported,
          "a sweep is drawn to the measure of the mesh's box and number of cells, which this stream "
-         "tells only at its end: convert it to a file first");
+         "tells only at its end: convert it to .tets first");
   StreamFacts facts(first->schema());
   BatchView batch;
   Progress p;
