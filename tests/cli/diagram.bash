@@ -42,6 +42,12 @@ for sweep in "" --sweep; do
 done
 only_files in.tets out.svg out.png
 
+# Where cairo cannot be loaded, that is said, before anything is read.
+mkdir lib
+echo "no library at all" >lib/libcairo.so.2
+LD_LIBRARY_PATH=$PWD/lib expect_error 6 "cairo, which could not be loaded" diagram absent.tets a.svg
+rm -r lib
+
 # Standard input is a mesh like any other.
 tetstream convert in.tets - | tetstream diagram - piped.svg || fail "no diagram from a pipe"
 begins piped.svg "<?xml"
