@@ -34,6 +34,8 @@ set(pc_requires "zlib expat")
 if(TETSTREAM_ZSTD)
   string(APPEND pc_requires " libzstd")
 endif()
+# Cairo is loaded, not linked: what it takes is the loader, where that is no part of the C library.
+list(TRANSFORM CMAKE_DL_LIBS PREPEND " -l" OUTPUT_VARIABLE pc_dl)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/tetstream.pc.in ${PROJECT_BINARY_DIR}/tetstream.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/tetstream.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

@@ -55,6 +55,7 @@ class Parser {
   void addConvert();
   void addLayout();
   void addGenerate();
+  void addDiagram();
   void addHelp();
   void addIn(CLI::App* command);
   void addOut(CLI::App* command);
@@ -90,6 +91,7 @@ Parser::Parser() {
   addConvert();
   addLayout();
   addGenerate();
+  addDiagram();
   addHelp();
 }
 
@@ -252,6 +254,28 @@ void Parser::addGenerate() {
   addProgress(command);
 }
 
+void Parser::addDiagram() {
+  CLI::App* command = addCommand("diagram", "Draw how good the order of a mesh stream is",
+                                 Arguments::Command::kDiagram);
+  addIn(command);
+  command->add_option("OUT", arguments_.out.path, "The picture: a file, FILE.svg or FILE.png")
+      ->required()
+      ->option_text(" ");
+  command->add_flag("--sweep", arguments_.sweep,
+                    "Draw the mesh at four moments instead: written away, in core, to come");
+  command->add_option("--title", arguments_.title, "What stands above it (default: IN's name)")
+      ->option_text("TEXT");
+  const auto addPlaces = [&](const char* name, int32_t& places, const char* text) {
+    command->add_option(name, places, text)
+        ->option_text("N")
+        ->check(CLI::Range(1, TETSTREAM_DIAGRAM_LARGEST));
+  };
+  addPlaces("--columns", arguments_.columns, "Places of the raster across, 1 to 8192 (1200)");
+  addPlaces("--rows", arguments_.rows, "Places of the raster down, 1 to 8192 (800)");
+  addStreamOptions(command);
+  addProgress(command);
+}
+
 void Parser::addHelp() {
   CLI::App* command = addCommand("help", "Show the help of a command", Arguments::Command::kText);
   command->add_option("COMMAND", help_about_, "Its name")->option_text(" ");
@@ -303,7 +327,8 @@ Arguments Parser::parse(int argc, const char* const* argv) {
       settleFormats();
       return arguments_;
     }
-  throw usageFailure("which command? simplify, info, convert, layout, generate or help", "");
+  throw usageFailure("which command? simplify, info, convert, layout, generate, diagram or help",
+                     "");
 }
 
 }  // namespace

@@ -10,18 +10,21 @@
 namespace tetstream::cli {
 
 struct Arguments {
-  enum class Command { kText, kSimplify, kInfo, kConvert, kLayout, kGenerate };
+  enum class Command { kText, kSimplify, kInfo, kConvert, kLayout, kGenerate, kDiagram };
 
   Command command = Command::kText;
   std::string text;  // kText: what to print: help, version
   Place in, out;
   std::vector<Property> properties;  // of the output's format
   OptionWords options;
-  std::string kind;              // of generate
-  std::string report;            // "text", "json"; empty: not asked for
-  bool json = false;             // info
-  bool quiet = false;            // no bar, no notes, no report that was not asked for
-  bool always_progress = false;  // a bar, or lines, wherever standard error goes
+  std::string kind;                    // of generate
+  std::string report;                  // "text", "json"; empty: not asked for
+  bool json = false;                   // info
+  std::string title;                   // diagram; empty: IN's name
+  int32_t columns = 1200, rows = 800;  // diagram: of the raster
+  bool sweep = false;                  // diagram: that page
+  bool quiet = false;                  // no bar, no notes, no report that was not asked for
+  bool always_progress = false;        // a bar, or lines, wherever standard error goes
 };
 
 // Throws Failure if the words make no command.

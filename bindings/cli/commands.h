@@ -12,6 +12,7 @@ ExitCode info(const Arguments& arguments);
 ExitCode convert(const Arguments& arguments);
 ExitCode layout(const Arguments& arguments);
 ExitCode generate(const Arguments& arguments);
+ExitCode diagram(const Arguments& arguments);
 
 // When a bar is shown, for all of them.
 ProgressBar::Show progressOf(const Arguments& arguments);

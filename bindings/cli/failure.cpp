@@ -61,4 +61,8 @@ void check(tetstream_status status, const tetstream_simplifier* simplifier) {
   if (status < 0) fail(status, simplifier ? tetstream_simplifier_message(simplifier) : nullptr);
 }
 
+void check(tetstream_status status, const tetstream_diagram* diagram) {
+  if (status < 0) fail(status, diagram ? tetstream_diagram_message(diagram) : nullptr);
+}
+
 }  // namespace tetstream::cli

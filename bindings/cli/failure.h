@@ -35,5 +35,6 @@ void check(tetstream_status status, const tetstream_options* options);
 void check(tetstream_status status, const tetstream_reader* reader);
 void check(tetstream_status status, const tetstream_writer* writer);
 void check(tetstream_status status, const tetstream_simplifier* simplifier);
+void check(tetstream_status status, const tetstream_diagram* diagram);
 
 }  // namespace tetstream::cli

@@ -47,6 +47,8 @@ static ExitCode run(const Arguments& arguments) {
       return layout(arguments);
     case Arguments::Command::kGenerate:
       return generate(arguments);
+    case Arguments::Command::kDiagram:
+      return diagram(arguments);
   }
   return kInternal;
 }

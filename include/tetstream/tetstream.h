@@ -34,8 +34,9 @@
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
  * and report, and destroyed; the same holds for the reader and the writer of a failed `run`,
- * `convert` or `inspect`. A failure of any other function had no effect, nor has a call that is
- * refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too small.
+ * `convert`, `inspect` or `read`. A failure of any other function had no effect, nor has a call
+ * that is refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too
+ * small.
  */
 #ifndef TETSTREAM_H
 #define TETSTREAM_H
@@ -61,7 +62,8 @@ extern "C" {
 
 /* TETSTREAM_VERSION_NUMBER of the library that runs. Since 0.1. */
 TETSTREAM_API int32_t tetstream_version_number(void);
-/* Its version and build in words, such as "0.1.0 (zstd, plain kernels)". Static. Since 0.1. */
+/* Its version and build in words, such as "0.1.0 (zstd, cairo, plain kernels)". Static. Since
+ * 0.1. */
 TETSTREAM_API const char *tetstream_version_text(void);
 
 /* -------------------------------------------------------------------------------- status */
@@ -248,7 +250,7 @@ typedef struct tetstream_reader_callbacks {
 
 typedef struct tetstream_reader tetstream_reader;
 
-/* A reader serves one `run`, `convert` or `inspect`. */
+/* A reader serves one `run`, `convert`, `inspect` or `read`. */
 
 /* A reader of the caller's. The table is copied. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_create(const tetstream_reader_callbacks *callbacks,
@@ -452,6 +454,82 @@ TETSTREAM_API tetstream_status tetstream_inspect(tetstream_reader *reader,
                                                  const tetstream_options *options,
                                                  tetstream_progress_callback progress, void *user,
                                                  tetstream_stream_info *info);
+
+/* ------------------------------------------------------------------------ layout diagrams */
+
+/* How good the order of a stream is, as a picture and as numbers: cells across, vertices down, one
+ * line for each vertex from its introduction to its finalization; a vertical line anywhere meets
+ * the front of that moment. Memory is that of the front and of the raster, however long the stream.
+ *
+ *   tetstream_diagram_create(NULL, 1200, 800, &diagram);
+ *   tetstream_diagram_read(diagram, reader, 0, NULL, NULL);
+ *   tetstream_diagram_write(diagram, TETSTREAM_PAGE_LAYOUT, "mesh.svg", "mesh.vtu");
+ */
+typedef struct tetstream_diagram tetstream_diagram;
+
+/* The pages that are drawn. */
+#define TETSTREAM_PAGE_LAYOUT 1 /* the diagram, with its figures and the front's width */
+#define TETSTREAM_PAGE_SWEEP 2  /* the mesh at four moments: written away, in core, to come */
+
+#define TETSTREAM_DIAGRAM_LARGEST 8192 /* columns or rows */
+
+/* The numbers. Members may be added at the end. The arrays live as long as the diagram; they are
+ * NULL if there are no cells. Vertices count from the cell that introduces them or a later vertex,
+ * through the cell that finalizes them; the lines of those that are never finalized go to the end.
+ */
+typedef struct tetstream_diagram_info {
+  size_t struct_size;
+  int64_t cell_count, vertex_count;
+  int64_t front_width, front_span, front_cells; /* as in tetstream_stream_info */
+  double mean_width, mean_span;   /* over the cells; the span up to the newest vertex */
+  double mean_life;               /* cells, over the vertices */
+  int64_t longest_life;           /* cells */
+  int64_t widest_cell;            /* the first one of the greatest width; -1: there are no cells */
+  int64_t longest_cell;           /* the first one of the greatest span; -1: there are no cells */
+  int32_t columns, rows;          /* of the raster: as many as were asked for, or fewer */
+  int64_t cells_per_column, vertices_per_row; /* the last column and row may stand for fewer */
+  const float *coverage;   /* [rows][columns], 0 to 1: how much of a place, its vertices by its
+                              cells, the lines cover */
+  const int64_t *widths;   /* [columns]: active vertices, at most */
+  const int64_t *lowest;   /* [columns]: the lowest active vertex */
+  const int64_t *newest;   /* [columns]: the last vertex that was introduced */
+} tetstream_diagram_info;
+
+/* A diagram whose raster has at most `columns` x `rows` places, each 1 to
+ * TETSTREAM_DIAGRAM_LARGEST, and at least half as many each way, if there are so many cells and
+ * vertices. It takes 12 bytes a place. The options are copied; NULL: the defaults; those count that
+ * count for `inspect`. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_diagram_create(const tetstream_options *options,
+                                                        int32_t columns, int32_t rows,
+                                                        tetstream_diagram **diagram);
+/* Since 0.1. */
+TETSTREAM_API void tetstream_diagram_destroy(tetstream_diagram *diagram);
+/* Reads everything, an indexed mesh as `run` would stream it. `page` is TETSTREAM_PAGE_SWEEP if that
+ * page is to be written, too, and TETSTREAM_PAGE_LAYOUT or 0 otherwise. A sweep needs the box and
+ * the number of cells beforehand, or an input that can be read twice: otherwise UNSUPPORTED. Once
+ * per diagram; after a failure it can only be asked for its message, and destroyed. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_diagram_read(tetstream_diagram *diagram,
+                                                      tetstream_reader *reader, int32_t page,
+                                                      tetstream_progress_callback progress,
+                                                      void *user);
+/* The numbers, once the stream was read; BAD_STATE before. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_diagram_get_info(const tetstream_diagram *diagram,
+                                                          tetstream_diagram_info *info);
+/* Draws a page, once the stream was read, into a file, which is SVG or PNG by the path's extension
+ * and takes its name when it is complete. `title` stands above it, UTF-8, other bytes as question
+ * marks; NULL: none. UNSUPPORTED for another extension and where cairo is not there; BAD_STATE for
+ * a sweep that was not read. The diagram stays as it was, and as many pages are drawn as wanted.
+ * Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_diagram_write(tetstream_diagram *diagram, int32_t page,
+                                                       const char *path, const char *title);
+/* Whether `write` could draw to that path, as far as its extension and this build go: what it would
+ * return. For those who have much to do before; allowed at any time. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_diagram_check_path(const tetstream_diagram *diagram,
+                                                            const char *path);
+/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *diagram);
+
+/* ------------------------------------------------------------------------------ file formats */
 
 /* Row `index` of the table of file formats: name, extensions and one line, static, and whether it
  * is read and written. BAD_ARGUMENT past the end. Any pointer may be NULL. Since 0.1. */

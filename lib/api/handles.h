@@ -48,6 +48,14 @@ struct tetstream_simplifier : tetstream::Handle {
   mutable tetstream::Report report;
 };
 
+struct tetstream_diagram : tetstream::Handle {
+  static constexpr const char* kNoun = "diagram";
+  tetstream::RunOptions options;
+  tetstream::DiagramSize size = {};
+  tetstream::Diagram diagram;                   // once it was read
+  std::vector<int64_t> widths, lowest, newest;  // per column
+};
+
 namespace tetstream {
 
 // Throws kBadState if the writer could not be created.

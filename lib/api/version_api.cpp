@@ -9,12 +9,18 @@
 #else
 #define TETSTREAM_ZSTD_WORD "no zstd"
 #endif
+#ifdef TETSTREAM_WITH_CAIRO
+#define TETSTREAM_CAIRO_WORD "cairo"
+#else
+#define TETSTREAM_CAIRO_WORD "no cairo"
+#endif
 #ifdef TETSTREAM_V3_KERNELS
 #define TETSTREAM_KERNEL_WORD "x86-64-v3 kernels"
 #else
 #define TETSTREAM_KERNEL_WORD "plain kernels"
 #endif
-#define TETSTREAM_BUILD " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_KERNEL_WORD ")"
+#define TETSTREAM_BUILD \
+  " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_CAIRO_WORD ", " TETSTREAM_KERNEL_WORD ")"
 
 int32_t tetstream_version_number(void) {
   return TETSTREAM_VERSION_NUMBER;

@@ -224,4 +224,45 @@ Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& 
   return facts.schema();
 }
 
+// The schema with the box and the counts, from a first reading if need be.
+static Schema sweptSchema(Source& source, const ProgressFunction& progress) {
+  if (SweepViews::serves(source.schema())) return source.schema();
+  const std::unique_ptr<Source> first = source.again();
+  if (!first)
+    fail(Status::kUnsupported,
+         "a sweep is drawn to the measure of the mesh's box and number of cells, which this stream "
+         "tells only at its end: convert it to .tets first");
+  StreamFacts facts(first->schema());
+  BatchView batch;
+  Progress p;
+  p.phase = "measure";
+  while (first->next(batch)) {
+    facts.put(batch);
+    tellCells(p, batch.cell_count, progress);
+  }
+  return facts.schema();
+}
+
+Diagram readDiagram(Input& input, DiagramSize size, bool with_sweep, const RunOptions& options,
+                    const ProgressFunction& progress) {
+  Ordering stream(input, options, progress);
+  const Schema& schema = stream.source().schema();
+  Diagram diagram;
+  if (with_sweep)
+    diagram.sweep = std::make_unique<SweepViews>(sweptSchema(stream.source(), progress));
+  diagram.layout = std::make_unique<LayoutDiagram>(schema, size.columns, size.rows);
+  BatchView batch;
+  Progress p;
+  p.cells_total = schema.cell_count;
+  p.phase = "diagram";
+  while (stream.source().next(batch)) {
+    diagram.layout->put(batch);
+    if (diagram.sweep) diagram.sweep->put(batch);
+    tellCells(p, batch.cell_count, progress);
+  }
+  diagram.layout->finish();
+  if (diagram.sweep) diagram.sweep->finish();
+  return diagram;
+}
+
 }  // namespace tetstream

@@ -1,11 +1,14 @@
-// run: joins reader, layout, simplifier and writer. Depends on layout, simplify, format, stream.
+// run: joins reader, layout, simplifier and writer. Depends on layout, simplify, draw, measure,
+// format, stream.
 #pragma once
 
 #include <memory>
 #include <string>
 
+#include "layout_diagram.h"
 #include "options.h"
 #include "source.h"
+#include "sweep_views.h"
 
 namespace tetstream {
 
@@ -51,5 +54,20 @@ LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
 
 // The schema with everything known: counts, box, front. Reads the whole input.
 Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& progress);
+
+// What the pages about a stream's layout are drawn from.
+struct Diagram {
+  std::unique_ptr<LayoutDiagram> layout;
+  std::unique_ptr<SweepViews> sweep;  // null if not asked for
+};
+
+struct DiagramSize {
+  size_t columns, rows;
+};
+
+// Reads the whole input, as inspect does. A sweep needs the box and the number of cells beforehand:
+// where the stream does not tell them, it is read twice; throws kUnsupported where it cannot be.
+Diagram readDiagram(Input& input, DiagramSize size, bool with_sweep, const RunOptions& options,
+                    const ProgressFunction& progress);
 
 }  // namespace tetstream

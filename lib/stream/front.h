@@ -33,6 +33,7 @@ class Front {
   void remap(const uint32_t* new_slot);
 
   uint64_t active() const { return active_; }
+  uint64_t lowest() const { return lowest_; }  // of the active vertices, if there are any
   int64_t width() const { return static_cast<int64_t>(width_); }  // largest so far
   int64_t span() const { return static_cast<int64_t>(span_); }    // largest so far
 

@@ -31,6 +31,7 @@ uint32_t FrontMeter::takeCell() {
     pending_.resize(size ? 2 * size : kFirstRows);
     corner_next_.resize(4 * pending_.size());
     for (size_t i = pending_.size(); i-- > size;) {
+      pending_[i] = 0;
       corner_next_[4 * i] = cell_free_;
       cell_free_ = static_cast<uint32_t>(i);
     }
@@ -48,7 +49,7 @@ void FrontMeter::introduceUpTo(uint64_t vertex) {
   }
 }
 
-void FrontMeter::addCell(const int64_t corners[4]) {
+uint32_t FrontMeter::addCell(const int64_t corners[4]) {
   const auto number = static_cast<unsigned long long>(cells_seen_);
   uint32_t slots[4];
   for (int j = 0; j < 4; ++j) {
@@ -73,9 +74,10 @@ void FrontMeter::addCell(const int64_t corners[4]) {
   }
   ++live_cells_;
   ++cells_seen_;
+  return cell;
 }
 
-void FrontMeter::finalize(int64_t vertex) {
+uint32_t FrontMeter::finalize(int64_t vertex) {
   const uint64_t rank = static_cast<uint64_t>(vertex);
   if (vertex < 0 || rank >= declared_)
     fail(Status::kBadData, "finalized vertex %lld is not declared", static_cast<long long>(vertex));
@@ -95,20 +97,30 @@ void FrontMeter::finalize(int64_t vertex) {
   }
   vertex_head_[slot] = vertex_free_;
   vertex_free_ = slot;
+  return slot;
+}
+
+void FrontMeter::declare(const BatchView& batch) {
+  declared_ = std::max(declared_, batch.first_vertex + batch.vertex_count);
+}
+
+void FrontMeter::note() {
+  statistics_.width = front_.width();
+  statistics_.span = front_.span();
+  statistics_.cells = std::max(statistics_.cells, live_cells_);
 }
 
 void FrontMeter::put(const BatchView& batch) {
-  declared_ = std::max(declared_, batch.first_vertex + batch.vertex_count);
+  declare(batch);
   for (size_t i = 0; i < batch.cell_count; ++i) {
     const int64_t* corners = batch.cells + 4 * i;
     addCell(corners);
     for (unsigned uses = batch.last_uses ? batch.last_uses[i] : 0, j = 0; j < 4; ++j)
       if (uses >> j & 1) finalize(corners[j]);
-    statistics_.cells = std::max(statistics_.cells, live_cells_);
+    note();
   }
   for (size_t i = 0; i < batch.finalized_count; ++i) finalize(batch.finalized[i]);
-  statistics_.width = front_.width();
-  statistics_.span = front_.span();
+  note();
 }
 
 }  // namespace tetstream

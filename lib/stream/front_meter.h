@@ -22,11 +22,22 @@ class FrontMeter {
   const FrontStatistics& statistics() const { return statistics_; }
   uint64_t cellsSeen() const { return cells_seen_; }
 
+  // What put does, in steps, for those who look at the front in between: declare the batch's
+  // vertices; for each cell, add it, finalize what it carries, and note; then the explicit
+  // finalizations, and note.
+  void declare(const BatchView& batch);
+  uint32_t addCell(const int64_t corners[4]);  // the cell's row, until it touches no active vertex
+  uint32_t finalize(int64_t vertex);           // the row that the vertex had in front()
+  void note();
+  const Front& front() const { return front_; }
+  // Rows are below these; they are used again.
+  size_t cellRows() const { return pending_.size(); }
+  size_t vertexRows() const { return vertex_head_.size(); }
+  bool isLive(uint32_t cell) const { return pending_[cell] != 0; }
+
  private:
   static constexpr uint32_t kNone = 0xffffffffu;
   void introduceUpTo(uint64_t vertex);
-  void addCell(const int64_t corners[4]);
-  void finalize(int64_t vertex);
   uint32_t takeVertex();
   uint32_t takeCell();
 

@@ -106,6 +106,27 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_layout_report, front_cells, 56);
   MEMBER(tetstream_layout_report, temporary_bytes, 64);
   MEMBER(tetstream_layout_report, seconds, 72);
+  CHECK_EQUAL(sizeof(tetstream_diagram_info), 152);
+  MEMBER(tetstream_diagram_info, struct_size, 0);
+  MEMBER(tetstream_diagram_info, cell_count, 8);
+  MEMBER(tetstream_diagram_info, vertex_count, 16);
+  MEMBER(tetstream_diagram_info, front_width, 24);
+  MEMBER(tetstream_diagram_info, front_span, 32);
+  MEMBER(tetstream_diagram_info, front_cells, 40);
+  MEMBER(tetstream_diagram_info, mean_width, 48);
+  MEMBER(tetstream_diagram_info, mean_span, 56);
+  MEMBER(tetstream_diagram_info, mean_life, 64);
+  MEMBER(tetstream_diagram_info, longest_life, 72);
+  MEMBER(tetstream_diagram_info, widest_cell, 80);
+  MEMBER(tetstream_diagram_info, longest_cell, 88);
+  MEMBER(tetstream_diagram_info, columns, 96);
+  MEMBER(tetstream_diagram_info, rows, 100);
+  MEMBER(tetstream_diagram_info, cells_per_column, 104);
+  MEMBER(tetstream_diagram_info, vertices_per_row, 112);
+  MEMBER(tetstream_diagram_info, coverage, 120);
+  MEMBER(tetstream_diagram_info, widths, 128);
+  MEMBER(tetstream_diagram_info, lowest, 136);
+  MEMBER(tetstream_diagram_info, newest, 144);
 }
 
 static void numbers_keep_their_values(void) {
@@ -144,6 +165,9 @@ static void numbers_keep_their_values(void) {
   CHECK_EQUAL(TETSTREAM_OPTION_TMPDIR, 202);
   CHECK_EQUAL(TETSTREAM_OPTION_AXIS, 210);
   CHECK_EQUAL(TETSTREAM_OPTION_ORDER, 211);
+  CHECK_EQUAL(TETSTREAM_PAGE_LAYOUT, 1);
+  CHECK_EQUAL(TETSTREAM_PAGE_SWEEP, 2);
+  CHECK_EQUAL(TETSTREAM_DIAGRAM_LARGEST, 8192);
 }
 
 static void the_library_has_the_version_of_its_header(void) {

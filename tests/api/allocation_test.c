@@ -223,6 +223,21 @@ static tetstream_status inspect_file(void) {
   return status;
 }
 
+/* What is drawn from is collected; drawing itself is the business of other libraries. */
+static tetstream_status read_diagram(void) {
+  tetstream_reader* reader = NULL;
+  tetstream_diagram* diagram = NULL;
+  tetstream_status status =
+      tetstream_reader_open_memory(bytes[kind], sizes[kind], names[kind], &reader);
+  if (status >= 0) status = tetstream_diagram_create(NULL, 9, 9, &diagram);
+  if (status >= 0)
+    status = tetstream_diagram_read(diagram, reader, TETSTREAM_PAGE_SWEEP, NULL, NULL);
+  if (status < 0 && !tetstream_diagram_message(diagram)) status = TETSTREAM_INTERNAL;
+  tetstream_diagram_destroy(diagram);
+  tetstream_reader_destroy(reader);
+  return status;
+}
+
 /* Bytes that can be read twice: a pilot may come first. */
 static tetstream_status simplify_file(void) {
   tetstream_reader* reader = NULL;
@@ -288,6 +303,7 @@ int main(void) {
     make_bytes(kind, &writers[kind]);
     fails_cleanly_wherever_memory_ends(names[kind], inspect_file);
     if (kind == 0) {
+      fails_cleanly_wherever_memory_ends("diagram of .tets", read_diagram);
       window_cells = 64;
       fails_cleanly_wherever_memory_ends(".tets through a small window", simplify_file);
       fails_cleanly_wherever_memory_ends("stream through a small window", simplify_stream_to_tets);

@@ -1,0 +1,64 @@
+#include "look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "status.h"
+
+namespace tetstream {
+
+static constexpr const char* kThinSpace = "\xe2\x80\x89";
+static constexpr const char* kEllipsis = "\xe2\x80\xa6";
+
+std::string grouped(int64_t count) {
+  std::string digits = textOf("%lld", static_cast<long long>(count)), out;
+  for (size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0 && digits[i - 1] != '-') out += kThinSpace;
+    out += digits[i];
+  }
+  return out;
+}
+
+std::string groupedMean(double number) {
+  return number < 1000 ? textOf("%.1f", number) : grouped(std::llround(number));
+}
+
+void drawTitle(Canvas& canvas, const Frame& page, double baseline, const std::string& title) {
+  const double room = 0.75 * page.width;
+  std::string shown = title;
+  for (size_t cut = 0; cut < title.size();) {
+    const double width = canvas.textWidth(shown, kTitleStyle);
+    if (width <= room) break;
+    cut += 1 + static_cast<size_t>((1 - room / width) * static_cast<double>(title.size() - cut));
+    while (cut < title.size() && (title[cut] & 0xc0) == 0x80) ++cut;  // not inside a letter
+    shown = kEllipsis + title.substr(std::min(cut, title.size()));
+  }
+  canvas.text({page.left, baseline}, shown, kTitleStyle);
+}
+
+// 1, 2 or 5 times a power of ten, not below 1: what is counted is whole.
+static double roundStep(double step) {
+  const double power = std::pow(10, std::floor(std::log10(std::max(step, 1.0))));
+  for (double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= step) return factor * power;
+  return 10 * power;
+}
+
+static std::string tickLabel(double at) {
+  constexpr struct {
+    double size;
+    const char* name;
+  } kUnits[] = {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}};
+  for (const auto& unit : kUnits)
+    if (at >= unit.size) return textOf("%g%s%s", at / unit.size, kThinSpace, unit.name);
+  return textOf("%g", at);
+}
+
+std::vector<Tick> ticksUpTo(double end, int wanted) {
+  const double step = roundStep(end / wanted);
+  std::vector<Tick> ticks;
+  for (double at = 0; at <= end; at += step) ticks.push_back({at, tickLabel(at)});
+  return ticks;
+}
+
+}  // namespace tetstream
