@@ -421,7 +421,9 @@ TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifie
 
 /* ---------------------------------------------------------------------- without simplifying */
 
-/* Reads everything from `reader` and writes it: `layout` without a report. Since 0.1. */
+/* Reads everything from `reader` and writes it. An indexed mesh is ordered, as the options say, a
+ * stream only if an order other than "auto" is asked for. On failure the message is the writer's.
+ * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_convert(tetstream_reader *reader, tetstream_writer *writer,
                                                  const tetstream_options *options,
                                                  tetstream_progress_callback progress, void *user);
@@ -440,7 +442,10 @@ typedef struct tetstream_layout_report {
  * each vertex just before the first cell that uses it, finalized by the last (Vo et al. 2007,
  * section 3.2). Memory is bounded by the option `memory` (0: 512 MB), whatever the mesh; the rest
  * is in temporary files in `tmpdir`. An indexed mesh is always ordered; a stream with order "auto"
- * only if its front is known and wide, with "none" never: it is copied then. `options` may be NULL:
+ * only if its front is known and wide, with "none" never: it is copied then. "auto" is the sweep
+ * or, if the mesh fits the memory, the spectral order where that is narrower; for `run`, and for
+ * indexed meshes in `convert` and `inspect`, it is the sweep, whose smooth front lets collapses
+ * through that narrower ones hold up. `options` may be NULL:
  * defaults; `report`, too. On failure the message is the writer's. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_layout(tetstream_reader *reader, tetstream_writer *writer,
                                                 const tetstream_options *options,

@@ -29,10 +29,30 @@ static tetstream_layout_report publicReport(const LayoutReport& report) {
   return out;
 }
 
+static void copyTo(tetstream_writer& w, tetstream_reader* reader, RunOptions run,
+                   RunOptions::Auto automatic, const ProgressFunction& progress) {
+  needPlace(reader, "reader");
+  needCreated(*reader);
+  needState(*reader, State::kReady);
+  Output& output = outputOf(w);
+  output.needReady();
+  run.automatic = automatic;
+  const Busy busy(w);
+  try {
+    w.laid_out = convertInto(output, *reader, run, progress);
+  } catch (...) {
+    output.stop(State::kBroken);
+    throw;
+  }
+  output.complete();
+}
+
 tetstream_status tetstream_convert(tetstream_reader* reader, tetstream_writer* writer,
                                    const tetstream_options* options,
                                    tetstream_progress_callback progress, void* user) {
-  return tetstream_layout(reader, writer, options, progress, user, nullptr);
+  return guard(__func__, writer, [&](tetstream_writer& w) {
+    copyTo(w, reader, runOptionsOf(options), RunOptions::Auto::kKeeps, progressOf(progress, user));
+  });
 }
 
 tetstream_status tetstream_layout(tetstream_reader* reader, tetstream_writer* writer,
@@ -41,22 +61,9 @@ tetstream_status tetstream_layout(tetstream_reader* reader, tetstream_writer* wr
                                   tetstream_layout_report* report) {
   return guard(__func__, writer, [&](tetstream_writer& w) {
     if (report) checkStruct(report, "report");
-    needPlace(reader, "reader");
-    needCreated(*reader);
-    needState(*reader, State::kReady);
-    Output& output = outputOf(w);
-    output.needReady();
-    const RunOptions run = runOptionsOf(options);
-    const Busy busy(w);
-    try {
-      w.laid_out = convertInto(output, *reader, run, progressOf(progress, user));
-    } catch (...) {
-      output.stop(State::kBroken);
-      throw;
-    }
-    output.complete();
-    if (!report) return;
-    writeStruct(report, publicReport(w.laid_out));
+    copyTo(w, reader, runOptionsOf(options), RunOptions::Auto::kNarrows,
+           progressOf(progress, user));
+    if (report) writeStruct(report, publicReport(w.laid_out));
   });
 }
 
@@ -65,7 +72,8 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
                                    tetstream_stream_info* info) {
   return guard(__func__, reader, [&](tetstream_reader& r) {
     checkStruct(info, "info");
-    const RunOptions run = runOptionsOf(options);
+    RunOptions run = runOptionsOf(options);
+    run.automatic = RunOptions::Auto::kKeeps;
     ReaderUse use(r);
     const bool indexed = (r.known->info().flags & TETSTREAM_STREAM_INDEXED) != 0;
     const Schema schema = inspect(use.input(false), run, progressOf(progress, user));

@@ -69,6 +69,7 @@ tetstream_status tetstream_diagram_create(const tetstream_options* options, int3
     checkSize(columns, "columns");
     checkSize(rows, "rows");
     d.options = runOptionsOf(options);
+    d.options.automatic = RunOptions::Auto::kKeeps;
     d.size = {static_cast<size_t>(columns), static_cast<size_t>(rows)};
   });
 }

@@ -1,9 +1,11 @@
 #include "graph_order.h"
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "breadth_first.h"
-#include "connectivity.h"
+#include "order_front.h"
 #include "spectral.h"
 #include "status.h"
 
@@ -20,29 +22,77 @@ uint64_t graphOrderBytes(Order order, uint64_t points, uint64_t cells) {
   return bytes.point * points + bytes.cell * cells;
 }
 
-void rankByGraph(IndexedSource& source, Order order, Account& account, const Tell& tell,
-                 Array<uint32_t>& rank) {
+static void readMesh(IndexedSource& source, const Tell& tell, Connectivity& mesh) {
   const int64_t points = source.schema().vertex_count, cells = source.schema().cell_count;
   if (cells > std::numeric_limits<int32_t>::max() / 2)
-    fail(Status::kUnsupported, "order \"%s\": %lld cells are too many", nameOf(order),
+    fail(Status::kUnsupported, "a mesh of %lld cells is too large for orders by its graph",
          static_cast<long long>(cells));
-  Connectivity mesh(account);
   mesh.vertices = static_cast<uint32_t>(points);
   mesh.cells = static_cast<uint32_t>(cells);
   mesh.corners.resize(4 * static_cast<size_t>(cells));
-  readAllCells(
-      source, [&](double share) { tell(0.1 * share); },
-      [&](uint64_t first, size_t count, const int64_t* corners) {
-        for (size_t i = 0; i < 4 * count; ++i)
-          mesh.corners[4 * static_cast<size_t>(first) + i] = static_cast<uint32_t>(corners[i]);
-      });
-  // How many steps there will be is not known: ever smaller ones towards the end.
-  double done = 0.1;
-  const auto step = [&] { tell(done += (1 - done) / 16); };
+  readAllCells(source, tell, [&](uint64_t first, size_t count, const int64_t* corners) {
+    for (size_t i = 0; i < 4 * count; ++i)
+      mesh.corners[4 * static_cast<size_t>(first) + i] = static_cast<uint32_t>(corners[i]);
+  });
+}
+
+// How many steps there will be is not known: ever smaller ones towards the end.
+static std::function<void()> stepsOf(const Tell& tell) {
+  return [&tell, done = 0.0]() mutable { tell(done += (1 - done) / 16); };
+}
+
+void rankByGraph(IndexedSource& source, Order order, Account& account, const Tell& tell,
+                 Array<uint32_t>& rank) {
+  Connectivity mesh(account);
+  readMesh(
+      source, [&](double share) { tell(0.1 * share); }, mesh);
+  const Tell rest = [&](double share) { tell(0.1 + 0.9 * share); };
   if (order == Order::kSpectral)
-    orderSpectral(mesh, account, step, rank);
+    orderSpectral(mesh, account, stepsOf(rest), rank);
   else
-    orderBreadthFirst(mesh, account, step, rank);
+    orderBreadthFirst(mesh, account, stepsOf(rest), rank);
+}
+
+static void rankByKeys(IndexedSource& source, const VertexKey& key, Account& account,
+                       Array<uint32_t>& rank) {
+  const auto points = static_cast<size_t>(source.schema().vertex_count);
+  const ScalarType type = source.schema().position_type;
+  Array<uint64_t> keys(account, points);
+  std::vector<double> rows(3 * std::min(kRowsAtOnce, points));
+  readInPieces(
+      points, [](double) {},
+      [&](uint64_t first, size_t count) {
+        source.readPositions(first, count, rows.data());
+        for (size_t i = 0; i < count; ++i) {
+          double place[3];
+          for (size_t k = 0; k < 3; ++k) place[k] = valueAt(rows.data(), type, 3 * i + k);
+          keys[static_cast<size_t>(first) + i] = key(first + i, place);
+        }
+      });
+  Array<uint32_t> order(account, points);
+  std::iota(order.data(), order.data() + points, 0u);
+  std::sort(order.data(), order.data() + points, [&keys](uint32_t a, uint32_t b) {
+    return keys[a] != keys[b] ? keys[a] < keys[b] : a < b;
+  });
+  rank.resize(points);
+  for (uint32_t i = 0; i < points; ++i) rank[order[i]] = i;
+}
+
+OrderWidths rankNarrowest(IndexedSource& source, const VertexKey& key, Account& account,
+                          const Tell& tell, Array<uint32_t>& rank) {
+  Connectivity mesh(account);
+  readMesh(
+      source, [&](double share) { tell(0.1 * share); }, mesh);
+  const Tell rest = [&](double share) { tell(0.1 + 0.8 * share); };
+  orderSpectral(mesh, account, stepsOf(rest), rank);
+  OrderWidths widths;
+  widths.spectral = frontOfRanks(mesh, rank, account).front_width;
+  tell(0.95);
+  Array<uint32_t> by_place(account);
+  rankByKeys(source, key, account, by_place);
+  widths.by_place = frontOfRanks(mesh, by_place, account).front_width;
+  if (widths.by_place <= widths.spectral) rank.swap(by_place);
+  return widths;
 }
 
 }  // namespace tetstream

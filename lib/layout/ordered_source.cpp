@@ -26,6 +26,11 @@ static void check(const Schema& schema, const OrderOptions& options) {
          static_cast<long long>(schema.vertex_count), static_cast<long long>(kMost));
 }
 
+static uint64_t bytesFor(Order order, const Schema& schema) {
+  return graphOrderBytes(order, static_cast<uint64_t>(std::max<int64_t>(schema.vertex_count, 0)),
+                         static_cast<uint64_t>(std::max<int64_t>(schema.cell_count, 0)));
+}
+
 // Sorted runs and sorted rows are there together; what fits the memory takes no disk.
 uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
   const uint64_t memory = options.memory_bytes ? options.memory_bytes : kDefaultLayoutMemory;
@@ -40,7 +45,7 @@ uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
   const uint64_t once =
       std::max(onDisk(point_runs) + point_rows, point_rows + onDisk(cell_runs) + cell_rows);
   const bool by_pieces = orderOf(options.order) == Order::kBreadthFirst &&
-                         graphOrderBytes(Order::kBreadthFirst, points, cells) > memory;
+                         bytesFor(Order::kBreadthFirst, schema) > memory;
   return by_pieces ? 2 * once + points * (values + 32) + cells * (32 + data) : once;
 }
 
@@ -93,6 +98,7 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
     : source_(&source), schema_(source.schema()), graph_rank_(account_) {
   check(schema_, options);
   Order order = orderOf(options.order);
+  const bool seeks = order == Order::kAuto && options.narrowest;
   if (order == Order::kAuto) order = Order::kSpatial;
   const size_t memory = options.memory_bytes ? options.memory_bytes : kDefaultLayoutMemory;
   const auto part = [&options](double begin, double end) -> Tell {
@@ -106,6 +112,8 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
   {
     const Survey survey(*source_, account_, part(0.5, 0.6));
     if (!key) key = placeKey(order, survey, options.axis);
+    if (seeks && bytesFor(Order::kSpectral, schema_) <= memory)
+      key = narrowestKey(key, part(0.6, 0.6));
     vertices_ =
         std::make_unique<RankedVertices>(*source_, survey, key, budget, schema_, part(0.6, 0.7));
     graph_rank_.resize(0);
@@ -121,17 +129,32 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
 
 OrderedSource::~OrderedSource() = default;
 
+VertexKey OrderedSource::rankKey() {
+  return [this](uint64_t point, const double[3]) {
+    return uint64_t{graph_rank_[static_cast<size_t>(point)]};
+  };
+}
+
+VertexKey OrderedSource::narrowestKey(const VertexKey& sweep, const Tell& tell) {
+  const OrderWidths widths = rankNarrowest(*source_, sweep, account_, tell, graph_rank_);
+  const bool is_sweep = widths.by_place <= widths.spectral;
+  const std::string swept = chosen_;
+  chosen_ = textOf("%s, with a front of %lld vertices: %s has %lld",
+                   is_sweep ? swept.c_str() : nameOf(Order::kSpectral),
+                   static_cast<long long>(std::min(widths.spectral, widths.by_place)),
+                   is_sweep ? nameOf(Order::kSpectral) : swept.c_str(),
+                   static_cast<long long>(std::max(widths.spectral, widths.by_place)));
+  return rankKey();
+}
+
 // A mesh that is too large is ranked piece by piece, where that can be done.
 VertexKey OrderedSource::graphKey(Order order, const OrderOptions& options, size_t memory_bytes,
                                   const Tell& tell) {
-  const auto points = static_cast<uint64_t>(schema_.vertex_count);
-  const uint64_t needed = graphOrderBytes(order, points, static_cast<uint64_t>(schema_.cell_count));
+  const uint64_t needed = bytesFor(order, schema_);
   chosen_ = nameOf(order);
   if (needed <= memory_bytes) {
     rankByGraph(*source_, order, account_, tell, graph_rank_);
-    return [this](uint64_t point, const double[3]) {
-      return uint64_t{graph_rank_[static_cast<size_t>(point)]};
-    };
+    return rankKey();
   }
   if (order != Order::kBreadthFirst)
     fail(Status::kNoMemory,

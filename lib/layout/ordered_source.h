@@ -10,8 +10,9 @@
 namespace tetstream {
 
 struct OrderOptions {
-  std::string order = "auto";
-  std::string axis = "auto";  // of "spatial": "x", "y", "z"; auto: the direction of fewest cuts
+  std::string order = "auto";  // the sweep; if `narrowest`, the spectral order where it is narrower
+  bool narrowest = false;      // and the mesh fits the memory
+  std::string axis = "auto";   // of "spatial": "x", "y", "z"; auto: the direction of fewest cuts
   std::string temp_dir;
   size_t memory_bytes = 0;  // 0: kDefaultLayoutMemory
   Tell tell;                // how much of the ordering is done; may be empty
@@ -47,6 +48,8 @@ class OrderedSource : public Source {
   class Reading;
 
   VertexKey placeKey(Order order, const Survey& survey, const std::string& axis);
+  VertexKey narrowestKey(const VertexKey& sweep, const Tell& tell);
+  VertexKey rankKey();
   VertexKey graphKey(Order order, const OrderOptions& options, size_t memory_bytes,
                      const Tell& tell);
   void measureFront(const Tell& tell);

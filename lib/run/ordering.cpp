@@ -23,8 +23,9 @@ static bool isTooWide(const Schema& schema) {
 IndexedSource* Ordering::indexedOf(Input& input, const RunOptions& options, const Tell& tell) {
   if (input.indexed) return input.indexed.get();
   const Order order = orderOf(options.order);
-  const bool is_fine =
-      order == Order::kNone || (order == Order::kAuto && !isTooWide(input.stream->schema()));
+  const bool is_kept =
+      options.automatic == RunOptions::Auto::kKeeps || !isTooWide(input.stream->schema());
+  const bool is_fine = order == Order::kNone || (order == Order::kAuto && is_kept);
   if (is_fine) return nullptr;
   auto spooled = std::make_unique<SpooledMesh>(*input.stream, options.temp_dir, tell);
   spooled_bytes_ = spooled->diskBytes();
@@ -46,6 +47,7 @@ Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFuncti
   OrderOptions order;
   order.order = options.order;
   order.axis = options.axis;
+  order.narrowest = options.automatic == RunOptions::Auto::kNarrows;
   order.temp_dir = options.temp_dir;
   order.memory_bytes = static_cast<size_t>(options.simplify.memory_bytes);
   p.temporary_bytes = static_cast<int64_t>(plannedDisk(input.schema(), order));

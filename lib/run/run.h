@@ -15,7 +15,10 @@ namespace tetstream {
 struct RunOptions {
   SimplifyOptions simplify;
   std::string order = "auto";  // of input: see orders.h
-  std::string axis = "auto";   // of order "spatial"
+  // What "auto" does: leaves streams as they are; orders those whose front is wide, too, in a
+  // sweep, whose smooth front serves a simplification best; or in what has the narrowest front.
+  enum class Auto { kKeeps, kSweeps, kNarrows } automatic = Auto::kSweeps;
+  std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
 };
 

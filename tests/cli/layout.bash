@@ -4,9 +4,9 @@ source "${BASH_SOURCE%/*}/common.bash"
 tetstream generate ball --cells 20000 mesh.tets
 tetstream convert mesh.tets mesh.vtu 2>"$logs/err"
 cells=$(cells_in mesh.tets)
-for order in auto none spatial brick z-order hilbert; do
+for order in auto none spatial brick z-order hilbert breadth-first spectral; do
   for in in mesh.tets mesh.vtu; do
-    expect 0 layout "$in" "$order.tets" --order "$order" --memory 1M
+    expect 0 layout "$in" "$order.tets" --order "$order" --memory 4M
     contains "$out" "order "
     contains "$out" "front "
     [[ $(cells_in "$order.tets") == "$cells" ]] || fail "$order loses cells of $in"
@@ -19,6 +19,22 @@ expect 0 layout mesh.vtu a.tets --order spatial --axis y
 contains "$out" "along y"
 expect 0 layout mesh.vtu b.tets --order spatial --axis y --memory 64k
 cmp a.tets b.tets || fail "the memory changes the bytes"
+
+# What is told in JSON; the narrowest order by itself, as far as the memory goes.
+expect 0 layout mesh.vtu best.tets --report json
+[[ $(member "$out" front_width) == $(member "$(tetstream info --json best.tets)" front_width) ]] ||
+  fail "another front is told than the file has"
+[[ $(member "$out" order) == *"spectral"* ]] || fail "not the narrowest order: $out"
+expect 0 layout mesh.vtu best.tets --memory 64k
+contains "$out" "spatial"
+expect_error 4 "memory" layout mesh.vtu refused.tets --order spectral --memory 64k
+
+# A wide stream is seen as it is, and laid out again only by commands that need a narrow one.
+tetstream generate ball --cells 200000 large.vtu
+expect 0 layout large.vtu wide.tets --order z-order
+wide=$(member "$(tetstream info --json wide.tets)" front_width)
+expect 0 convert wide.tets copy.tets
+[[ $(member "$(tetstream info --json copy.tets)" front_width) == "$wide" ]] || fail "convert orders"
 
 # A stream stays as it is, unless another order is asked for.
 expect 0 layout mesh.tets same.tets
