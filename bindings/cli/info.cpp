@@ -29,7 +29,18 @@ std::string columnText(const tetstream_column& column) {
                 typeName(column.type).data());
 }
 
-std::string infoText(const tetstream_stream_info& info) {
+std::string frontText(const tetstream_front_info& front) {
+  return row("front width", countText(front.width) + " vertices" +
+                                textOf(", %.4g in the mean", front.mean_width)) +
+         row("front span",
+             countText(front.span) + " vertices" + textOf(", %.4g in the mean", front.mean_span)) +
+         row("front cells", countText(front.cells)) +
+         row("lifetimes", textOf("%.4g cells a vertex in the mean, ", front.mean_life) +
+                              countText(front.longest_life) + " at most") +
+         row("window", countText(front.window_cells) + " cells for a simplification");
+}
+
+std::string infoText(const tetstream_stream_info& info, const tetstream_front_info& front) {
   const bool indexed = (info.flags & TETSTREAM_STREAM_INDEXED) != 0;
   std::string text =
       row("kind", indexed ? "indexed mesh; the front is that of its order here" : "mesh stream") +
@@ -45,9 +56,7 @@ std::string infoText(const tetstream_stream_info& info) {
   }
   for (int32_t i = 0; i < info.cell_data_count; ++i)
     text += row("cell array", columnText(info.cell_data[i]));
-  return text + row("front width", countText(info.front_width) + " vertices") +
-         row("front span", countText(info.front_span) + " vertices") +
-         row("front cells", countText(info.front_cells));
+  return text + frontText(front);
 }
 
 void addNumbers(JsonText& json, const char* name, const double* numbers, int32_t count) {
@@ -93,7 +102,7 @@ void addFields(JsonText& json, const tetstream_stream_info& info) {
 }
 
 std::string infoJson(const Arguments& arguments, const tetstream_stream_info& info,
-                     const std::vector<std::string>& notes) {
+                     const tetstream_front_info& front, const std::vector<std::string>& notes) {
   JsonText json;
   json.open('{');
   json.key("file").value(std::string_view(arguments.in.path));
@@ -114,6 +123,11 @@ std::string infoJson(const Arguments& arguments, const tetstream_stream_info& in
   addCount(json, "front_width", info.front_width);
   addCount(json, "front_span", info.front_span);
   addCount(json, "front_cells", info.front_cells);
+  json.key("mean_width").value(front.mean_width);
+  json.key("mean_span").value(front.mean_span);
+  json.key("mean_life").value(front.mean_life);
+  json.key("longest_life").value(front.longest_life);
+  json.key("window_cells").value(front.window_cells);
   json.key("notes").open('[');
   for (const std::string& note : notes) json.value(std::string_view(note));
   json.close(']');
@@ -133,7 +147,11 @@ ExitCode info(const Arguments& arguments) {
   bar.clear();
   printNotes(arguments, reader.get(), nullptr);
   check(status, reader.get());
-  printOut(arguments.json ? infoJson(arguments, found, notesOf(reader.get())) : infoText(found));
+  tetstream_front_info front = {};
+  front.struct_size = sizeof front;
+  check(tetstream_reader_get_front(reader.get(), &front), reader.get());
+  printOut(arguments.json ? infoJson(arguments, found, front, notesOf(reader.get()))
+                          : infoText(found, front));
   return exitCodeOf(status);
 }
 

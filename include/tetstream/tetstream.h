@@ -293,6 +293,21 @@ TETSTREAM_API const char *tetstream_reader_note(const tetstream_reader *reader, 
 /* The sentence for the last failure with this handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_message(const tetstream_reader *reader);
 
+/* What the front of a stream is like (Vo et al. 2007, section 3.1). */
+typedef struct tetstream_front_info {
+  size_t struct_size;           /* in: sizeof(tetstream_front_info) */
+  int64_t width, span;          /* vertices, at most */
+  int64_t cells;                /* that touch an active vertex, at most */
+  double mean_width, mean_span; /* over the cells */
+  double mean_life;             /* cells read while a vertex is active, over the vertices */
+  int64_t longest_life;         /* cells */
+  int64_t window_cells;         /* that a simplification holds */
+} tetstream_front_info;
+
+/* The front as `inspect` found it. BAD_STATE before. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_get_front(tetstream_reader *reader,
+                                                          tetstream_front_info *front);
+
 /* -------------------------------------------------------------------------------- writer */
 
 /* Where a stream goes, as callbacks; the rules of tetstream_reader_callbacks hold. Output is final:

@@ -67,6 +67,20 @@ tetstream_status tetstream_layout(tetstream_reader* reader, tetstream_writer* wr
   });
 }
 
+static tetstream_front_info publicFront(const Inspection& found) {
+  const DiagramFigures& figures = found.figures;
+  tetstream_front_info out = {};
+  out.width = figures.front.width;
+  out.span = figures.front.span;
+  out.cells = figures.front.cells;
+  out.mean_width = figures.mean_width;
+  out.mean_span = figures.mean_span;
+  out.mean_life = figures.mean_life;
+  out.longest_life = figures.longest_life;
+  out.window_cells = found.window_cells;
+  return out;
+}
+
 tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_options* options,
                                    tetstream_progress_callback progress, void* user,
                                    tetstream_stream_info* info) {
@@ -76,8 +90,9 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     run.automatic = RunOptions::Auto::kKeeps;
     ReaderUse use(r);
     const bool indexed = (r.known->info().flags & TETSTREAM_STREAM_INDEXED) != 0;
-    const Schema schema = inspect(use.input(false), run, progressOf(progress, user));
-    r.inspected = std::make_unique<const PublicSchema>(schema, indexed);
+    const Inspection found = inspect(use.input(false), run, progressOf(progress, user));
+    r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
+    r.front = publicFront(found);
     writeStruct(info, r.inspected->info());
     use.done();
   });

@@ -26,6 +26,7 @@ struct tetstream_reader : tetstream::Handle {
   tetstream::CallbackSource* callbacks = nullptr;  // input.stream, where that is the caller's
   std::unique_ptr<const tetstream::PublicSchema> known;
   std::unique_ptr<const tetstream::PublicSchema> inspected;
+  tetstream_front_info front = {};  // once inspected
   std::list<std::string> notes;
 };
 

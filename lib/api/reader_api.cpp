@@ -99,6 +99,14 @@ const char* tetstream_reader_note(const tetstream_reader* reader, int32_t index)
   return reader ? noteOf(reader->notes, index) : nullptr;
 }
 
+tetstream_status tetstream_reader_get_front(tetstream_reader* reader, tetstream_front_info* front) {
+  return guard(__func__, reader, [&](tetstream_reader& r) {
+    checkStruct(front, "front");
+    if (!r.inspected) fail(Status::kBadState, "the reader was not inspected");
+    writeStruct(front, r.front);
+  });
+}
+
 const char* tetstream_reader_message(const tetstream_reader* reader) {
   return messageOf(reader);
 }

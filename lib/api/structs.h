@@ -25,6 +25,7 @@ TETSTREAM_FIRST_SIZE(tetstream_reader_callbacks, close);
 TETSTREAM_FIRST_SIZE(tetstream_writer_callbacks, close);
 TETSTREAM_FIRST_SIZE(tetstream_report, limited_by);
 TETSTREAM_FIRST_SIZE(tetstream_layout_report, seconds);
+TETSTREAM_FIRST_SIZE(tetstream_front_info, window_cells);
 TETSTREAM_FIRST_SIZE(tetstream_diagram_info, newest);
 #undef TETSTREAM_FIRST_SIZE
 

@@ -104,70 +104,101 @@ class DataRows {
 
 }  // namespace
 
+// A row on its way has four more bytes at its end, which tell whose corners are ranks.
+class OrderedCells::Passage {
+ public:
+  Passage(OrderedCells& to, RankedVertices& vertices, bool sorts, const RankedVertices::Budget& b)
+      : to_(to),
+        sorts_(sorts),
+        row_bytes_(kCorners + to.data_bytes_),
+        translation_(vertices, points(), partPoints(b), b.account),
+        sort_(row_bytes_, b.memory_bytes - sizeof(uint32_t) * std::min(points(), partPoints(b)),
+              b.account, b.temp_dir),
+        temp_dir_(b.temp_dir),
+        row_(row_bytes_ + sizeof(uint32_t)) {
+    translation_.begin();
+    startWaiting();
+  }
+
+  // A cell of the source, whose data are at its end already.
+  unsigned char* data() { return row_.data() + kCorners; }
+  void take(const int64_t corners[4]) {
+    uint32_t points[4];
+    for (size_t j = 0; j < 4; ++j) points[j] = static_cast<uint32_t>(corners[j]);
+    pass(points, 0);
+  }
+  void prefetch(const int64_t corners[4]) const {
+    for (size_t j = 0; j < 4; ++j) translation_.prefetch(corners[j]);
+  }
+  // Then all that wait for the points of other parts; and the rows in their order.
+  void finish() {
+    while (waiting_) takeWaiting();
+    sort_.finish();
+    uint64_t key;
+    while (const unsigned char* row = sorts_ ? sort_.next(&key) : nullptr) to_.rows_.append(row, 1);
+    to_.rows_.finish();
+    to_.disk_ = std::max(to_.disk_, sort_.diskBytes());
+  }
+
+ private:
+  uint64_t points() const { return static_cast<uint64_t>(to_.source_.schema().vertex_count); }
+  static uint64_t partPoints(const RankedVertices::Budget& b) {
+    return std::max<uint64_t>(b.memory_bytes / 2 / sizeof(uint32_t), kLeastPart);
+  }
+  void startWaiting() {
+    waiting_ = translation_.isLast() ? nullptr : std::make_unique<RowSpool>(row_.size(), temp_dir_);
+  }
+  void pass(uint32_t corners[4], uint32_t known) {
+    translation_.translate(corners, known);
+    std::memcpy(row_.data(), corners, kCorners);
+    std::memcpy(row_.data() + row_bytes_, &known, sizeof known);
+    if (waiting_)
+      waiting_->append(row_.data(), 1);
+    else if (sorts_)
+      std::memcpy(sort_.add(std::max({corners[0], corners[1], corners[2], corners[3]})),
+                  row_.data(), row_bytes_);
+    else
+      to_.rows_.append(row_.data(), 1);
+  }
+  void takeWaiting() {
+    waiting_->finish();
+    to_.disk_ = std::max(to_.disk_, 2 * waiting_->diskBytes());
+    const std::unique_ptr<RowSpool> before(waiting_.release());
+    translation_.goOn();
+    startWaiting();
+    for (uint64_t i = 0; i < before->rows(); ++i) {
+      uint32_t corners[4], known;
+      std::memcpy(row_.data(), before->row(i), row_.size());
+      std::memcpy(corners, row_.data(), kCorners);
+      std::memcpy(&known, row_.data() + row_bytes_, sizeof known);
+      pass(corners, known);
+    }
+  }
+
+  OrderedCells& to_;
+  bool sorts_;
+  size_t row_bytes_;
+  Translation translation_;
+  ExternalSort sort_;
+  const std::string& temp_dir_;
+  std::vector<unsigned char> row_;
+  std::unique_ptr<RowSpool> waiting_;  // null in the last part
+};
+
 void OrderedCells::sortCells(RankedVertices& vertices, bool sorts,
                              const RankedVertices::Budget& budget, const Tell& tell) {
-  const auto points = static_cast<uint64_t>(source_.schema().vertex_count);
-  const uint64_t part = std::max<uint64_t>(budget.memory_bytes / 2 / sizeof(uint32_t), kLeastPart);
-  Translation translation(vertices, points, part, budget.account);
-  const size_t row_bytes = kCorners + data_bytes_, waiting_bytes = row_bytes + sizeof(uint32_t);
-  const size_t of_ranks = sizeof(uint32_t) * static_cast<size_t>(std::min(points, part));
-  ExternalSort sort(row_bytes, budget.memory_bytes - of_ranks, budget.account, budget.temp_dir);
-  std::unique_ptr<RowSpool> waiting;
-  const auto startSpool = [&] {
-    waiting =
-        translation.isLast() ? nullptr : std::make_unique<RowSpool>(waiting_bytes, budget.temp_dir);
-  };
-  // A row with its four bytes at the end.
-  const auto take = [&](unsigned char* row) {
-    uint32_t corners[4], known;
-    std::memcpy(corners, row, kCorners);
-    std::memcpy(&known, row + row_bytes, sizeof known);
-    translation.translate(corners, known);
-    std::memcpy(row, corners, kCorners);
-    std::memcpy(row + row_bytes, &known, sizeof known);
-    if (waiting)
-      waiting->append(row, 1);
-    else if (sorts)
-      std::memcpy(sort.add(std::max({corners[0], corners[1], corners[2], corners[3]})), row,
-                  row_bytes);
-    else
-      rows_.append(row, 1);
-  };
-  std::vector<unsigned char> row(waiting_bytes);
+  constexpr size_t kAhead = 12;
+  Passage passage(*this, vertices, sorts, budget);
   DataRows data(source_, data_bytes_);
-  translation.begin();
-  startSpool();
   readAllCells(source_, tell, [&](uint64_t first, size_t count, const int64_t* corners) {
     data.read(first, count);
     for (size_t i = 0; i < count; ++i) {
-      constexpr size_t kAhead = 12;
-      for (size_t j = 0; j < 4 && i + kAhead < count; ++j)
-        translation.prefetch(corners[4 * (i + kAhead) + j]);
-      for (size_t j = 0; j < 4; ++j) {
-        const auto corner = static_cast<uint32_t>(corners[4 * i + j]);
-        std::memcpy(row.data() + j * sizeof corner, &corner, sizeof corner);
-      }
-      data.copy(i, row.data() + kCorners);
-      std::memset(row.data() + row_bytes, 0, sizeof(uint32_t));
-      take(row.data());
+      if (i + kAhead < count) passage.prefetch(corners + 4 * (i + kAhead));
+      data.copy(i, passage.data());
+      passage.take(corners + 4 * i);
     }
   });
-  while (waiting) {
-    waiting->finish();
-    disk_ = std::max(disk_, 2 * waiting->diskBytes());
-    const std::unique_ptr<RowSpool> before = std::move(waiting);
-    translation.goOn();
-    startSpool();
-    for (uint64_t i = 0; i < before->rows(); ++i) {
-      std::memcpy(row.data(), before->row(i), waiting_bytes);
-      take(row.data());
-    }
-  }
-  sort.finish();
-  uint64_t key;
-  while (const unsigned char* sorted = sorts ? sort.next(&key) : nullptr) rows_.append(sorted, 1);
-  rows_.finish();
-  disk_ = std::max(disk_, sort.diskBytes());
+  passage.finish();
 }
 
 // From the last cell to the first: the first that has a vertex is the last to use it.

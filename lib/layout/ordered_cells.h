@@ -25,9 +25,10 @@ class OrderedCells {
   uint64_t mostDiskBytes() const { return disk_; }  // while they were sorted, and now
 
  private:
-  // A row: four corners, then the data; on its way, four bytes tell which corners are ranks.
+  // A row: four corners, then the data.
   static constexpr size_t kCorners = 4 * sizeof(uint32_t);
   class Translation;
+  class Passage;
 
   void sortCells(RankedVertices& vertices, bool sorts, const RankedVertices::Budget& budget,
                  const Tell& tell);

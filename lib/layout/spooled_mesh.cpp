@@ -11,6 +11,7 @@ constexpr SpoolShape kInSequence = {2, 256 << 10};
 static std::vector<std::unique_ptr<RowSpool>> spoolsFor(const std::vector<Column>& columns,
                                                         const std::string& temp_dir) {
   std::vector<std::unique_ptr<RowSpool>> spools;
+  spools.reserve(columns.size());
   for (const Column& c : columns)
     spools.push_back(std::make_unique<RowSpool>(c.bytesPerRow(), temp_dir, kInSequence));
   return spools;

@@ -6,7 +6,7 @@
 
 namespace tetstream {
 
-StreamFacts::StreamFacts(const Schema& schema) : schema_(schema), meter_(account_) {
+StreamFacts::StreamFacts(const Schema& schema) : schema_(schema), diagram_(schema, 1, 1) {
   schema_.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
   schema_.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
 }
@@ -34,18 +34,22 @@ void StreamFacts::growBox(const BatchView& batch) {
 }
 
 void StreamFacts::put(const BatchView& batch) {
-  meter_.put(batch);
+  diagram_.put(batch);
   vertices_ += batch.vertex_count;
   if (batch.vertex_count > 0) growBox(batch);
+}
+
+void StreamFacts::finish() {
+  diagram_.finish();
 }
 
 Schema StreamFacts::schema() const {
   Schema s = schema_;
   s.vertex_count = static_cast<int64_t>(vertices_);
-  s.cell_count = static_cast<int64_t>(meter_.cellsSeen());
-  s.front_width = meter_.statistics().width;
-  s.front_span = meter_.statistics().span;
-  s.front_cells = meter_.statistics().cells;
+  s.cell_count = figures().cells;
+  s.front_width = figures().front.width;
+  s.front_span = figures().front.span;
+  s.front_cells = figures().front.cells;
   if (vertices_ == 0) {
     s.box_min.clear();
     s.box_max.clear();

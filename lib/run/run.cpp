@@ -209,7 +209,7 @@ LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
   return report;
 }
 
-Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& progress) {
+Inspection inspect(Input& input, const RunOptions& options, const ProgressFunction& progress) {
   Ordering stream(input, options, progress);
   const int64_t total = stream.source().schema().cell_count;
   StreamFacts facts(stream.source().schema());
@@ -221,7 +221,14 @@ Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& 
     facts.put(batch);
     tellCells(p, batch.cell_count, progress);
   }
-  return facts.schema();
+  facts.finish();
+  const Schema schema = facts.schema();
+  SimplifyOptions simplify;
+  simplify.window_cells = options.simplify.window_cells;
+  simplify.memory_bytes = options.simplify.memory_bytes;
+  for (const Column& c : schema.fields)  // carried: there may be too many to be measured
+    if (isFloat(c.type)) simplify.fields.emplace_back(c.name, 0);
+  return {schema, facts.figures(), Simplifier::windowCells(schema, simplify)};
 }
 
 // The schema with the box and the counts, from a first reading if need be.
@@ -240,6 +247,7 @@ static Schema sweptSchema(Source& source, const ProgressFunction& progress) {
     facts.put(batch);
     tellCells(p, batch.cell_count, progress);
   }
+  facts.finish();
   return facts.schema();
 }
 

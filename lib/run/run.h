@@ -55,8 +55,14 @@ struct LayoutReport {
 LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
                      const ProgressFunction& progress);
 
-// The schema with everything known: counts, box, front. Reads the whole input.
-Schema inspect(Input& input, const RunOptions& options, const ProgressFunction& progress);
+// What a mesh is like, as it would be streamed.
+struct Inspection {
+  Schema schema;           // with everything known: counts, box, front
+  DiagramFigures figures;  // means and lifetimes
+  int64_t window_cells;    // that a simplification takes
+};
+// Reads the whole input.
+Inspection inspect(Input& input, const RunOptions& options, const ProgressFunction& progress);
 
 // What the pages about a stream's layout are drawn from.
 struct Diagram {

@@ -95,6 +95,16 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_report, estimated_error, 184);
   MEMBER(tetstream_report, reached, 192);
   MEMBER(tetstream_report, order, 200);
+  CHECK_EQUAL(sizeof(tetstream_front_info), 72);
+  MEMBER(tetstream_front_info, struct_size, 0);
+  MEMBER(tetstream_front_info, width, 8);
+  MEMBER(tetstream_front_info, span, 16);
+  MEMBER(tetstream_front_info, cells, 24);
+  MEMBER(tetstream_front_info, mean_width, 32);
+  MEMBER(tetstream_front_info, mean_span, 40);
+  MEMBER(tetstream_front_info, mean_life, 48);
+  MEMBER(tetstream_front_info, longest_life, 56);
+  MEMBER(tetstream_front_info, window_cells, 64);
   CHECK_EQUAL(sizeof(tetstream_layout_report), 80);
   MEMBER(tetstream_layout_report, struct_size, 0);
   MEMBER(tetstream_layout_report, order, 8);

@@ -54,8 +54,19 @@ static void every_format_takes_and_gives_all_cells(void) {
 static void check_facts(tetstream_reader* reader) {
   tetstream_stream_info info = {0};
   info.struct_size = sizeof info;
+  tetstream_front_info front = {0};
+  front.struct_size = sizeof front;
+  CHECK_EQUAL(tetstream_reader_get_front(reader, &front), TETSTREAM_BAD_STATE);
   CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_OK);
   CHECK_SAYS(tetstream_reader_message(reader), "");
+  CHECK_EQUAL(tetstream_reader_get_front(reader, &front), TETSTREAM_OK);
+  CHECK_EQUAL(front.width, info.front_width);
+  CHECK_EQUAL(front.span, info.front_span);
+  CHECK_EQUAL(front.cells, info.front_cells);
+  CHECK(front.mean_width > 3 && front.mean_width <= (double)front.width);
+  CHECK(front.mean_span >= front.mean_width && front.mean_span <= (double)front.span);
+  CHECK(front.mean_life > 1 && front.mean_life <= (double)front.longest_life);
+  CHECK(front.longest_life <= info.cell_count && front.window_cells >= 64);
   CHECK_EQUAL(info.cell_count, mesh->cell_count);
   CHECK_EQUAL(info.vertex_count, mesh->vertex_count);
   CHECK(info.front_width > 0 && info.front_width <= mesh->vertex_count);
@@ -73,6 +84,52 @@ static void check_facts(tetstream_reader* reader) {
   CHECK_EQUAL(again.front_cells, info.front_cells);
   CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_STATE);
   tetstream_reader_destroy(reader);
+}
+
+/* In every order all cells come, and the report tells the front that comes with them. */
+static void a_layout_tells_its_order_and_its_front(void) {
+  static const char* const orders[] = {"auto",    "none",    "spatial",       "brick",
+                                       "z-order", "hilbert", "breadth-first", "spectral"};
+  for (size_t i = 0; i < sizeof orders / sizeof orders[0]; ++i) {
+    tetstream_options* options = NULL;
+    tetstream_writer* writer = NULL;
+    tetstream_layout_report report = {0};
+    report.struct_size = sizeof report;
+    CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_ORDER, orders[i]),
+                TETSTREAM_OK);
+    hostile_writer out = {0};
+    const tetstream_writer_callbacks writes = hostile_writer_callbacks(&out);
+    CHECK_EQUAL(tetstream_writer_create(&writes, &writer), TETSTREAM_OK);
+    tetstream_reader* reader = arrays_of(mesh);
+    CHECK_EQUAL(tetstream_layout(reader, writer, options, NULL, NULL, &report), TETSTREAM_OK);
+    CHECK_EQUAL(out.cells, mesh->cell_count);
+    CHECK_EQUAL(out.finalized, mesh->vertex_count);
+    CHECK_EQUAL(out.stream_errors + out.order_errors, 0);
+    CHECK_EQUAL(report.cells, out.cells);
+    CHECK_EQUAL(report.vertices, out.vertices);
+    CHECK_EQUAL(report.unused_vertices, 0);
+    CHECK(report.front_width >= 4 && report.front_span >= report.front_width);
+    CHECK(i == 0 || strstr(report.order, orders[i]) == report.order);
+    tetstream_reader_destroy(reader);
+    tetstream_options_destroy(options);
+    tetstream_writer_destroy(writer);
+    hostile_writer_free(&out);
+  }
+}
+
+static void a_layout_refuses_what_it_cannot_fill(void) {
+  tetstream_writer* writer = NULL;
+  tetstream_reader* reader = arrays_of(mesh);
+  tetstream_layout_report report = {0};
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+  report.struct_size = sizeof report - 1;
+  CHECK_EQUAL(tetstream_layout(reader, writer, NULL, NULL, NULL, &report), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_layout(NULL, writer, NULL, NULL, NULL, NULL), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_layout(reader, NULL, NULL, NULL, NULL, NULL), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_layout(reader, writer, NULL, NULL, NULL, NULL), TETSTREAM_OK);
+  tetstream_reader_destroy(reader);
+  tetstream_writer_destroy(writer);
 }
 
 static void inspection_finds_the_same_however_the_mesh_comes(void) {
@@ -164,6 +221,8 @@ int main(void) {
   mesh = hostile_mesh_create(3, 4, 5);
   CHECK(mesh != NULL);
   RUN_CASE(every_format_takes_and_gives_all_cells);
+  RUN_CASE(a_layout_tells_its_order_and_its_front);
+  RUN_CASE(a_layout_refuses_what_it_cannot_fill);
   RUN_CASE(inspection_finds_the_same_however_the_mesh_comes);
   RUN_CASE(failures_of_the_reader_are_told_by_the_writer);
   RUN_CASE(values_too_large_for_float32_are_refused_where_nothing_else_is_held);

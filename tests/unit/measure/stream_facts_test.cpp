@@ -15,6 +15,9 @@ Schema factsAbout(const TestMesh& mesh, const Cut& cut) {
   StreamFacts facts(stream.schema());
   BatchView batch;
   while (stream.next(batch)) facts.put(batch);
+  facts.finish();
+  EXPECT_EQ(facts.figures().front.width, facts.schema().front_width);
+  EXPECT_LE(facts.figures().mean_width, static_cast<double>(facts.schema().front_width));
   return facts.schema();
 }
 

@@ -235,14 +235,14 @@ TEST(Convert, OrdersAnIndexedMesh) {
 TEST(Inspect, TellsTheSameOfAStreamAndOfTheMeshItCameFrom) {
   TestMesh mesh = shuffled(richMesh(), 8);
   Input first = indexed(mesh);
-  const Schema a = inspect(first, {}, {});
+  const Schema a = inspect(first, {}, {}).schema;
   Recorder out;
   Input second = indexed(mesh);
   convert(second, out, {}, {});
   Cut cut;
   cut.say_counts = false;
   Input third = streamed(out.mesh, cut);
-  const Schema b = inspect(third, {}, {});
+  const Schema b = inspect(third, {}, {}).schema;
   EXPECT_EQ(a.vertex_count, b.vertex_count);
   EXPECT_EQ(a.cell_count, b.cell_count);
   EXPECT_EQ(a.front_width, b.front_width);
