@@ -44,8 +44,9 @@ uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
   const auto onDisk = [memory](uint64_t runs) { return runs * 3 > memory ? runs : 0; };
   const uint64_t once =
       std::max(onDisk(point_runs) + point_rows, point_rows + onDisk(cell_runs) + cell_rows);
-  const bool by_pieces = orderOf(options.order) == Order::kBreadthFirst &&
-                         bytesFor(Order::kBreadthFirst, schema) > memory;
+  const Order order = orderOf(options.order);
+  const bool by_graph = order == Order::kBreadthFirst || order == Order::kSpectral;
+  const bool by_pieces = by_graph && bytesFor(order, schema) > memory;
   return by_pieces ? 2 * once + points * (values + 32) + cells * (32 + data) : once;
 }
 
@@ -147,7 +148,7 @@ VertexKey OrderedSource::narrowestKey(const VertexKey& sweep, const Tell& tell) 
   return rankKey();
 }
 
-// A mesh that is too large is ranked piece by piece, where that can be done.
+// A mesh that is too large is ranked by pieces.
 VertexKey OrderedSource::graphKey(Order order, const OrderOptions& options, size_t memory_bytes,
                                   const Tell& tell) {
   const uint64_t needed = bytesFor(order, schema_);
@@ -156,14 +157,8 @@ VertexKey OrderedSource::graphKey(Order order, const OrderOptions& options, size
     rankByGraph(*source_, order, account_, tell, graph_rank_);
     return rankKey();
   }
-  if (order != Order::kBreadthFirst)
-    fail(Status::kNoMemory,
-         "order \"%s\" takes about %llu MB for this mesh, and %llu are allowed: give it more "
-         "memory, or another order",
-         nameOf(order), static_cast<unsigned long long>(needed >> 20),
-         static_cast<unsigned long long>(memory_bytes >> 20));
-  chosen_ += ", piece by piece";
-  swept_ = std::make_unique<SweptMesh>(*source_, options, memory_bytes, account_, tell);
+  chosen_ += order == Order::kSpectral ? ", by clusters" : ", piece by piece";
+  swept_ = std::make_unique<SweptMesh>(*source_, order, options, memory_bytes, account_, tell);
   source_ = &swept_->mesh();
   unused_ = swept_->unusedVertices();
   disk_ = swept_->diskBytes();

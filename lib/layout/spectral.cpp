@@ -66,6 +66,16 @@ class ComponentOrder {
         trial_(account, graph.vertices),
         best_(account, graph.vertices) {}
 
+  // Scaled to [0, 1].
+  void findValues(float* value) {
+    lowestVectors(graph_, account_, tell_, vectors_);
+    const Four direction = findDirection();
+    for (uint32_t v = 0; v < graph_.vertices; ++v) value[v] = along(direction, v);
+    const auto [low, high] = std::minmax_element(value, value + graph_.vertices);
+    const float least = *low, range = std::max(*high - *low, 1e-30f);
+    for (uint32_t v = 0; v < graph_.vertices; ++v) value[v] = (value[v] - least) / range;
+  }
+
   const Array<uint32_t>& find() {
     lowestVectors(graph_, account_, tell_, vectors_);
     const Four direction = findDirection();
@@ -79,6 +89,10 @@ class ComponentOrder {
   }
 
  private:
+  float along(Four direction, uint32_t v) const {
+    const Four part = direction * vectors_[v];
+    return part[0] + part[1] + part[2] + part[3];
+  }
   uint32_t sweep(Four direction);
   Four findDirection();
   void keep(uint32_t width);
@@ -106,10 +120,8 @@ uint32_t ordered(float value) {
 // The trial becomes the sweep along a combination of the eigenvectors. Returns its width.
 uint32_t ComponentOrder::sweep(Four direction) {
   tell_();
-  for (uint32_t v = 0; v < graph_.vertices; ++v) {
-    const Four part = direction * vectors_[v];
-    keys_[v] = uint64_t{ordered(part[0] + part[1] + part[2] + part[3])} << 32 | v;
-  }
+  for (uint32_t v = 0; v < graph_.vertices; ++v)
+    keys_[v] = uint64_t{ordered(along(direction, v))} << 32 | v;
   std::sort(keys_.data(), keys_.data() + graph_.vertices);
   for (uint32_t i = 0; i < graph_.vertices; ++i) trial_[i] = static_cast<uint32_t>(keys_[i]);
   return findLayers(graph_, trial_.data(), account_, layer_.data());
@@ -195,6 +207,21 @@ void orderSpectral(const Connectivity& mesh, Account& account, const std::functi
     const Array<uint32_t>& sequence = order.find();
     for (uint32_t i = 0; i < end - start; ++i)
       rank[components.member[start + sequence[i]]] = end - 1 - i;
+  }
+}
+
+void findSpectralValues(const Connectivity& mesh, Account& account,
+                        const std::function<void()>& tell, Array<float>& value) {
+  value.resize(mesh.vertices);
+  const Components components(mesh, account, tell);
+  for (uint32_t c = 0; c < components.count(); ++c) {
+    const uint32_t start = components.start[c], count = components.start[c + 1] - start;
+    Array<float> of_component(account, count);
+    of_component[0] = 0;
+    if (count > 1)
+      ComponentOrder(components.graph(c), account, tell).findValues(of_component.data());
+    for (uint32_t i = 0; i < count; ++i)
+      value[components.member[start + i]] = static_cast<float>(c) + of_component[i];
   }
 }
 

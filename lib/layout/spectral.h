@@ -16,4 +16,9 @@ namespace tetstream {
 void orderSpectral(const Connectivity& mesh, Account& account, const std::function<void()>& tell,
                    Array<uint32_t>& rank);
 
+// The values of that combination, which vary smoothly over the mesh: from i to i + 1 in the i-th
+// component.
+void findSpectralValues(const Connectivity& mesh, Account& account,
+                        const std::function<void()>& tell, Array<float>& value);
+
 }  // namespace tetstream

@@ -1,16 +1,21 @@
-// layout: a mesh that is too large for its graph, swept into temporary files and ranked breadth
-// first on the way. Depends on breadth_first_pieces.h, ordered_source.h, spooled_mesh.h.
+// layout: a mesh that is too large for its graph, laid out by place into temporary files, and its
+// order by pieces of that. Depends on breadth_first_pieces.h, spectral_clusters.h,
+// ordered_source.h, spooled_mesh.h.
 #pragma once
+
+#include <optional>
 
 #include "breadth_first_pieces.h"
 #include "ordered_source.h"
+#include "spectral_clusters.h"
 #include "spooled_mesh.h"
 
 namespace tetstream {
 
 class SweptMesh {
  public:
-  SweptMesh(IndexedSource& source, const OrderOptions& options, size_t memory_bytes,
+  // `order`: breadth-first, which is found in a sweep, or spectral, along Hilbert's curve.
+  SweptMesh(IndexedSource& source, Order order, const OrderOptions& options, size_t memory_bytes,
             Account& account, const Tell& tell);
 
   IndexedSource& mesh() { return *mesh_; }
@@ -20,7 +25,11 @@ class SweptMesh {
   VertexKey key();
 
  private:
-  PiecewiseBreadthFirst ranks_;
+  void rank(Source& swept, size_t memory_bytes, Account& account, const std::string& temp_dir,
+            const Tell& tell);
+
+  std::optional<PiecewiseBreadthFirst> ranks_;
+  std::optional<SpectralClusters> clusters_;
   std::unique_ptr<SpooledMesh> mesh_;
   int64_t unused_ = 0;
   uint64_t disk_ = 0;

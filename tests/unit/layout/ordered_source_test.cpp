@@ -316,12 +316,22 @@ TEST(OrderedSource, RanksByTheGraph) {
         EXPECT_LE(result.front.span, result.front.width * 3 / 2);
       }
     }
-  try {
-    ordered(mesh, inOrder("spectral", 1000), false);
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.status(), Status::kNoMemory);
-  }
+}
+
+// Where the graph does not fit the memory: clusters of some vertices, still narrower than a curve.
+TEST(OrderedSource, RanksSpectrallyByClusters) {
+  const int n = slowRun() ? 6 : 12;
+  TestMesh mesh = withColumns(shuffled(fullGrid(n, n, 3 * n, 0.1), 3));
+  const Ordered result = ordered(mesh, inOrder("spectral", 1 << 18), true);
+  EXPECT_EQ(result.chosen, "spectral, by clusters");
+  expectSound(mesh, result);
+  const int64_t swept = ordered(mesh, inOrder("spatial"), true).front.width;
+  EXPECT_LE(result.front.width, 2 * swept);
+  EXPECT_LE(result.front.width, ordered(mesh, inOrder("hilbert"), true).front.width);
+  EXPECT_TRUE(ordered(mesh, inOrder("spectral", 1 << 18), false).out.allBytes() ==
+              result.out.allBytes());
+  for (const TestMesh& odd : {withColumns(apart(3)), withColumns(oneCell())})
+    expectSound(odd, ordered(odd, inOrder("spectral", 1), true));
 }
 
 // Pieces of 4096 cells; several parts, points that are not used, the same whatever the source.

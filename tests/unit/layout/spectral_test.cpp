@@ -147,5 +147,34 @@ TEST(Spectral, failsCleanlyWithoutMemory) {
   }
 }
 
+// Smooth values: along a bar they rise or fall with it; from i to i + 1 in the i-th component.
+TEST(Spectral, findsValuesThatVarySmoothly) {
+  const int n = slowRun() ? 3 : 5;
+  const TestMesh bar = shuffled(fullGrid(n, n, 8 * n, 0.1), 1);
+  const OrderMesh mesh(bar);
+  Account account;
+  Array<float> value(account);
+  findSpectralValues(
+      mesh.connectivity, account, [] {}, value);
+  const auto [low, high] = std::minmax_element(value.data(), value.data() + bar.vertexCount());
+  EXPECT_EQ(*low, 0);
+  EXPECT_EQ(*high, 1);
+  const auto z = [&](const float* at) {
+    return bar.position(static_cast<size_t>(at - value.data()), 2);
+  };
+  EXPECT_GT(std::abs(z(low) - z(high)), 8 * n - 1.5);
+  const OrderMesh two(apart(3));
+  findSpectralValues(
+      two.connectivity, account, [] {}, value);
+  size_t second = 0;
+  for (uint32_t v = 0; v < two.connectivity.vertices; ++v) {
+    EXPECT_GE(value[v], 0);
+    EXPECT_LE(value[v], 2);
+    second += value[v] > 1;
+  }
+  EXPECT_GT(second, two.connectivity.vertices / 3);
+  EXPECT_LE(second, two.connectivity.vertices / 2 + 1);
+}
+
 }  // namespace
 }  // namespace tetstream::test
