@@ -9,8 +9,8 @@ static LayoutReport convertInto(Output& output, tetstream_reader& reader, const 
                                 const ProgressFunction& progress) {
   ReaderUse use(reader);
   output.start(options.temp_dir);
-  LayoutReport report =
-      convert(use.input(output.mustRound(use.schema())), output, options, progress);
+  LayoutReport report = convert(use.input(output.mustRound(use.schema()), options.temp_dir), output,
+                                options, progress);
   use.done();
   return report;
 }
@@ -90,7 +90,8 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     run.automatic = RunOptions::Auto::kKeeps;
     ReaderUse use(r);
     const bool indexed = (r.known->info().flags & TETSTREAM_STREAM_INDEXED) != 0;
-    const Inspection found = inspect(use.input(false), run, progressOf(progress, user));
+    const Inspection found =
+        inspect(use.input(false, run.temp_dir), run, progressOf(progress, user));
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
     r.front = publicFront(found);
     writeStruct(info, r.inspected->info());

@@ -21,7 +21,8 @@ static void readInto(tetstream_diagram& d, tetstream_reader& reader, bool with_s
                      const ProgressFunction& progress) {
   const Busy busy(d);
   ReaderUse use(reader);
-  d.diagram = readDiagram(use.input(false), d.size, with_sweep, d.options, progress);
+  d.diagram =
+      readDiagram(use.input(false, d.options.temp_dir), d.size, with_sweep, d.options, progress);
   for (const DiagramColumn& column : d.diagram.layout->front()) {
     d.widths.push_back(column.width);
     d.lowest.push_back(column.lowest);

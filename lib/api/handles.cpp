@@ -42,17 +42,10 @@ ReaderUse::ReaderUse(tetstream_reader& reader) : reader_(reader) {
   reader.busy = true;
 }
 
-void ReaderUse::collect() {
-  collector_.emplace(reader_.input.schema());
-  BatchView batch;
-  while (reader_.input.stream->next(batch)) collector_->put(batch);
-  collected_.indexed = collector_->source();
-}
-
-Input& ReaderUse::input(bool rounded) {
+Input& ReaderUse::input(bool rounded, const std::string& temp_dir) {
   Input* input = &reader_.input;
   if (reader_.callbacks && reader_.callbacks->indexed()) {
-    collect();
+    collected_.indexed = spoolStream(*input->stream, temp_dir, [](double) {});
     input = &collected_;
   }
   if (!rounded) return *input;

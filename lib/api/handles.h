@@ -9,10 +9,10 @@
 
 #include "callbacks.h"
 #include "guard.h"
-#include "mesh_collector.h"
 #include "option_values.h"
 #include "output.h"
 #include "rounding_source.h"
+#include "spooled_mesh.h"
 #include "structs.h"
 
 struct tetstream_options : tetstream::Handle {
@@ -78,17 +78,14 @@ class ReaderUse {
   ReaderUse(const ReaderUse&) = delete;
   ReaderUse& operator=(const ReaderUse&) = delete;
 
-  // What to read; an indexed mesh that comes in the caller's batches is collected first. With
-  // `rounded`, its floats are float32.
-  Input& input(bool rounded);
+  // What to read; an indexed mesh that comes in the caller's batches is collected first, in
+  // temporary files. With `rounded`, its floats are float32.
+  Input& input(bool rounded, const std::string& temp_dir);
   const Schema& schema() const { return reader_.input.schema(); }
   void done() { done_ = true; }
 
  private:
-  void collect();
-
   tetstream_reader& reader_;
-  std::optional<MeshCollector> collector_;
   Input collected_, rounded_;
   bool done_ = false;
 };

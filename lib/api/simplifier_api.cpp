@@ -54,7 +54,7 @@ static Status pull(tetstream_simplifier& s, tetstream_reader& reader) {
     ~Scope() { dropRun(s); }
   };
   const Scope scope{s};
-  s.run->run(use.input(s.output->mustRound(use.schema())));
+  s.run->run(use.input(s.output->mustRound(use.schema()), s.options.temp_dir));
   use.done();
   return endRun(s);
 }

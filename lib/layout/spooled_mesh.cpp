@@ -17,19 +17,40 @@ static std::vector<std::unique_ptr<RowSpool>> spoolsFor(const std::vector<Column
   return spools;
 }
 
-SpooledMesh::SpooledMesh(Source& source, const std::string& temp_dir, const Tell& tell)
-    : schema_(source.schema()),
+SpooledMesh::SpooledMesh(const Schema& schema, const std::string& temp_dir)
+    : schema_(schema),
       positions_(3 * sizeOf(schema_.position_type), temp_dir, kInSequence),
       cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
       fields_(spoolsFor(schema_.fields, temp_dir)),
       cell_data_(spoolsFor(schema_.cell_data, temp_dir)),
-      locked_(account_) {
-  const auto all = static_cast<double>(std::max<int64_t>(schema_.cell_count, 1));
-  BatchView batch;
-  while (source.next(batch)) {
-    take(batch);
-    if (schema_.cell_count > 0) tell(std::min(static_cast<double>(cells_.rows()) / all, 1.0));
+      locked_(account_) {}
+
+void SpooledMesh::lock(const BatchView& batch) {
+  const auto before = static_cast<size_t>(positions_.rows());
+  makeRoomForLocks(before + batch.vertex_count);
+  std::copy_n(batch.locked, batch.vertex_count, locked_.data() + before);
+  any_locked_ = true;
+}
+
+// Arrays without rows may be null, and so may the lists of them.
+void SpooledMesh::put(const BatchView& batch) {
+  if (batch.face_count > 0)
+    fail(Status::kUnsupported,
+         "the stream has labelled boundary faces, which another order cannot keep yet");
+  if (batch.vertex_count > 0) {
+    if (batch.locked) lock(batch);
+    positions_.append(batch.positions, batch.vertex_count);
+    for (size_t f = 0; f < fields_.size(); ++f)
+      fields_[f]->append(batch.fields[f], batch.vertex_count);
   }
+  if (batch.cell_count > 0) {
+    cells_.append(batch.cells, batch.cell_count);
+    for (size_t k = 0; k < cell_data_.size(); ++k)
+      cell_data_[k]->append(batch.cell_data[k], batch.cell_count);
+  }
+}
+
+void SpooledMesh::finish() {
   schema_.vertex_count = static_cast<int64_t>(positions_.rows());
   schema_.cell_count = static_cast<int64_t>(cells_.rows());
   if (any_locked_) makeRoomForLocks(static_cast<size_t>(positions_.rows()));
@@ -38,22 +59,17 @@ SpooledMesh::SpooledMesh(Source& source, const std::string& temp_dir, const Tell
     for (auto& spool : *columns) spool->finish();
 }
 
-void SpooledMesh::take(const BatchView& batch) {
-  if (batch.face_count > 0)
-    fail(Status::kUnsupported,
-         "the stream has labelled boundary faces, which another order cannot keep yet");
-  if (batch.locked) {
-    const auto before = static_cast<size_t>(positions_.rows());
-    makeRoomForLocks(before + batch.vertex_count);
-    std::copy_n(batch.locked, batch.vertex_count, locked_.data() + before);
-    any_locked_ = true;
+std::unique_ptr<SpooledMesh> spoolStream(Source& source, const std::string& temp_dir,
+                                         const Tell& tell) {
+  auto mesh = std::make_unique<SpooledMesh>(source.schema(), temp_dir);
+  const auto all = static_cast<double>(std::max<int64_t>(source.schema().cell_count, 1));
+  double seen = 0;
+  for (BatchView batch; source.next(batch); tell(std::min(seen / all, 1.0))) {
+    mesh->put(batch);
+    seen += static_cast<double>(batch.cell_count);
   }
-  positions_.append(batch.positions, batch.vertex_count);
-  for (size_t f = 0; f < fields_.size(); ++f)
-    fields_[f]->append(batch.fields[f], batch.vertex_count);
-  cells_.append(batch.cells, batch.cell_count);
-  for (size_t k = 0; k < cell_data_.size(); ++k)
-    cell_data_[k]->append(batch.cell_data[k], batch.cell_count);
+  mesh->finish();
+  return mesh;
 }
 
 void SpooledMesh::makeRoomForLocks(size_t vertices) {

@@ -1,4 +1,4 @@
-// layout: a stream taken apart again, as an indexed mesh in temporary files. Depends on
+// layout: a mesh that comes in batches, as an indexed one in temporary files. Depends on
 // mesh_reading.h, row_spool.h.
 #pragma once
 
@@ -8,10 +8,15 @@
 
 namespace tetstream {
 
-// Reads the stream to its end when made. Streams with labelled boundary faces are kUnsupported.
+// Finalizations are dropped: an indexed mesh has none. Labelled boundary faces are kUnsupported.
+// What is small stays in memory; of a large mesh only the locks do, a byte a vertex if there are
+// any.
 class SpooledMesh : public IndexedSource {
  public:
-  SpooledMesh(Source& source, const std::string& temp_dir, const Tell& tell);
+  SpooledMesh(const Schema& schema, const std::string& temp_dir);
+  void put(const BatchView& batch);
+  void finish();  // before it is read
+
   const Schema& schema() const override { return schema_; }
   const uint8_t* locked() const override { return any_locked_ ? locked_.data() : nullptr; }
   void readPositions(uint64_t first, size_t count, void* out) override;
@@ -22,7 +27,7 @@ class SpooledMesh : public IndexedSource {
   uint64_t diskBytes() const;
 
  private:
-  void take(const BatchView& batch);
+  void lock(const BatchView& batch);
   void makeRoomForLocks(size_t vertices);
 
   Schema schema_;
@@ -32,5 +37,9 @@ class SpooledMesh : public IndexedSource {
   Array<uint8_t> locked_;  // per vertex so far
   bool any_locked_ = false;
 };
+
+// All of a stream.
+std::unique_ptr<SpooledMesh> spoolStream(Source& source, const std::string& temp_dir,
+                                         const Tell& tell);
 
 }  // namespace tetstream

@@ -16,8 +16,7 @@ SweptMesh::SweptMesh(IndexedSource& source, Order order, const OrderOptions& opt
     if (!is_spectral)
       rank(*swept.again(), memory_bytes, account, options.temp_dir,
            [&](double share) { tell(0.4 + 0.4 * share); });
-    mesh_ = std::make_unique<SpooledMesh>(swept, options.temp_dir,
-                                          [&](double share) { tell(0.8 + 0.1 * share); });
+    mesh_ = spoolStream(swept, options.temp_dir, [&](double share) { tell(0.8 + 0.1 * share); });
     disk_ = swept.diskBytes() + mesh_->diskBytes() + (ranks_ ? ranks_->diskBytes() : 0);
   }
   if (!is_spectral) return;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "spooled_mesh.h"
+#include "status.h"
 
 namespace tetstream {
 
@@ -19,6 +20,11 @@ static bool isTooWide(const Schema& schema) {
   return static_cast<double>(schema.front_width) > kTooWide * narrow;
 }
 
+static std::string reasonToKeep(const Schema& schema) {
+  if (schema.front_width < 0) return ", with a front that is not known";
+  return textOf(", with a front of %lld vertices", static_cast<long long>(schema.front_width));
+}
+
 // Null where the stream stays as it is.
 IndexedSource* Ordering::indexedOf(Input& input, const RunOptions& options, const Tell& tell) {
   if (input.indexed) return input.indexed.get();
@@ -27,7 +33,7 @@ IndexedSource* Ordering::indexedOf(Input& input, const RunOptions& options, cons
       options.automatic == RunOptions::Auto::kKeeps || !isTooWide(input.stream->schema());
   const bool is_fine = order == Order::kNone || (order == Order::kAuto && is_kept);
   if (is_fine) return nullptr;
-  auto spooled = std::make_unique<SpooledMesh>(*input.stream, options.temp_dir, tell);
+  auto spooled = spoolStream(*input.stream, options.temp_dir, tell);
   spooled_bytes_ = spooled->diskBytes();
   spooled_ = std::move(spooled);
   return spooled_.get();
@@ -55,13 +61,15 @@ Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFuncti
   IndexedSource* indexed = indexedOf(input, options, part(0, spooling));
   if (!indexed) {
     source_ = input.stream.get();
-    chosen_ = "none: the stream is as it was";
+    chosen_ = "none: the stream is as it was" + reasonToKeep(input.stream->schema());
     return;
   }
   order.tell = part(spooling, 1);
   ordered_ = std::make_unique<OrderedSource>(*indexed, order);
   source_ = ordered_.get();
   chosen_ = ordered_->chosen();
+  if (orderOf(options.order) == Order::kAuto && !order.narrowest)
+    chosen_ += ": there the fewest cells are cut";
 }
 
 double Ordering::share() const {

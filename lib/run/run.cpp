@@ -5,10 +5,10 @@
 #include <chrono>
 
 #include "front_meter.h"
-#include "mesh_collector.h"
 #include "ordering.h"
 #include "sampler.h"
 #include "simplifier.h"
+#include "spooled_mesh.h"
 #include "status.h"
 #include "stream_facts.h"
 
@@ -64,7 +64,7 @@ struct SimplifyRun::State {
   double order_share = 0;  // of the time, of ordering that is done
   double pilot_share = 0;  // of the time, of a pilot that is done
   Simplifier simplifier;
-  std::unique_ptr<MeshCollector> collector;
+  std::unique_ptr<SpooledMesh> collector;
   Clock::time_point start;
   Report report;
 
@@ -150,7 +150,7 @@ void SimplifyRun::run(Input& input) {
 void SimplifyRun::begin(const Schema& schema, bool indexed) {
   state_->start = Clock::now();
   if (indexed)
-    state_->collector = std::make_unique<MeshCollector>(schema);
+    state_->collector = std::make_unique<SpooledMesh>(schema, state_->options.temp_dir);
   else
     state_->simplifier.begin(schema);
 }
@@ -164,8 +164,9 @@ void SimplifyRun::put(const BatchView& batch) {
 
 void SimplifyRun::finish() {
   if (state_->collector) {
+    state_->collector->finish();
     Input input;
-    input.indexed = state_->collector->source();
+    input.indexed = std::move(state_->collector);
     state_->simplify(input);
   } else {
     state_->simplifier.finish();

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "memory_source.h"
-#include "mesh_collector.h"
 #include "meshes.h"
 #include "status.h"
 
@@ -154,41 +153,6 @@ TEST(RoundingSource, IndexedRangesEqualTheRoundedWhole) {
   int64_t cells[8];
   rounded.readCells(3, 2, cells);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(cells[i], mesh.cells[12 + i]);
-}
-
-TEST(MeshCollector, PutsBatchesTogetherWithTheirLocks) {
-  test::SmallMesh mesh = thirds();
-  const std::vector<uint8_t> locked(mesh.vertexCount(), 1);
-  MeshCollector collector(mesh.schema());
-  BatchView all = mesh.view(), part;
-  const double* field = mesh.field.data();
-  for (size_t v = 0; v < mesh.vertexCount(); ++v) {
-    const void* const fields[1] = {field + v};
-    part = {};
-    part.first_vertex = v;
-    part.vertex_count = 1;
-    part.positions = mesh.positions.data() + 3 * v;
-    part.fields = fields;
-    part.locked = v == 3 ? locked.data() : nullptr;
-    collector.put(part);
-  }
-  part = {};
-  part.cell_count = all.cell_count;
-  part.cells = all.cells;
-  collector.put(part);
-
-  const std::unique_ptr<IndexedSource> source = collector.source();
-  ASSERT_EQ(source->schema().vertex_count, static_cast<int64_t>(mesh.vertexCount()));
-  std::vector<double> positions(mesh.positions.size()), values(mesh.field.size());
-  std::vector<int64_t> cells(mesh.cells.size());
-  source->readPositions(0, mesh.vertexCount(), positions.data());
-  source->readField(0, 0, mesh.vertexCount(), values.data());
-  source->readCells(0, mesh.cellCount(), cells.data());
-  EXPECT_EQ(positions, mesh.positions);
-  EXPECT_EQ(values, mesh.field);
-  EXPECT_EQ(cells, mesh.cells);
-  ASSERT_NE(source->locked(), nullptr);
-  for (size_t v = 0; v < mesh.vertexCount(); ++v) EXPECT_EQ(source->locked()[v], v == 3) << v;
 }
 
 }  // namespace
