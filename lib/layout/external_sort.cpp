@@ -75,15 +75,15 @@ class ExternalSort::Merge {
 // Half of the memory is for blocks of runs, which are merged when the other half is free again.
 ExternalSort::ExternalSort(size_t payload_bytes, size_t memory_bytes, Account& account,
                            const std::string& temp_dir)
-    : payload_bytes_(payload_bytes),
+    : payload_bytes_(std::max<size_t>(payload_bytes, 1)),  // so that each has a place
       memory_bytes_(memory_bytes),
-      rows_at_once_(std::clamp<size_t>(memory_bytes / (payload_bytes + 2 * sizeof(Entry)),
+      rows_at_once_(std::clamp<size_t>(memory_bytes / (payload_bytes_ + 2 * sizeof(Entry)),
                                        kLeastRows, 0xffffffffu)),
       temp_dir_(temp_dir),
       entries_(account),
       scratch_(account),
       payloads_(account),
-      record_(sizeof(uint64_t) + payload_bytes) {}
+      record_(sizeof(uint64_t) + payload_bytes_) {}
 
 ExternalSort::~ExternalSort() = default;
 

@@ -70,6 +70,23 @@ TEST(ExternalSort, SortsNothingAndOne) {
   expectSorted({42}, 8, 1 << 16);
 }
 
+TEST(ExternalSort, SortsKeysAlone) {
+  for (size_t memory : {size_t{1} << 24, size_t{1}}) {
+    Account account;
+    ExternalSort sort(0, memory, account, "");
+    std::vector<uint64_t> keys = keysOf(3000, 0xff);
+    for (uint64_t key : keys) sort.add(key);
+    sort.finish();
+    std::sort(keys.begin(), keys.end());
+    uint64_t key;
+    for (uint64_t wanted : keys) {
+      ASSERT_NE(sort.next(&key), nullptr);
+      ASSERT_EQ(key, wanted);
+    }
+    EXPECT_EQ(sort.next(&key), nullptr);
+  }
+}
+
 TEST(ExternalSort, KeepsWithinItsMemory) {
   const size_t memory = 1 << 18;
   Account account;
