@@ -55,18 +55,22 @@ static bool isStillThere(int fd, const std::string& path) {
          ours.st_ino == named.st_ino && ours.st_dev == named.st_dev;
 }
 
+constexpr unsigned kAttempts = 1000;
+
 void NamedTemporary::create(const std::string& stem) {
   // note: not mkstemp, which would not give the file the mode that the user's umask allows.
-  for (unsigned attempt = 0; fd_ < 0; ++attempt) {
+  for (unsigned attempt = 0; attempt < kAttempts; ++attempt) {
     temporary_ = textOf("%s.%lx-%x", stem.c_str(), static_cast<long>(::getpid()), attempt);
     fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno == EEXIST) continue;
     if (fd_ < 0) failIo(path_, "create");
-    ::flock(fd_, LOCK_EX | LOCK_NB);
-    if (isStillThere(fd_, temporary_)) return;
+    const bool taken = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (!taken && isStillThere(fd_, temporary_)) return;
+    ::unlink(temporary_.c_str());
     ::close(fd_);
     fd_ = -1;
   }
+  fail(Status::kIo, "%s: no temporary file beside it stays there", path_.c_str());
 }
 
 NamedTemporary::NamedTemporary(const std::string& path) : path_(path), target_(path) {

@@ -8,12 +8,12 @@
 namespace tetstream {
 
 constexpr size_t kCellBytes = 150;  // of a piece, with its vertices and their traversal
-constexpr size_t kLeastPiece = 4096;
+constexpr size_t kLeastPiece = 4096, kLargestPiece = size_t{1} << 29;
 
 PiecewiseBreadthFirst::PiecewiseBreadthFirst(size_t memory_bytes, Account& account,
                                              const std::string& temp_dir)
     : account_(account),
-      piece_cells_(std::max(memory_bytes / 8 * 5 / kCellBytes, kLeastPiece)),
+      piece_cells_(std::clamp(memory_bytes / 8 * 5 / kCellBytes, kLeastPiece, kLargestPiece)),
       corners_(account),
       vertex_(account),
       rank_of_(account),
@@ -57,6 +57,10 @@ void PiecewiseBreadthFirst::put(const BatchView& batch) {
 void PiecewiseBreadthFirst::finish() {
   rankPiece();
   ranks_.finish();
+  corners_.resize(0);
+  vertex_.resize(0);
+  rank_of_.resize(0);
+  final_.resize(0);
 }
 
 uint64_t PiecewiseBreadthFirst::next() {
@@ -99,10 +103,10 @@ void PiecewiseBreadthFirst::rankPiece() {
       std::memcpy(ranks_.add(static_cast<uint64_t>(vertex_[v])), &rank_of_[v], sizeof(uint64_t));
     }
     mesh.corners.swap(corners_);
-    // A front that is as large as the piece: the next one has to be larger.
-    if (traversal.taken() == before) piece_cells_ *= 2;
   }
   keepOpenCells();
+  // A front that is nearly as large as the piece: the next one has to be larger.
+  if (cells_ > piece_cells_ / 2) piece_cells_ *= 2;
 }
 
 // Cells with a vertex that is not ranked, and their vertices.

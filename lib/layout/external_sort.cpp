@@ -72,12 +72,12 @@ class ExternalSort::Merge {
 
 // ------------------------------------------------------------------------------------- runs
 
-// Half of the memory is for blocks of runs, which are merged when the other half is free again.
+// Two thirds of the memory are for a run, one third for a block of each run that is merged.
 ExternalSort::ExternalSort(size_t payload_bytes, size_t memory_bytes, Account& account,
                            const std::string& temp_dir)
     : payload_bytes_(std::max<size_t>(payload_bytes, 1)),  // so that each has a place
       memory_bytes_(memory_bytes),
-      rows_at_once_(std::clamp<size_t>(memory_bytes / (payload_bytes_ + 2 * sizeof(Entry)),
+      rows_at_once_(std::clamp<size_t>(memory_bytes / 3 * 2 / (payload_bytes_ + 2 * sizeof(Entry)),
                                        kLeastRows, 0xffffffffu)),
       temp_dir_(temp_dir),
       entries_(account),
@@ -88,7 +88,7 @@ ExternalSort::ExternalSort(size_t payload_bytes, size_t memory_bytes, Account& a
 ExternalSort::~ExternalSort() = default;
 
 SpoolShape ExternalSort::shapeOfRun() const {
-  return {1, std::clamp(memory_bytes_ / (2 * kFanIn), kLeastBlock, kLargestBlock)};
+  return {1, std::clamp(memory_bytes_ / (3 * kFanIn), kLeastBlock, kLargestBlock)};
 }
 
 unsigned char* ExternalSort::add(uint64_t key) {
@@ -134,7 +134,27 @@ void ExternalSort::flushRun() {
   run->finish();
   countDisk(run->diskBytes());
   runs_.push_back(std::move(run));
+  levels_.push_back(0);
   count_ = 0;
+  mergeFullLevels();
+}
+
+// So many runs of a level are merged at once: their number, and that of open files, grows with the
+// logarithm of the records only. Neighbours, so that equal keys stay as they came.
+void ExternalSort::mergeFullLevels() {
+  for (;;) {
+    const size_t count = runs_.size(), first = count - std::min(count, kFanIn);
+    if (count < kFanIn || levels_[first] != levels_.back()) return;
+    mergeLast(first, levels_.back() + 1);
+  }
+}
+
+void ExternalSort::mergeLast(size_t first, unsigned level) {
+  std::unique_ptr<RowSpool> merged = mergeRuns(first, runs_.size() - first);
+  runs_.resize(first);
+  levels_.resize(first);
+  runs_.push_back(std::move(merged));
+  levels_.push_back(level);
 }
 
 std::unique_ptr<RowSpool> ExternalSort::mergeRuns(size_t first, size_t count) {
@@ -155,14 +175,9 @@ void ExternalSort::countDisk(uint64_t more) {
   most_on_disk_ = std::max(most_on_disk_, on_disk_);
 }
 
-// Level by level, neighbours together, so that equal keys stay as they came.
+// The last ones, which are the smallest, until the rest can be merged at once.
 void ExternalSort::mergeUntilFew() {
-  while (runs_.size() > kFanIn) {
-    std::vector<std::unique_ptr<RowSpool>> merged;
-    for (size_t first = 0; first < runs_.size(); first += kFanIn)
-      merged.push_back(mergeRuns(first, std::min(kFanIn, runs_.size() - first)));
-    runs_.swap(merged);
-  }
+  while (runs_.size() > kFanIn) mergeLast(runs_.size() - kFanIn, levels_.back());
 }
 
 void ExternalSort::finish() {

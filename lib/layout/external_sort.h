@@ -39,6 +39,8 @@ class ExternalSort {
   void sortRun();
   void flushRun();
   std::unique_ptr<RowSpool> mergeRuns(size_t first, size_t count);
+  void mergeFullLevels();
+  void mergeLast(size_t first, unsigned level);
   void mergeUntilFew();
   void countDisk(uint64_t more);
   SpoolShape shapeOfRun() const;
@@ -50,6 +52,7 @@ class ExternalSort {
   std::vector<unsigned char> record_;
   size_t count_ = 0, at_ = 0;  // of the run in memory
   std::vector<std::unique_ptr<RowSpool>> runs_;
+  std::vector<unsigned> levels_;  // of each run: how often its records were merged
   std::unique_ptr<Merge> merge_;
   uint64_t on_disk_ = 0, most_on_disk_ = 0;
 };

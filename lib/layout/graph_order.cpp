@@ -17,16 +17,16 @@ struct GraphBytes {
 };
 constexpr GraphBytes kBreadthFirst = {100, 66}, kSpectral = {400, 32};
 
+constexpr uint64_t kMostCells = (uint64_t{1} << 30) - 1;  // that lists are made of
+
 uint64_t graphOrderBytes(Order order, uint64_t points, uint64_t cells) {
+  if (cells > kMostCells) return std::numeric_limits<uint64_t>::max();
   const GraphBytes bytes = order == Order::kSpectral ? kSpectral : kBreadthFirst;
   return bytes.point * points + bytes.cell * cells;
 }
 
 static void readMesh(IndexedSource& source, const Tell& tell, Connectivity& mesh) {
   const int64_t points = source.schema().vertex_count, cells = source.schema().cell_count;
-  if (cells > std::numeric_limits<int32_t>::max() / 2)
-    fail(Status::kUnsupported, "a mesh of %lld cells is too large for orders by its graph",
-         static_cast<long long>(cells));
   mesh.vertices = static_cast<uint32_t>(points);
   mesh.cells = static_cast<uint32_t>(cells);
   mesh.corners.resize(4 * static_cast<size_t>(cells));

@@ -112,8 +112,7 @@ class OrderedCells::Passage {
         sorts_(sorts),
         row_bytes_(kCorners + to.data_bytes_),
         translation_(vertices, points(), partPoints(b), b.account),
-        sort_(row_bytes_, b.memory_bytes - sizeof(uint32_t) * std::min(points(), partPoints(b)),
-              b.account, b.temp_dir),
+        sort_(row_bytes_, sortBytes(b), b.account, b.temp_dir),
         temp_dir_(b.temp_dir),
         row_(row_bytes_ + sizeof(uint32_t)) {
     translation_.begin();
@@ -131,11 +130,15 @@ class OrderedCells::Passage {
     for (size_t j = 0; j < 4; ++j) translation_.prefetch(corners[j]);
   }
   // Then all that wait for the points of other parts; and the rows in their order.
-  void finish() {
-    while (waiting_) takeWaiting();
+  void finish(const Tell& tell) {
+    while (waiting_) takeWaiting(tell);
     sort_.finish();
-    uint64_t key;
-    while (const unsigned char* row = sorts_ ? sort_.next(&key) : nullptr) to_.rows_.append(row, 1);
+    const auto all = static_cast<double>(to_.source_.schema().cell_count);
+    uint64_t key, count = 0;
+    while (const unsigned char* row = sorts_ ? sort_.next(&key) : nullptr) {
+      to_.rows_.append(row, 1);
+      if (++count % kRowsAtOnce == 0) tell(static_cast<double>(count) / all);
+    }
     to_.rows_.finish();
     to_.disk_ = std::max(to_.disk_, sort_.diskBytes());
   }
@@ -144,6 +147,11 @@ class OrderedCells::Passage {
   uint64_t points() const { return static_cast<uint64_t>(to_.source_.schema().vertex_count); }
   static uint64_t partPoints(const RankedVertices::Budget& b) {
     return std::max<uint64_t>(b.memory_bytes / 2 / sizeof(uint32_t), kLeastPart);
+  }
+  // What the ranks leave.
+  size_t sortBytes(const RankedVertices::Budget& b) const {
+    const auto ranks = static_cast<size_t>(sizeof(uint32_t) * std::min(points(), partPoints(b)));
+    return b.memory_bytes > ranks ? b.memory_bytes - ranks : 0;
   }
   void startWaiting() {
     waiting_ = translation_.isLast() ? nullptr : std::make_unique<RowSpool>(row_.size(), temp_dir_);
@@ -160,7 +168,7 @@ class OrderedCells::Passage {
     else
       to_.rows_.append(row_.data(), 1);
   }
-  void takeWaiting() {
+  void takeWaiting(const Tell& tell) {
     waiting_->finish();
     to_.disk_ = std::max(to_.disk_, 2 * waiting_->diskBytes());
     const std::unique_ptr<RowSpool> before(waiting_.release());
@@ -172,6 +180,7 @@ class OrderedCells::Passage {
       std::memcpy(corners, row_.data(), kCorners);
       std::memcpy(&known, row_.data() + row_bytes_, sizeof known);
       pass(corners, known);
+      if (i % kRowsAtOnce == 0) tell(0);
     }
   }
 
@@ -190,7 +199,8 @@ void OrderedCells::sortCells(RankedVertices& vertices, bool sorts,
   constexpr size_t kAhead = 12;
   Passage passage(*this, vertices, sorts, budget);
   DataRows data(source_, data_bytes_);
-  readAllCells(source_, tell, [&](uint64_t first, size_t count, const int64_t* corners) {
+  const Tell reading = [&](double share) { tell(0.6 * share); };
+  readAllCells(source_, reading, [&](uint64_t first, size_t count, const int64_t* corners) {
     data.read(first, count);
     for (size_t i = 0; i < count; ++i) {
       if (i + kAhead < count) passage.prefetch(corners + 4 * (i + kAhead));
@@ -198,7 +208,7 @@ void OrderedCells::sortCells(RankedVertices& vertices, bool sorts,
       passage.take(corners + 4 * i);
     }
   });
-  passage.finish();
+  passage.finish([&](double share) { tell(0.6 + 0.4 * share); });
 }
 
 // From the last cell to the first: the first that has a vertex is the last to use it.

@@ -109,20 +109,23 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
   };
   const bool by_graph = order == Order::kBreadthFirst || order == Order::kSpectral;
   VertexKey key = by_graph ? graphKey(order, options, memory, part(0, 0.5)) : nullptr;
-  const RankedVertices::Budget budget = {memory, account_, options.temp_dir};
+  // What ranks by pieces hold is not there for the vertices.
+  const RankedVertices::Budget budget = {swept_ ? memory - memory / 4 : memory, account_,
+                                         options.temp_dir};
+  const double begin = by_graph ? 0.5 : 0, keyed = by_graph || seeks ? 0.6 : 0.2;
   {
-    const Survey survey(*source_, account_, part(0.5, 0.6));
+    const Survey survey(*source_, account_, part(begin, begin + 0.1));
     if (!key) key = placeKey(order, survey, options.axis);
     if (seeks && bytesFor(Order::kSpectral, schema_) <= memory)
-      key = narrowestKey(key, part(0.6, 0.6));
-    vertices_ =
-        std::make_unique<RankedVertices>(*source_, survey, key, budget, schema_, part(0.6, 0.7));
+      key = narrowestKey(key, part(begin + 0.1, keyed));
+    vertices_ = std::make_unique<RankedVertices>(*source_, survey, key, budget, schema_,
+                                                 part(keyed, keyed + 0.1));
     graph_rank_.resize(0);
   }
   unused_ += schema_.vertex_count - static_cast<int64_t>(vertices_->count());
   schema_.vertex_count = static_cast<int64_t>(vertices_->count());
   cells_ = std::make_unique<OrderedCells>(*source_, *vertices_, order != Order::kNone, budget,
-                                          part(0.7, 0.9));
+                                          part(keyed + 0.1, 0.9));
   disk_ += std::max(vertices_->mostDiskBytes(), vertices_->diskBytes() + cells_->mostDiskBytes());
   measureFront(part(0.9, 1));
   reading_ = std::make_unique<Reading>(*this, true);

@@ -24,8 +24,12 @@ RankedVertices::RankedVertices(IndexedSource& source, const Survey& survey, cons
                     budget.temp_dir);
   sortPoints(survey, key, sort, schema, [&](double share) { tell(0.7 * share); });
   sort.finish();
+  const auto all = static_cast<double>(std::max<uint64_t>(survey.usedCount(), 1));
   uint64_t sorted_key;
-  while (const unsigned char* row = sort.next(&sorted_key)) rows_.append(row, 1);
+  while (const unsigned char* row = sort.next(&sorted_key)) {
+    rows_.append(row, 1);
+    if (rows_.rows() % kRowsAtOnce == 0) tell(0.7 + 0.3 * static_cast<double>(rows_.rows()) / all);
+  }
   rows_.finish();
   disk_ = sort.diskBytes() + rows_.diskBytes();
 }

@@ -38,19 +38,25 @@ void RowSpool::writeBlocks(bool all) {
 
 void RowSpool::append(const void* rows, size_t count) {
   const auto* bytes = static_cast<const unsigned char*>(rows);
-  held_.insert(held_.end(), bytes, bytes + count * row_bytes_);
   rows_ += count;
-  if (held_.size() > blocks_ * blockBytes()) writeBlocks(false);
+  for (size_t left = count; left > 0;) {  // never more than a block above what may be held
+    const size_t some = std::min(left, size_t{1} << shift_);
+    held_.insert(held_.end(), bytes, bytes + some * row_bytes_);
+    bytes += some * row_bytes_;
+    left -= some;
+    if (held_.size() > blocks_ * blockBytes()) writeBlocks(false);
+  }
 }
 
 void RowSpool::finish() {
   if (!file_) return;
   writeBlocks(true);
-  held_.resize(blocks_ * blockBytes());
+  held_ = {};  // until it is read
   block_at_.assign(blocks_, 0);
 }
 
 void RowSpool::readBlock(uint64_t block, size_t place) {
+  if (held_.empty()) held_.resize(blocks_ * blockBytes());
   unsigned char* at = held_.data() + place * blockBytes();
   const uint64_t offset = block * (blockBytes() + sizeof(uint64_t));
   const size_t bytes = bytesOf(block);

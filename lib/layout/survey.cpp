@@ -101,9 +101,10 @@ double Survey::cellsCut(const double along[3]) const {
     low = std::min(low, at[i]);
     high = std::max(high, at[i]);
   }
-  if (!(high > low)) return std::numeric_limits<double>::infinity();
-  std::vector<double> change(kSlices + 2);
   const double unit = static_cast<double>(kSlices) / (high - low);
+  if (!(high > low) || !std::isfinite(high - low) || !std::isfinite(unit))
+    return std::numeric_limits<double>::infinity();
+  std::vector<double> change(kSlices + 2);
   for (size_t c = 0; c < sampled_cells_.size(); c += 4) {
     double first = high, last = low;
     for (size_t j = 0; j < 4; ++j) {

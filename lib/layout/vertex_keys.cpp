@@ -50,21 +50,28 @@ uint64_t hilbertKey(const uint32_t cell[3]) {
   return mortonKey(x);
 }
 
+// At least 0, also what is no number.
+static double within(double at, double last) {
+  return at > 0 ? std::min(at, last) : 0;
+}
+
 BoxGrid::BoxGrid(const double low[3], const double high[3]) {
   for (int i = 0; i < 3; ++i) {
     low_[i] = low[i];
-    size_[i] = high[i] - low[i];
+    const double size = high[i] - low[i];
+    size_[i] = std::isfinite(size) && size > 0 ? size : 0;
     axis_[i] = i;
   }
   std::stable_sort(axis_, axis_ + 3, [this](int a, int b) { return size_[a] < size_[b]; });
   unit_ = size_[axis_[2]] > 0 ? 1 / size_[axis_[2]] : 0;
+  if (!std::isfinite(unit_)) unit_ = 0;
 }
 
 void BoxGrid::cellOf(const double place[3], uint32_t cell[3]) const {
   constexpr double kCells = 1 << kGridBits;
   for (int i = 0; i < 3; ++i) {
     const double at = (place[i] - low_[i]) * unit_ * kCells;
-    cell[i] = static_cast<uint32_t>(std::clamp(at, 0.0, kCells - 1));
+    cell[i] = static_cast<uint32_t>(within(at, kCells - 1));
   }
 }
 
@@ -90,7 +97,7 @@ uint64_t BoxGrid::brickKey(const double place[3]) const {
   for (int k = 2; k >= 0; --k) {
     const double at = (place[axis_[k]] - low_[axis_[k]]) * unit_ / brick_;
     const auto last = static_cast<double>(bricks_[k] - 1);
-    key = key * bricks_[k] + static_cast<uint64_t>(std::clamp(std::floor(at), 0.0, last));
+    key = key * bricks_[k] + static_cast<uint64_t>(within(std::floor(at), last));
   }
   return key;
 }

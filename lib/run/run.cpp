@@ -35,11 +35,12 @@ class Nowhere final : public Sink {
   void finish() override {}
 };
 
-void tellCells(Progress& p, size_t more, const ProgressFunction& progress) {
+// `before`: the share of the time that ordering took.
+void tellCells(Progress& p, size_t more, double before, const ProgressFunction& progress) {
   p.cells_read += static_cast<int64_t>(more);
   if (p.cells_total > 0)
-    p.fraction =
-        std::min(1.0, static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total));
+    p.fraction = before + (1 - before) * std::min(1.0, static_cast<double>(p.cells_read) /
+                                                           static_cast<double>(p.cells_total));
   if (progress) progress(p);
 }
 
@@ -197,7 +198,7 @@ LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
     out.put(batch);
     report.vertices += static_cast<int64_t>(batch.vertex_count);
     report.cells = p.cells_written += static_cast<int64_t>(batch.cell_count);
-    tellCells(p, batch.cell_count, progress);
+    tellCells(p, batch.cell_count, stream.share(), progress);
   }
   out.finish();
   report.order = stream.chosen();
@@ -220,7 +221,7 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
   p.phase = "inspect";
   while (stream.source().next(batch)) {
     facts.put(batch);
-    tellCells(p, batch.cell_count, progress);
+    tellCells(p, batch.cell_count, stream.share(), progress);
   }
   facts.finish();
   const Schema schema = facts.schema();
@@ -246,7 +247,7 @@ static Schema sweptSchema(Source& source, const ProgressFunction& progress) {
   p.phase = "measure";
   while (first->next(batch)) {
     facts.put(batch);
-    tellCells(p, batch.cell_count, progress);
+    tellCells(p, batch.cell_count, 0, progress);
   }
   facts.finish();
   return facts.schema();
@@ -267,7 +268,7 @@ Diagram readDiagram(Input& input, DiagramSize size, bool with_sweep, const RunOp
   while (stream.source().next(batch)) {
     diagram.layout->put(batch);
     if (diagram.sweep) diagram.sweep->put(batch);
-    tellCells(p, batch.cell_count, progress);
+    tellCells(p, batch.cell_count, stream.share(), progress);
   }
   diagram.layout->finish();
   if (diagram.sweep) diagram.sweep->finish();

@@ -318,6 +318,32 @@ TEST(OrderedSource, RanksByTheGraph) {
     }
 }
 
+// A layer has more cells than a piece.
+TEST(OrderedSource, RanksBreadthFirstThroughWideFronts) {
+  const int n = slowRun() ? 27 : 40;
+  const TestMesh mesh = withColumns(shuffled(fullGrid(n, n, 3), 3));
+  OrderOptions options = inOrder("breadth-first", 1);
+  options.axis = "z";
+  expectSound(mesh, ordered(mesh, options, true));
+}
+
+// Boxes whose numbers overflow, or are next to nothing, in some direction.
+TEST(OrderedSource, OrdersBoxesOfExtremeSizes) {
+  const TestMesh grid = fullGrid(3, 3, 3);
+  for (double size : {1e308, 0x1p1000, 1e-310, 0.0}) {
+    std::vector<double> places;
+    for (size_t v = 0; v < grid.vertexCount(); ++v)
+      for (int i = 0; i < 3; ++i) {
+        const double at = grid.position(v, i) - 1.5;
+        places.push_back(i == 2 ? at / 1.5 * size : at);
+      }
+    TestMesh mesh = makeMesh(ScalarType::kFloat64, places, grid.cells);
+    mesh.addIntegerField("vertex", [](size_t v) { return static_cast<int64_t>(v); });
+    mesh.addIntegerCellData("cell", [](size_t c) { return static_cast<int64_t>(c); });
+    for (const char* order : kOrders) expectSound(mesh, ordered(mesh, inOrder(order), true));
+  }
+}
+
 // Where the graph does not fit the memory: clusters of some vertices, still narrower than a curve.
 TEST(OrderedSource, RanksSpectrallyByClusters) {
   const int n = slowRun() ? 6 : 12;

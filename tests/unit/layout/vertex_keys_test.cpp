@@ -100,6 +100,15 @@ TEST(BoxGrid, CutsBricks) {
   EXPECT_GT(grid.brickKey(first), grid.brickKey(second));
 }
 
+TEST(BoxGrid, TakesNoBox) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};
+  BoxGrid grid(low, high);
+  grid.setBricks(0, 500);
+  const double place[3] = {0, 0, 0};
+  EXPECT_EQ(grid.brickKey(place), 0u);
+}
+
 TEST(BoxGrid, TakesFlatAndEmptyBoxes) {
   const double point[3] = {3, 3, 3}, flat[3] = {4, 5, 3};
   uint32_t cell[3];
