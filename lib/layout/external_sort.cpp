@@ -99,7 +99,9 @@ unsigned char* ExternalSort::add(uint64_t key) {
     payloads_.resize(checkedMultiply(rows, payload_bytes_));
   }
   entries_[count_] = {key, static_cast<uint32_t>(count_)};
-  return payloads_.data() + payload_bytes_ * count_++;
+  unsigned char* payload = payloads_.data() + payload_bytes_ * count_++;
+  *payload = 0;  // of keys alone, nobody fills it
+  return payload;
 }
 
 // By digits, the lowest first; those that are the same everywhere are passed over.

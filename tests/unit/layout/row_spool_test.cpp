@@ -13,13 +13,13 @@ namespace {
 
 struct Row {
   uint64_t number;
-  uint32_t more[3];
+  uint32_t more[4];  // no padding
 };
 
 void fill(RowSpool& spool, uint64_t rows) {
   for (uint64_t i = 0; i < rows; ++i) {
     const auto n = static_cast<uint32_t>(i);
-    const Row row = {i, {n, n + 1, n + 2}};
+    const Row row = {i, {n, n + 1, n + 2, n + 3}};
     spool.append(&row, 1);
   }
   spool.finish();
