@@ -1,5 +1,8 @@
-// quadric: the quadrics of cells and faces. Part of kernels.inl.
-#include "lanes.inl"
+// quadric: the field errors of cells and the planes of faces, in the layout kFields. Part of
+// kernels.inl.
+#pragma once
+
+#include "layouts.inl"
 
 namespace tetstream {
 namespace {
@@ -53,7 +56,7 @@ template <class V, int N>
 struct CellField {
   V e1[kRoom<N>], e2[kRoom<N>], e3[kRoom<N>];  // the edges from the first corner
   V c1[3], c2[3], c3[3];
-  V a[kRoom<N> * (kRoom<N> + 1) / 2];
+  V a[Fields::size(kRoom<N>)];
 
   V determinant() {
     cross(e2, e3, c1);
@@ -64,16 +67,16 @@ struct CellField {
   // `volume`: the effective one.
   void form(int n, double shape, V det, V volume) {
     const V w = 1.0 / (24.0 * volume);  // a quarter of 1 / (6 * 6V) times n n^T
-    for (int i = 0; i < n * (n + 1) / 2; ++i) a[i] = V{};
+    for (int i = 0; i < 6; ++i) a[i] = V{};
     for (int f = 3; f < n; ++f) {
       V g[3];  // det times the gradient of component f
       for (int i = 0; i < 3; ++i) g[i] = e1[f] * c1[i] + e2[f] * c2[i] + e3[f] * c3[i];
       for (int i = 0; i < 3; ++i) {
         for (int j = 0; j <= i; ++j) a[at(i, j)] += w * (g[i] * g[j]);
-        a[at(f, i)] = -(w * (g[i] * det));
+        a[Fields::gradient(f) + i] = -(w * (g[i] * det));
       }
-      a[at(f, f)] = w * (det * det);
     }
+    if (n > 3) a[Fields::weight(n)] = w * (det * det);
     for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
   }
 };
@@ -87,43 +90,7 @@ double addCellField(const S* const x[4], const S* scale, int n_given, double sha
   difference(x[0], x[3], scale, n, cell.e3);
   const double det = cell.determinant();
   cell.form(n, shape, det, effectiveVolume(cell.e1, cell.e2, cell.e3, det));
-  addToAll(cell.a, n * (n + 1) / 2, q, 4);
-  return det;
-}
-
-// a = weight (I - sum of the projections on the span of `count` edges).
-template <int Room>
-inline void distanceForm(double (*edges)[Room], int count, int n, double weight, double* a) {
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j <= i; ++j) a[at(i, j)] = i == j ? weight : 0;
-  for (int k = 0; k < count; ++k) {
-    double* e = edges[k];
-    const double before = dot(e, e, n);
-    for (int b = 0; b < k; ++b) {
-      const double along = dot(e, edges[b], n);
-      for (int i = 0; i < n; ++i) e[i] -= along * edges[b][i];
-    }
-    const double length2 = dot(e, e, n);
-    const double inverse = length2 > 1e-24 * before ? 1.0 / squareRoot(length2) : 0.0;
-    for (int i = 0; i < n; ++i) e[i] *= inverse;  // dependent edges span nothing new
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j <= i; ++j) a[at(i, j)] -= weight * (e[i] * e[j]);
-  }
-}
-
-template <class S, int N>
-double addCellDistance(const S* const x[4], const S* scale, int n_given, double shape,
-                       S* const q[4]) {
-  const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
-  double e[3][kRoom<N>], a[kRoom<N> * (kRoom<N> + 1) / 2];
-  for (int k = 0; k < 3; ++k) difference(x[0], x[k + 1], scale, n, e[k]);
-  double c[3];
-  cross(e[1], e[2], c);
-  const double det = dot(e[0], c, 3);
-  const double volume = effectiveVolume(e[0], e[1], e[2], det);
-  distanceForm<kRoom<N>>(e, 3, n, volume / 24.0, a);
-  for (int i = 0; i < 3; ++i) a[at(i, i)] += shape * volume / 24.0;
-  addToAll(a, size, q, 4);
+  addToAll(cell.a, Fields::size(n) - 1, q, 4);
   return det;
 }
 
@@ -143,29 +110,16 @@ void addFacePlane(const S* const x[3], const S* scale, int n_given, double weigh
   addToAll(a, 6, q, 3);
 }
 
-template <class S, int N>
-void addFaceDistance(const S* const x[3], const S* scale, int n_given, double weight,
-                     S* const q[3]) {
-  const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
-  double e[2][kRoom<N>], c[3], a[kRoom<N> * (kRoom<N> + 1) / 2];
-  difference(x[0], x[1], scale, n, e[0]);
-  difference(x[0], x[2], scale, n, e[1]);
-  cross(e[0], e[1], c);
-  const double area = 0.5 * squareRoot(dot(c, c, 3));
-  distanceForm<kRoom<N>>(e, 2, n, weight * area / 3.0, a);
-  addToAll(a, size, q, 3);
-}
-
 // ----------------------------------------------------------------- four cells side by side
 static_assert(kCellLanes == 4);
 // Above it neither the effective volume nor, for edges rounded to float32, the sign is in doubt.
 constexpr double kSureVolume = kFlatVolume * (1 + 1e-6);
 
 // The values of corner j of four cells, as columns.
-template <class S, int N>
-inline void loadCorner(const VertexTable<S>& table, const uint32_t* corners, int j,
+template <class S>
+inline void loadCorner(const VertexTable<S>& table, const uint32_t* corners, int j, int n,
                        typename Lanes<S>::Four* columns) {
-  for (int first = 0; first < N; first += 4) {
+  for (int first = 0; first < n; first += 4) {
     for (int k = 0; k < 4; ++k)
       __builtin_memcpy(&columns[first + k], table.value(corners[4 * k + j]) + first,
                        sizeof columns[0]);
@@ -176,55 +130,51 @@ inline void loadCorner(const VertexTable<S>& table, const uint32_t* corners, int
 // One cell after the other, as it would be alone: they share vertices.
 template <class S, int N>
 inline void addToCorners(const Double4* a, const VertexTable<S>& table, const uint32_t* corners,
-                         S* quadrics) {
+                         int n, S* quadrics) {
   using Four = typename Lanes<S>::Four;
-  constexpr int kSize = N * (N + 1) / 2, kFours = (kSize + 3) / 4, kWhole = kSize / 4;
-  Four rows[kFours][4];
-  for (int b = 0; b < kFours; ++b) {
+  const int size = Fields::size(n) - 1, fours = (size + 3) / 4, whole = size / 4;
+  Four rows[kQuadricRoom<Fields, N> / 4][4];
+  for (int b = 0; b < fours; ++b) {
     for (int k = 0; k < 4; ++k)
-      rows[b][k] = 4 * b + k < kSize ? __builtin_convertvector(a[4 * b + k], Four) : Four{};
+      rows[b][k] = 4 * b + k < size ? __builtin_convertvector(a[4 * b + k], Four) : Four{};
     transpose(rows[b]);
   }
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j) {
       S* q = quadrics + (table.quadric(corners[4 * k + j]) - table.quadrics);
-      for (int b = 0; b < kWhole; ++b) {
+      for (int b = 0; b < whole; ++b) {
         Four sum;
         __builtin_memcpy(&sum, q + 4 * b, sizeof sum);
         sum += rows[b][k];
         __builtin_memcpy(q + 4 * b, &sum, sizeof sum);
       }
-      for (int i = 4 * kWhole; i < kSize; ++i) q[i] += rows[i / 4][k][i % 4];
+      for (int i = 4 * whole; i < size; ++i) q[i] += rows[i / 4][k][i % 4];
     }
 }
 
 template <class S, int N>
 bool addCellFields(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
-                   const S* scale, double shape, double* determinants) {
-  if constexpr (N == 0) {
-    return false;  // four large ones would need a large stack
-  } else {
-    using Four = typename Lanes<S>::Four;
-    constexpr int kRows = (N + 3) / 4 * 4;
-    CellField<Double4, N> cells;
-    Four origin[kRows], end[kRows];
-    loadCorner<S, N>(table, corners, 0, origin);
-    Double4* const edges[3] = {cells.e1, cells.e2, cells.e3};
-    for (int j = 0; j < 3; ++j) {
-      loadCorner<S, N>(table, corners, j + 1, end);
-      for (int i = 0; i < N; ++i)
-        edges[j][i] =
-            __builtin_convertvector(end[i] - origin[i], Double4) * static_cast<double>(scale[i]);
-    }
-    const Double4 det = cells.determinant();
-    const Double4 size = squaredSize(cells.e1, cells.e2, cells.e3);
-    const auto sure = det * det > kSureVolume * kSureVolume * (size * size * size);
-    if (!(sure[0] & sure[1] & sure[2] & sure[3])) return false;
-    cells.form(N, shape, det, det < 0 ? -det : det);
-    addToCorners<S, N>(cells.a, table, corners, quadrics);
-    for (int k = 0; k < 4; ++k) determinants[k] = det[k];
-    return true;
+                   const S* scale, int n_given, double shape, double* determinants) {
+  using Four = typename Lanes<S>::Four;
+  const int n = dimension<N>(n_given);
+  CellField<Double4, N> cells;
+  Four origin[kValueRoom<N>], end[kValueRoom<N>];
+  loadCorner(table, corners, 0, n, origin);
+  Double4* const edges[3] = {cells.e1, cells.e2, cells.e3};
+  for (int j = 0; j < 3; ++j) {
+    loadCorner(table, corners, j + 1, n, end);
+    for (int i = 0; i < n; ++i)
+      edges[j][i] =
+          __builtin_convertvector(end[i] - origin[i], Double4) * static_cast<double>(scale[i]);
   }
+  const Double4 det = cells.determinant();
+  const Double4 size = squaredSize(cells.e1, cells.e2, cells.e3);
+  const auto sure = det * det > kSureVolume * kSureVolume * (size * size * size);
+  if (!(sure[0] & sure[1] & sure[2] & sure[3])) return false;
+  cells.form(n, shape, det, det < 0 ? -det : det);
+  addToCorners<S, N>(cells.a, table, corners, n, quadrics);
+  for (int k = 0; k < 4; ++k) determinants[k] = det[k];
+  return true;
 }
 
 }  // namespace

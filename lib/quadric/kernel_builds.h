@@ -5,11 +5,11 @@
 
 namespace tetstream {
 
-const QuadricKernels<float>& plainKernelsFloat(int n);
-const QuadricKernels<double>& plainKernelsDouble(int n);
+const QuadricKernels<float>& plainKernelsFloat(QuadricLayout layout, int n);
+const QuadricKernels<double>& plainKernelsDouble(QuadricLayout layout, int n);
 #ifdef TETSTREAM_V3_KERNELS
-const QuadricKernels<float>& v3KernelsFloat(int n);
-const QuadricKernels<double>& v3KernelsDouble(int n);
+const QuadricKernels<float>& v3KernelsFloat(QuadricLayout layout, int n);
+const QuadricKernels<double>& v3KernelsDouble(QuadricLayout layout, int n);
 #endif
 
 }  // namespace tetstream

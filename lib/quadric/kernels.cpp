@@ -14,19 +14,19 @@ const char* kernelBuild() {
 }
 
 template <>
-const QuadricKernels<float>& quadricKernels<float>(int n) {
+const QuadricKernels<float>& quadricKernels<float>(QuadricLayout layout, int n) {
 #ifdef TETSTREAM_V3_KERNELS
-  if (processorHasV3()) return v3KernelsFloat(n);
+  if (processorHasV3()) return v3KernelsFloat(layout, n);
 #endif
-  return plainKernelsFloat(n);
+  return plainKernelsFloat(layout, n);
 }
 
 template <>
-const QuadricKernels<double>& quadricKernels<double>(int n) {
+const QuadricKernels<double>& quadricKernels<double>(QuadricLayout layout, int n) {
 #ifdef TETSTREAM_V3_KERNELS
-  if (processorHasV3()) return v3KernelsDouble(n);
+  if (processorHasV3()) return v3KernelsDouble(layout, n);
 #endif
-  return plainKernelsDouble(n);
+  return plainKernelsDouble(layout, n);
 }
 
 }  // namespace tetstream

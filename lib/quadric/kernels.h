@@ -5,7 +5,7 @@
 // 2007, section 3.4): no large numbers cancel near the minimum, and e1 + e2 bounds the error of a
 // merge from below without a solve. p is the vertex itself, position and fields, in the user's
 // units. A and e are in normalised units: component i of a difference is multiplied by scale[i].
-// In memory a quadric is the lower triangle of A by rows, n (n + 1) / 2 numbers, then e.
+// In memory A comes first, in one of two layouts, then e.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,19 @@
 
 namespace tetstream {
 
-constexpr int quadricSize(int n) {
-  return n * (n + 1) / 2 + 1;
+// With f a component's row behind the three of space,
+//   A = [ C   G ]   kFields: the form whose normals are not normalised leaves this of it, after
+//       [ G^T W ]   sums, too (Hoppe 1999): W is a number times the identity, the sum of the
+//       weights
+// of the cells, and stands for every component alike, since what a component counts is in its
+// scale. Kept are C's lower triangle by rows, the three numbers of G of each component, and W,
+// where there is a component.
+//   kFull: the lower triangle by rows, n (n + 1) / 2 numbers.
+enum class QuadricLayout { kFields, kFull };
+
+constexpr int quadricSize(QuadricLayout layout, int n) {
+  if (layout == QuadricLayout::kFull) return n * (n + 1) / 2 + 1;
+  return 6 + 3 * (n - 3) + (n > 3 ? 1 : 0) + 1;
 }
 constexpr int kMaxDimension = 128;  // 3 + measured components: bounds the kernels' local arrays
 
@@ -47,33 +58,36 @@ struct VertexTable {
   const S* value(uint32_t v) const { return values + size_t{v} * size_t(value_stride); }
 };
 
-// One entry per dimension, chosen once per run.
+// One entry per layout and dimension, chosen once per run.
 template <class S>
 struct QuadricKernels {
-  // Adds the quadric of a cell, a quarter of it to each of its vertices. Field form: the integral
-  // of the squared field error, sum over components c of V (g_c, -1)(g_c, -1)^T with g_c the
-  // cell's gradient: n n^T / V with n the determinant of the edges (section 3.4).
+  // Adds the quadric of a cell, a quarter of it to each of its vertices.
+  //   kFields: the integral of the squared field error, sum over components c of
+  //     V (g_c, -1)(g_c, -1)^T with g_c the cell's gradient: n n^T / V with n the determinant of
+  //     the edges (section 3.4).
+  //   kFull: the squared distance to the cell's hyperplane, V (I - sum of e_i e_i^T) over an
+  //     orthonormal basis of the cell in R^n (Garland and Zhou 2005).
   // `shape`: kShapeWeight, or another weight of the regulariser. Returns 6 V, with its sign.
-  double (*addCellField)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
+  double (*addCell)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
   // The same numbers for kCellLanes cells, one after the other: their corners, four to a cell; 6 V
   // of each. `quadrics` are those of the table. False, and nothing is done, where one is too flat
-  // for its sign to be sure, or the dimension too large for this.
-  bool (*addCellFields)(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
-                        const S* scale, double shape, double* determinants);
-  // As addCellField with the squared distance to the cell's hyperplane: V (I - sum of e_i e_i^T)
-  // over an orthonormal basis of the cell in R^n (Garland and Zhou 2005).
-  double (*addCellDistance)(const S* const x[4], const S* scale, int n, double shape,
-                            S* const q[4]);
+  // for its sign to be sure, and for kFull.
+  bool (*addCells)(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
+                   const S* scale, int n, double shape, double* determinants);
   // Adds a boundary face to its vertices: weight * area / 3 times the squared distance to
-  // its plane in space, or to its 2-flat in R^n.
-  void (*addFacePlane)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
-  void (*addFaceDistance)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
+  // its plane in space (kFields), or to its 2-flat in R^n (kFull).
+  void (*addFace)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
+  // Carries a quadric over into units in which component i is divided by factor[i], and multiplies
+  // it by `weight`. kFields: W is that of the component with the smallest factor; of the others,
+  // which would count more, what belongs to their mean gradients is brought down to it.
+  void (*rescale)(const S* factor, S weight, int n, S* q);
   // Minimizes Q1 + Q2 by conjugate gradients from the midpoint m: z = scale (x - m). Returns the
   // error there, not less than e1 + e2; not finite if the arithmetic overflowed.
   S(*minimizeEdge)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, S* z);
   // The same by elimination, fields first (their pivot is a volume, never small), regularised by
-  // kSolveWeight: without branches, so that many edges are solved side by side.
+  // kSolveWeight: without branches, so that many edges are solved side by side. kFields: linear in
+  // the number of components, since they meet in space only (Hoppe and Marschner 2000).
   S(*solveEdge)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, S* z);
   // The same numbers for 1 to kEdgeLanes edges, given by their two ends each: n numbers of z and an
@@ -88,9 +102,10 @@ struct QuadricKernels {
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, const S* z);
 };
 
-// The kernels for dimension n, built for this processor; every build gives the same numbers.
+// The kernels for a layout and dimension n, built for this processor; every build gives the same
+// numbers.
 template <class S>
-const QuadricKernels<S>& quadricKernels(int n);
+const QuadricKernels<S>& quadricKernels(QuadricLayout layout, int n);
 
 // "x86-64-v3" or "plain": which build quadricKernels gives here.
 const char* kernelBuild();

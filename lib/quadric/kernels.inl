@@ -2,33 +2,69 @@
 // an anonymous namespace, so that no function of one build is ever linked into another. For the
 // same reason nothing here calls the standard library. Sums run in a fixed order and nothing is
 // contracted: all builds give the same numbers.
-#include "cells.inl"
-#include "edges.inl"
+#include "batches.inl"
+#include "distances.inl"
+#include "minimum.inl"
 
 namespace tetstream {
 namespace {
 
 template <class S, int N>
-constexpr QuadricKernels<S> kKernels = {
-    addCellField<S, N>,    addCellFields<S, N>, addCellDistance<S, N>, addFacePlane<S, N>,
-    addFaceDistance<S, N>, minimizeEdge<S, N>,  solveEdge<S, N>,       solveEdges<S, N>,
-    edgeErrors<S, N>,      errorAt<S, N>};
+constexpr QuadricKernels<S> kFieldKernels = {
+    addCellField<S, N>,       addCellFields<S, N>,        addFacePlane<S, N>,
+    rescaleFields<S, N>,      minimizeEdge<Fields, S, N>, solveEdge<Fields, S, N>,
+    solveEdges<Fields, S, N>, edgeErrors<Fields, S, N>,   errorAt<Fields, S, N>};
+template <class S, int N>
+constexpr QuadricKernels<S> kFullKernels = {
+    addCellDistance<S, N>,    addNoCells<S>,         addFaceDistance<S, N>,  rescaleFull<S, N>,
+    minimizeEdge<Full, S, N>, solveEdge<Full, S, N>, solveEdges<Full, S, N>, edgeErrors<Full, S, N>,
+    errorAt<Full, S, N>};
+
 template <class S>
-const QuadricKernels<S>& kernelsFor(int n) {
+const QuadricKernels<S>& fieldKernelsFor(int n) {
   switch (n) {
     case 3:
-      return kKernels<S, 3>;
+      return kFieldKernels<S, 3>;
     case 4:
-      return kKernels<S, 4>;
+      return kFieldKernels<S, 4>;
     case 5:
-      return kKernels<S, 5>;
+      return kFieldKernels<S, 5>;
     case 6:
-      return kKernels<S, 6>;
+      return kFieldKernels<S, 6>;
     case 7:
-      return kKernels<S, 7>;
+      return kFieldKernels<S, 7>;
+    case 9:
+      return kFieldKernels<S, 9>;
+    case 10:
+      return kFieldKernels<S, 10>;
+    case 12:
+      return kFieldKernels<S, 12>;
     default:
-      return kKernels<S, 0>;
+      return kFieldKernels<S, 0>;
   }
+}
+
+template <class S>
+const QuadricKernels<S>& fullKernelsFor(int n) {
+  switch (n) {
+    case 3:
+      return kFullKernels<S, 3>;
+    case 4:
+      return kFullKernels<S, 4>;
+    case 5:
+      return kFullKernels<S, 5>;
+    case 6:
+      return kFullKernels<S, 6>;
+    case 7:
+      return kFullKernels<S, 7>;
+    default:
+      return kFullKernels<S, 0>;
+  }
+}
+
+template <class S>
+const QuadricKernels<S>& kernelsFor(QuadricLayout layout, int n) {
+  return layout == QuadricLayout::kFull ? fullKernelsFor<S>(n) : fieldKernelsFor<S>(n);
 }
 
 }  // namespace

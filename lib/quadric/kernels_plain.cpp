@@ -4,11 +4,11 @@
 
 namespace tetstream {
 
-const QuadricKernels<float>& plainKernelsFloat(int n) {
-  return kernelsFor<float>(n);
+const QuadricKernels<float>& plainKernelsFloat(QuadricLayout layout, int n) {
+  return kernelsFor<float>(layout, n);
 }
-const QuadricKernels<double>& plainKernelsDouble(int n) {
-  return kernelsFor<double>(n);
+const QuadricKernels<double>& plainKernelsDouble(QuadricLayout layout, int n) {
+  return kernelsFor<double>(layout, n);
 }
 
 }  // namespace tetstream

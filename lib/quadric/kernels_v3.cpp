@@ -5,11 +5,11 @@
 
 namespace tetstream {
 
-const QuadricKernels<float>& v3KernelsFloat(int n) {
-  return kernelsFor<float>(n);
+const QuadricKernels<float>& v3KernelsFloat(QuadricLayout layout, int n) {
+  return kernelsFor<float>(layout, n);
 }
-const QuadricKernels<double>& v3KernelsDouble(int n) {
-  return kernelsFor<double>(n);
+const QuadricKernels<double>& v3KernelsDouble(QuadricLayout layout, int n) {
+  return kernelsFor<double>(layout, n);
 }
 
 }  // namespace tetstream

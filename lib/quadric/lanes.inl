@@ -6,10 +6,6 @@
 namespace tetstream {
 namespace {
 
-inline int at(int i, int j) {
-  return i * (i + 1) / 2 + j;
-}  // j <= i
-
 // The dimension: known to the compiler where N > 0.
 template <int N>
 inline int dimension(int n) {

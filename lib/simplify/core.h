@@ -58,7 +58,7 @@ struct Core {
        size_t vertices, uint64_t span)
       : plan(the_plan),
         options(the_options),
-        kernels(quadricKernels<S>(the_plan.dimension)),
+        kernels(quadricKernels<S>(the_plan.layout, the_plan.dimension)),
         window(account, shapeOf(the_plan), cells, vertices, the_options.mode == Mode::kPaper),
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
@@ -66,7 +66,8 @@ struct Core {
         thin(0) {}
 
   static WindowShape shapeOf(const Plan& plan) {
-    return {plan.values, quadricSize(plan.dimension), plan.picks, plan.cell_means, plan.cell_picks};
+    return {plan.values, quadricSize(plan.layout, plan.dimension), plan.picks, plan.cell_means,
+            plan.cell_picks};
   }
 
   // What a window of one cell takes, with its share of vertices and the steps' own arrays.

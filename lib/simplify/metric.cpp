@@ -157,10 +157,7 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
     grown = std::max(grown, 1 / (static_cast<double>(factor[i]) * static_cast<double>(factor[i])));
   const S weight = grown > 0 && std::isfinite(static_cast<S>(grown)) ? static_cast<S>(grown) : S(1);
   for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v) {
-    S* a = core_.window.quadric(v);
-    for (size_t i = 0; i < factor.size(); ++i)
-      for (size_t j = 0; j <= i; ++j) *a++ *= weight * (factor[i] * factor[j]);
-    *a *= weight;
+    core_.kernels.rescale(factor.data(), weight, core_.plan.dimension, core_.window.quadric(v));
     if (!(core_.window.mesh.vertexFlags(v) & kWritten)) unsettle(core_.window, v);
   }
   core_.error *= static_cast<double>(weight);
@@ -203,10 +200,8 @@ void Metric<S>::addCell(uint32_t cell) {
     return;
   }
   if (side < 0) window.mesh.flagCell(cell, kNegative);
-  const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
-                       ? core_.kernels.addCellDistance
-                       : core_.kernels.addCellField;
-  countVolume(cell, add(x, core_.scale.data(), core_.plan.dimension, shapeWeight(), q));
+  countVolume(cell,
+              core_.kernels.addCell(x, core_.scale.data(), core_.plan.dimension, shapeWeight(), q));
 }
 
 // Several side by side, where all have their sign beyond doubt.
@@ -216,8 +211,9 @@ bool Metric<S>::addLanes(uint32_t first) {
   double determinants[kCellLanes];
   const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
                                 window.shape().values};
-  if (!core_.kernels.addCellFields(table, window.quadric(0), window.mesh.corners(first),
-                                   core_.scale.data(), shapeWeight(), determinants))
+  if (!core_.kernels.addCells(table, window.quadric(0), window.mesh.corners(first),
+                              core_.scale.data(), core_.plan.dimension, shapeWeight(),
+                              determinants))
     return false;
   for (uint32_t k = 0; k < kCellLanes; ++k) {
     if (determinants[k] < 0) window.mesh.flagCell(first + k, kNegative);
@@ -270,9 +266,8 @@ void Metric<S>::addCells(uint32_t first, uint32_t end) {
   if (!box_known_) growBox(first, end);
   if (!unit_known_) chooseLengthUnit(first, end);
   updateScales();
-  const bool in_lanes = core_.options.quadric != QuadricForm::kGarlandZhou;
   for (uint32_t c = first; c < end;) {
-    if (in_lanes && end - c >= kCellLanes && addLanes(c))
+    if (end - c >= kCellLanes && addLanes(c))
       c += kCellLanes;
     else
       addCell(c++);
@@ -285,11 +280,8 @@ void Metric<S>::addBoundaryFace(uint32_t a, uint32_t b, uint32_t c) {
   Window<S>& window = core_.window;
   const S* x[3] = {window.values(a), window.values(b), window.values(c)};
   S* q[3] = {window.quadric(a), window.quadric(b), window.quadric(c)};
-  const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
-                       ? core_.kernels.addFaceDistance
-                       : core_.kernels.addFacePlane;
-  add(x, core_.scale.data(), core_.plan.dimension,
-      core_.options.boundary_weight * extent() / length_unit_, q);
+  core_.kernels.addFace(x, core_.scale.data(), core_.plan.dimension,
+                        core_.options.boundary_weight * extent() / length_unit_, q);
 }
 
 template class Metric<float>;

@@ -1,6 +1,5 @@
 #include "plan.h"
 
-#include "kernels.h"
 #include "status.h"
 
 namespace tetstream {
@@ -47,6 +46,7 @@ Plan makePlan(const Schema& schema, const SimplifyOptions& options) {
   Plan plan;
   plan.schema = schema;
   plan.double_window = schema.position_type == ScalarType::kFloat64;
+  if (options.quadric == QuadricForm::kGarlandZhou) plan.layout = QuadricLayout::kFull;
   plan.fields.resize(schema.fields.size());
   const std::vector<double> weights = fieldWeights(schema, options);
   for (Treatment pass : {Treatment::kMeasured, Treatment::kCarried, Treatment::kPicked}) {

@@ -1,8 +1,9 @@
-// simplify: what happens to each column of a stream. Depends on options.h, stream.
+// simplify: what happens to each column of a stream. Depends on options.h, quadric, stream.
 #pragma once
 
 #include <vector>
 
+#include "kernels.h"
 #include "options.h"
 #include "schema.h"
 
@@ -23,7 +24,8 @@ struct Plan {
   Schema schema;
   bool double_window = false;  // positions or a float field are float64
   int dimension = 3;           // 3 + measured components: the quadric's
-  int values = 3;              // 3 + measured + carried components
+  QuadricLayout layout = QuadricLayout::kFields;
+  int values = 3;  // 3 + measured + carried components
   int picks = 0;
   int cell_means = 0, cell_picks = 0;
   std::vector<ColumnPlan> fields, cell_data;
