@@ -234,7 +234,11 @@ void Parser::addLayout() {
 void Parser::addGenerate() {
   CLI::App* command =
       addCommand("generate", "Make a mesh to try things with", Arguments::Command::kGenerate);
-  command->add_option("KIND", arguments_.kind, "fluid: a box of 1 x 1 x 4; ball: a unit ball")
+  command
+      ->add_option(
+          "KIND", arguments_.kind,
+          "fluid: a box of 1 x 1 x 4; ball: a unit ball; fluid+stress, ball+stress: with a "
+          "tensor field, too")
       ->required()
       ->option_text(" ");
   addOut(command);

@@ -276,7 +276,8 @@ TETSTREAM_API tetstream_status tetstream_reader_open_mesh(const tetstream_stream
                                                           tetstream_reader **reader);
 /* A mesh made on the fly, in constant memory: kind "fluid" (a jittered box of 1 x 1 x 4, swept
  * along its long axis; scalar "density", vector "velocity") or "ball" (a unit ball, scalar
- * "density", vector "velocity"), of about `cells` cells. The same arguments give the same mesh.
+ * "density", vector "velocity"), of about `cells` cells; "fluid+stress" and "ball+stress" also have
+ * a symmetric tensor "stress" (xx, yy, zz, xy, yz, xz). The same arguments give the same mesh.
  * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_generate(const char *kind, int64_t cells,
                                                          int64_t seed, tetstream_reader **reader);

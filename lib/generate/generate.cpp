@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 #include "lattice_source.h"
 #include "status.h"
@@ -36,7 +37,7 @@ const Kind kKinds[] = {
     {"fluid",
      4,
      1,
-     {{}, false, placeInBox, {0, 0, 2}},
+     {{}, false, placeInBox, {0, 0, 2}, false},
      {0, 0, 0},
      {1, 1, 4},
      [](int64_t n) { return squared(n + 1) + n + 2; },
@@ -45,7 +46,7 @@ const Kind kKinds[] = {
     {"ball",
      1,
      2,
-     {{}, true, placeInBall, {-0.37f, -0.21f, 0}},
+     {{}, true, placeInBall, {-0.37f, -0.21f, 0}, false},
      {-1, -1, -1},
      {1, 1, 1},
      [](int64_t n) { return squared(n + 1) + n + 3; },
@@ -70,26 +71,33 @@ int64_t nearestSide(const Kind& kind, int64_t cells) {
   return best;
 }
 
-const Kind& needKind(const std::string& name) {
+constexpr std::string_view kWithStress = "+stress";  // behind the name
+
+// Of the mesh that a name without kWithStress says; `asked` is what was given.
+const Kind& needKind(std::string_view name, const std::string& asked) {
   std::string known;
   for (const Kind& kind : kKinds) {
     if (name == kind.name) return kind;
     known += std::string(known.empty() ? "" : ", ") + kind.name;
   }
-  fail(Status::kBadArgument, "there is no mesh \"%s\" to generate; there are: %s", name.c_str(),
-       known.c_str());
+  fail(Status::kBadArgument,
+       "there is no mesh \"%s\" to generate; there are: %s; and each with \"%s\" behind it",
+       asked.c_str(), known.c_str(), kWithStress.data());
 }
 
 }  // namespace
 
 std::unique_ptr<Source> generate(const std::string& kind_name, int64_t cells, int64_t seed) {
-  const Kind& kind = needKind(kind_name);
+  const bool with_stress = kind_name.ends_with(kWithStress);
+  const size_t length = kind_name.size() - (with_stress ? kWithStress.size() : 0);
+  const Kind& kind = needKind(std::string_view(kind_name).substr(0, length), kind_name);
   if (cells < 1 || cells > kMostCells)
     fail(Status::kBadArgument, "cannot generate %lld cells, 1 to %lld are possible",
          static_cast<long long>(cells), static_cast<long long>(kMostCells));
   const int64_t n = nearestSide(kind, cells);
   LatticeMesh mesh = kind.mesh;
   mesh.lattice = {n, n * kind.layers};
+  mesh.with_stress = with_stress;
   Schema schema;
   schema.front_width = kind.front_width(n);
   schema.front_span = kind.front_span(n);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stress.h"
+
 namespace tetstream {
 
 namespace {
@@ -9,21 +11,30 @@ namespace {
 constexpr int64_t kBatchCubes = kBatchCells / kCubeCells;
 
 // The fields are added before the batch is made from the schema.
-Schema withFields(Schema schema) {
+Schema withFields(Schema schema, bool with_stress) {
   schema.fields = {{"density", 1, ScalarType::kFloat32}, {"velocity", 3, ScalarType::kFloat32}};
+  if (with_stress) schema.fields.push_back({"stress", kStressValues, ScalarType::kFloat32});
   return schema;
 }
 
 }  // namespace
 
 LatticeSource::LatticeSource(const LatticeMesh& mesh, uint64_t seed, const Schema& schema)
-    : mesh_(mesh), seed_(seed), layer_(seed), schema_(withFields(schema)), batch_(schema_) {
+    : mesh_(mesh),
+      seed_(seed),
+      layer_(seed),
+      schema_(withFields(schema, mesh.with_stress)),
+      batch_(schema_) {
   for (int start = 0; start < 8; ++start) splits_[start] = splitCube(start);
   schema_.vertex_count = mesh_.lattice.vertexCount();
   schema_.cell_count = kCubeCells * mesh_.lattice.cubeCount();
   for (int value = 0; value < MixingLayer::kValues; ++value) {
     schema_.box_min.push_back(layer_.minimum(value));
     schema_.box_max.push_back(layer_.maximum(value));
+  }
+  for (int value = 0; mesh_.with_stress && value < kStressValues; ++value) {
+    schema_.box_min.push_back(leastStress(layer_, value));
+    schema_.box_max.push_back(largestStress(layer_, value));
   }
 }
 
@@ -75,7 +86,6 @@ void LatticeSource::addLines(int64_t first_a, int64_t last_a) {
 
 // The run's vertices into rows `row`, `row` + stride, ...
 void LatticeSource::addVertices(const VertexRun& run, size_t row, size_t stride) {
-  constexpr int kMost = VertexRun::kVertices;
   Positions at;
   mesh_.place(mesh_.lattice, seed_, run, &at);
   auto* position = static_cast<float*>(batch_.position(row));
@@ -88,15 +98,27 @@ void LatticeSource::addVertices(const VertexRun& run, size_t row, size_t stride)
     at.y[i] -= mesh_.layer_origin[1];
     at.z[i] -= mesh_.layer_origin[2];
   }
+  addFields(at, run.count, row, stride);
+}
+
+// Those at `count` points of the mixing layer.
+void LatticeSource::addFields(const Positions& at, int count, size_t row, size_t stride) {
+  constexpr int kMost = VertexRun::kVertices;
   float density[kMost], velocity_x[kMost], velocity_y[kMost], velocity_z[kMost];
   float* const velocity[3] = {velocity_x, velocity_y, velocity_z};
-  layer_.evaluate(at.x, at.y, at.z, run.count, density, velocity);
+  layer_.evaluate(at.x, at.y, at.z, count, density, velocity);
   auto* densities = static_cast<float*>(batch_.field(0, row));
   auto* velocities = static_cast<float*>(batch_.field(1, row));
-  for (int i = 0; i < run.count; ++i) {
+  for (int i = 0; i < count; ++i) {
     const size_t at_row = stride * static_cast<size_t>(i);
     densities[at_row] = density[i];
     for (int axis = 0; axis < 3; ++axis) velocities[3 * at_row + axis] = velocity[axis][i];
+  }
+  if (!mesh_.with_stress) return;
+  auto* stresses = static_cast<float*>(batch_.field(2, row));
+  for (int i = 0; i < count; ++i) {
+    const float v[3] = {velocity_x[i], velocity_y[i], velocity_z[i]};
+    stressAt(at.z[i], density[i], v, stresses + kStressValues * stride * static_cast<size_t>(i));
   }
 }
 

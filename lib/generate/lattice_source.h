@@ -19,6 +19,7 @@ struct LatticeMesh {
   bool octants = false;  // diagonals point away from the centre; else all are parallel
   void (*place)(const Lattice&, uint64_t seed, const VertexRun&, Positions*) = nullptr;
   float layer_origin[3] = {0, 0, 0};  // where the mixing layer's (0, 0, 0) is in the mesh
+  bool with_stress = false;           // a third field, of six components
 };
 
 // Memory does not depend on the size of the mesh.
@@ -33,6 +34,7 @@ class LatticeSource : public Source {
   void addRun(int64_t cubes);
   void addLines(int64_t first_a, int64_t last_a);
   void addVertices(const VertexRun& run, size_t row, size_t stride);
+  void addFields(const Positions& at, int count, size_t row, size_t stride);
   void addCubes(int64_t cubes);
   const CubeSplit& splitAt(int64_t i) const;
 
