@@ -48,19 +48,30 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
   return target;
 }
 
+// What a run takes for a cell of its window, and for a vertex of a patch.
+struct RowCosts {
+  int64_t cell, patch_vertex;
+};
+template <class S>
+RowCosts costsOf(const Plan& plan, const SimplifyOptions& options) {
+  return {static_cast<int64_t>(Core<S>::bytesPerCell(plan, options.mode)),
+          Core<S>::tileVertexBytes(plan)};
+}
+
 // The window that a memory budget allows. A seventh is left for meshes with more vertices to a
 // cell than usual.
-int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
+int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
   if (options.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
   const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
-  const int64_t patch = options.mode == Mode::kPaper ? 0 : tileVertices(options) * kTileVertexBytes;
-  const int64_t cells = (options.memory_bytes - kFixedBytes - patch - map) * 6 / 7 /
-                        static_cast<int64_t>(bytes_per_cell);
+  const int64_t patch = options.mode == Mode::kPaper
+                            ? 0
+                            : tileVertices(options, bytes.patch_vertex) * bytes.patch_vertex;
+  const int64_t cells = (options.memory_bytes - kFixedBytes - patch - map) * 6 / 7 / bytes.cell;
   return std::max<int64_t>(cells, 64);
 }
 
 // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
-int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
+int64_t windowFor(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
   const int64_t front = std::min(schema.front_cells, kWidestFront);
   const int64_t least = options.mode == Mode::kPaper ? kLeastPaperWindow : kLeastWindow;
   int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
@@ -68,7 +79,7 @@ int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t b
                                            : kFirstWindow;
   if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
   if (options.window_cells > 0) return cells;
-  return std::min(cells, fittingCells(schema, options, bytes_per_cell));
+  return std::min(cells, fittingCells(schema, options, bytes));
 }
 
 std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
@@ -95,7 +106,7 @@ class WindowedEngine final : public Simplifier::Engine {
         options_(options),
         progress_(progress),
         account_(static_cast<size_t>(options.memory_bytes)),
-        capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_, options.mode))),
+        capacity_(windowFor(plan_.schema, options, costsOf<S>(plan_, options))),
         core_(plan_, options_, account_, static_cast<size_t>(capacity_),
               static_cast<size_t>(capacity_) / kCellsPerVertex + 64, expectedSpan(plan_.schema)),
         knows_pilot_(pilot.known()),
@@ -246,8 +257,8 @@ class WindowedEngine final : public Simplifier::Engine {
   // The largest window that the budget allows; a stuck one may take half of what is left beyond.
   int64_t affordable(bool stuck) const {
     if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
-    const auto bytes = Core<S>::bytesPerCell(plan_, options_.mode);
-    const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2 / bytes);
+    const RowCosts bytes = costsOf<S>(plan_, options_);
+    const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2) / bytes.cell;
     return std::max(fittingCells(plan_.schema, options_, bytes), stuck ? capacity_ + left : 0);
   }
 
@@ -382,9 +393,9 @@ void Simplifier::finish() {
 
 int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
   const Plan plan = makePlan(schema, options);
-  return windowFor(schema, options,
-                   plan.double_window ? Core<double>::bytesPerCell(plan, options.mode)
-                                      : Core<float>::bytesPerCell(plan, options.mode));
+  return windowFor(
+      schema, options,
+      plan.double_window ? costsOf<double>(plan, options) : costsOf<float>(plan, options));
 }
 
 int64_t Simplifier::targetCells(const Schema& schema, const SimplifyOptions& options) {

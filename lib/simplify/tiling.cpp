@@ -48,7 +48,8 @@ size_t Tiling<S>::listVertices() {
 template <class S>
 void Tiling<S>::cut(size_t count, unsigned round) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
-  const CutRule rule{kShare[round % 3], static_cast<size_t>(tileVertices(core_.options))};
+  const int64_t vertices = tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan));
+  const CutRule rule{kShare[round % 3], static_cast<size_t>(vertices)};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), rule, at);
   pieces.cut(0, count, [this](size_t begin, size_t end) {

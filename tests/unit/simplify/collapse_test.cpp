@@ -247,7 +247,7 @@ TYPED_TEST(Collapsers, ConserveCellDataOverTheVolumesTheyStandFor) {
 TYPED_TEST(Collapsers, AddQuadrics) {
   TypeParam w(gridWithField(4));
   const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
-  const int size = quadricSize(4);
+  const int size = w.core.window.shape().quadric;
   const std::vector<double> a(w.quadric(u), w.quadric(u) + size);
   const std::vector<double> b(w.quadric(v), w.quadric(v) + size);
   const double z[4] = {0, 0, 0, 0};
