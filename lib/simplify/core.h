@@ -48,7 +48,7 @@ constexpr double kLeastFloor = 0.05;
 // budget may want less.
 constexpr int64_t kTileVertices = 4096;
 constexpr int64_t kTileVertexBytes = 451;  // with all that a patch and its sweep hold, of one field
-constexpr int64_t kOneFieldRow = 4 + 11;   // of these: numbers of its values and its quadric
+constexpr int64_t kOneFieldValues = 4, kOneFieldQuadric = 11;  // numbers, of these
 
 inline int64_t tileVertices(const SimplifyOptions& options, int64_t vertex_bytes) {
   if (options.memory_bytes == 0) return kTileVertices;
@@ -85,11 +85,13 @@ struct Core {
            vertex / kCellsPerVertex;
   }
 
-  // What a patch takes for a vertex.
+  // What a patch takes for a vertex that it owns: its arrays have a quarter to spare, and small
+  // ones a rim of as many vertices, whose values are there twice while room is made for them.
   static int64_t tileVertexBytes(const Plan& plan) {
     const WindowShape shape = shapeOf(plan);
-    const int64_t more = std::max<int64_t>(shape.values + shape.quadric - kOneFieldRow, 0);
-    return kTileVertexBytes + static_cast<int64_t>(sizeof(S)) * more;
+    const int64_t values = std::max<int64_t>(shape.values - kOneFieldValues, 0);
+    const int64_t quadric = std::max<int64_t>(shape.quadric - kOneFieldQuadric, 0);
+    return kTileVertexBytes + static_cast<int64_t>(sizeof(S)) * (5 * quadric / 4 + 4 * values);
   }
 
   const Plan& plan;

@@ -1,0 +1,138 @@
+// Several fields at once: none loses much against being alone, in whatever form and however their
+// ranges come to be known; what a field of no extent or of no weight does.
+#include <cmath>
+
+#include "field_error.h"
+#include "simplify_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+constexpr ScalarType k32 = ScalarType::kFloat32, k64 = ScalarType::kFloat64;
+
+int side() {
+  return slowRun() ? 6 : 10;
+}
+
+double front(double x, double y, double z) {
+  return std::tanh(3 * std::sin(0.5 * x + 0.2 * z) + y - 5);
+}
+
+// A swept box: a front, a smooth pressure, a vector that grows along the sweep, and a tensor.
+TestMesh fieldsMesh(ScalarType type = k64) {
+  TestMesh mesh = fullGrid(side(), side(), 3 * side(), 0.1);
+  addPositionField(mesh, {"front", 1, type}, front);
+  addPositionField(mesh, {"pressure", 1, type}, [](double x, double y, double z) {
+    return 1e5 + x * x + 9 * std::sin(z / 5) * y;
+  });
+  addPositionField(mesh, {"growing", 3, type}, [](double x, double y, double z) {
+    return 1e-3 * std::exp(0.2 * z) * std::sin(0.6 * x + 0.4 * y);
+  });
+  addPositionField(mesh, {"stress", 6, type}, [](double x, double y, double z) {
+    return 40 * std::cos(0.4 * x) * std::sin(0.3 * y + 0.2 * z);
+  });
+  return mesh;
+}
+
+SimplifyOptions measuring(std::vector<std::pair<std::string, double>> fields) {
+  SimplifyOptions options = toRatio(0.15, 4000);
+  options.fields = std::move(fields);
+  return options;
+}
+
+std::vector<double> errorsOf(const TestMesh& mesh, const SimplifyOptions& options,
+                             const Cut& cut = {}) {
+  const Result result = simplified(mesh, options, cut);
+  expectSound(mesh, result);
+  expectReached(result);
+  return fieldErrors(mesh, result.out.mesh);
+}
+
+// Of each field simplified alone.
+std::vector<double> errorsAlone(const TestMesh& mesh) {
+  std::vector<double> errors;
+  for (size_t f = 0; f < mesh.fields.size(); ++f)
+    errors.push_back(errorsOf(mesh, measuring({{mesh.schema.fields[f].name, 1}}))[f]);
+  return errors;
+}
+
+double geometricMean(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0;
+  for (size_t i = 0; i < a.size(); ++i) sum += std::log(a[i] / b[i]);
+  return std::exp(sum / static_cast<double>(a.size()));
+}
+
+// Whether the ranges are known from the start, or are met on the way: then what was read before has
+// to be carried over, a field at a time.
+TEST(SeveralFields, LoseLittleAgainstEachAlone) {
+  for (ScalarType type : {k32, k64}) {
+    const TestMesh mesh = fieldsMesh(type);
+    const std::vector<double> alone = errorsAlone(mesh);
+    for (bool box : {true, false}) {
+      Cut cut;
+      cut.say_box = box;
+      const std::vector<double> together = errorsOf(mesh, measuring({}), cut);
+      for (size_t f = 0; f < alone.size(); ++f)
+        EXPECT_LT(together[f], 3 * alone[f]) << mesh.schema.fields[f].name << " box " << box;
+      EXPECT_LT(geometricMean(together, alone), 1.6) << "box " << box;
+    }
+  }
+}
+
+// Carried fields alone leave errors that measured ones do not: the test above could not tell
+// otherwise.
+TEST(SeveralFields, AreFollowedBecauseTheyAreMeasured) {
+  const TestMesh mesh = fieldsMesh();
+  const std::vector<double> alone = errorsAlone(mesh),
+                            carried = errorsOf(mesh, measuring({{"pressure", 1}}));
+  EXPECT_GT(carried[0], 2 * alone[0]);
+  EXPECT_GT(carried[3], 2 * alone[3]);
+}
+
+TEST(SeveralFields, GainByTheirWeights) {
+  const TestMesh mesh = fieldsMesh();
+  const std::vector<double> even = errorsOf(mesh, measuring({})),
+                            heavy = errorsOf(mesh, measuring({{"front", 1},
+                                                              {"pressure", 1},
+                                                              {"growing", 1},
+                                                              {"stress", 100}}));
+  EXPECT_LT(heavy[3], 0.8 * even[3]);
+  EXPECT_GT(heavy[0], even[0]);
+}
+
+// A constant measures nothing, wherever it stands; nor do fields that all weigh nothing.
+TEST(SeveralFields, OfNoExtentOrWeightLeaveTheOthersAlone) {
+  TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1);
+  addPositionField(mesh, {"flat", 2, k64}, [](double, double, double) { return 0.0; });
+  addPositionField(mesh, {"front", 1, k64}, front);
+  mesh.addField({"constant", 1, k64}, [](size_t, int) { return 3.25; });
+  for (bool box : {true, false}) {
+    Cut cut;
+    cut.say_box = box;
+    const std::vector<double> all = errorsOf(mesh, measuring({}), cut),
+                              one = errorsOf(mesh, measuring({{"front", 1}}), cut);
+    EXPECT_LT(all[1], 1.1 * one[1]);
+    EXPECT_EQ(all[0], 0);
+    EXPECT_LT(all[2], 1e-12);
+    EXPECT_LT(one[1], 0.5 * errorsOf(mesh, measuring({{"flat", 1}}), cut)[1]);
+    errorsOf(mesh, measuring({{"flat", 0}, {"front", 0}, {"constant", 0}}), cut);
+  }
+}
+
+// Forty components in a budget of memory: rows are long, but as long as they are, not longer.
+TEST(SeveralFields, OfManyComponentsKeepABudget) {
+  TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1);
+  for (int f = 0; f < 5; ++f)
+    addPositionField(mesh, {textOf("f%d", f), 8, k32}, [f](double x, double y, double z) {
+      return std::sin(0.3 * (f + 1) * x + 0.2 * y) + 0.02 * f * z * y;
+    });
+  SimplifyOptions options = toRatio(0.2);
+  options.memory_bytes = 4 << 20;
+  const Result result = simplified(mesh, options);
+  expectSound(mesh, result);
+  expectReached(result);
+  EXPECT_LE(result.report.peak_window_bytes, size_t{4} << 20);
+}
+
+}  // namespace
+}  // namespace tetstream::test
