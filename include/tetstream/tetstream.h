@@ -163,9 +163,11 @@ TETSTREAM_API tetstream_status tetstream_options_get_double(const tetstream_opti
 TETSTREAM_API tetstream_status tetstream_options_get_text(const tetstream_options *options,
                                                           int32_t id, const char **value);
 /* Measures the field of that name with that weight (>= 0, 1 is usual; 0: carried along, not
- * measured). The first call turns off the default, which measures every nodal float field with
- * weight 1; fields not named are then carried. That the field exists is checked when the stream
- * begins. Since 0.1. */
+ * measured). It multiplies the field's squared error in units of its range, of a vector or tensor
+ * the length of the box of its values. The first call turns off the default, which measures every
+ * nodal float field with weight 1; fields not named are then carried. That the field exists, and
+ * that not more than 125 components are measured (UNSUPPORTED), is checked when the stream begins.
+ * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_add_field(tetstream_options *options,
                                                            const char *name, double weight);
 /* The sentence for the last failure with this handle, "" if there was none. Lives until the next

@@ -19,21 +19,21 @@ inline void difference(const S* a, const S* b, const S* scale, int n, double* ou
 }
 
 template <class V>
-inline void cross(const V* a, const V* b, V* out) {
+[[gnu::always_inline]] inline void cross(const V* a, const V* b, V* out) {
   out[0] = a[1] * b[2] - a[2] * b[1];
   out[1] = a[2] * b[0] - a[0] * b[2];
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
 template <class V>
-inline V dot(const V* a, const V* b, int n) {
+[[gnu::always_inline]] inline V dot(const V* a, const V* b, int n) {
   V sum = V{};
   for (int i = 0; i < n; ++i) sum += a[i] * b[i];
   return sum;
 }
 
 template <class V>
-inline V squaredSize(const V* e1, const V* e2, const V* e3) {
+[[gnu::always_inline]] inline V squaredSize(const V* e1, const V* e2, const V* e3) {
   return dot(e1, e1, 3) + dot(e2, e2, 3) + dot(e3, e3, 3);
 }
 

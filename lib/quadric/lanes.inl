@@ -33,9 +33,12 @@ struct Lanes<double> {
   using Four = Double4;
 };
 
-// rows[k][at .. at + 4) of eight rows, as four columns.
+// Functions on vectors must be inlined: no call passes those that are wider than the processor's.
+
+// rows[k][first .. first + 4) of eight rows, as four columns.
 template <class S>
-inline void loadColumns(const S* const rows[8], int first, typename Lanes<S>::Eight* columns) {
+[[gnu::always_inline]] inline void loadColumns(const S* const rows[8], int first,
+                                               typename Lanes<S>::Eight* columns) {
   typename Lanes<S>::Four r[8];
   typename Lanes<S>::Eight a[4];
   for (int k = 0; k < 8; ++k) __builtin_memcpy(&r[k], rows[k] + first, sizeof r[k]);
@@ -52,7 +55,7 @@ inline void loadColumns(const S* const rows[8], int first, typename Lanes<S>::Ei
 }
 
 template <class T>
-inline void transpose(T* r) {
+[[gnu::always_inline]] inline void transpose(T* r) {
   const T low01 = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
   const T high01 = __builtin_shufflevector(r[0], r[1], 2, 6, 3, 7);
   const T low23 = __builtin_shufflevector(r[2], r[3], 0, 4, 1, 5);
