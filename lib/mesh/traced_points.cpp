@@ -86,7 +86,8 @@ void TracedPoints<S>::place(uint32_t* first, uint32_t list, size_t guess,
                             const PlacedCell* after) {
   while (list != kNone) {
     Point& point = points_[list];
-    const uint32_t next = point.next, cell = after[locate(point.x, guess)].cell;
+    guess = locate(point.x, guess);
+    const uint32_t next = point.next, cell = after[guess].cell;
     point.next = first[cell];
     first[cell] = list;
     list = next;

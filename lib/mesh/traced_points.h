@@ -34,7 +34,7 @@ class TracedPoints {
   // The `after` cells have taken the place of the `before` ones, some of which may be the same, in
   // another shape: the points of those, and new ones, go to the cell of these that they lie in. One
   // in none of them goes to the cell whose smallest weight there is largest. Points of before[i]
-  // are looked for in after[i] first.
+  // are looked for in after[i] first. There is at least one cell after.
   void reshaped(uint32_t* first, const uint32_t* before, size_t before_count,
                 const PlacedCell* after, size_t after_count);
 

@@ -49,8 +49,8 @@ const std::vector<PlacedCell> kThree = {placed(0, kTop, kA, kB, kBottom),
 
 TEST(TracedPoints, GoToTheCellsThatTheyLieIn) {
   Cells cells;
-  cells.add(10, {0.2, 0.2, 0.1});
-  cells.add(11, {0.2, 0.2, -0.1});
+  cells.add(10, {0.1, 0.25, 0.1});
+  cells.add(11, {0.1, 0.25, -0.1});
   cells.add(12, {0.3, 0.1, 0.2});
   cells.reshape({}, kTwo);
   EXPECT_EQ(cells.points.count(), 3u);
