@@ -202,8 +202,9 @@ void Parser::addSimplify() {
   addFormat(command);
   addReport(command);
   addProgress(command);
-  command->footer(std::string("One of --ratio and --cells has to be given. ") +
-                  "The report goes to standard output, or to\nstandard error if OUT, or another file, is -.\n" +
+  command->footer(std::string("One of --ratio, --cells and --error has to be given. ") +
+                  "The report goes to standard output, or to\nstandard error if OUT, or the map or "
+                  "the log, is -.\n" +
                   kExitCodes);
 }
 

@@ -14,8 +14,8 @@ namespace tetstream::cli {
 ProgressBar::Show progressOf(const Arguments& arguments) {
   if (arguments.always_progress) return ProgressBar::Show::kAlways;
   // At the other end of a pipe another command may draw on the same terminal.
-  const bool quiet = arguments.quiet || isPipe(arguments.out) || isPipe(arguments.map) ||
-                     isPipe(arguments.log);
+  const bool quiet =
+      arguments.quiet || isPipe(arguments.out) || isPipe(arguments.map) || isPipe(arguments.log);
   return quiet ? ProgressBar::Show::kNever : ProgressBar::Show::kOnTerminal;
 }
 

@@ -27,10 +27,9 @@ static void needPlaces(const Arguments& arguments) {
   for (const Place* const& a : places)
     for (const Place* const* b = places; *b != a; ++b)
       if (!a->path.empty() && a->path == (*b)->path)
-        throw Failure{kUsage, a->isStandard()
-                                  ? "only one of OUT, --map and --collapse-log can be -"
-                                  : textOf("%s: two things cannot be written there",
-                                           a->path.c_str())};
+        throw Failure{kUsage, a->isStandard() ? "only one of OUT, --map and --collapse-log can be -"
+                                              : textOf("%s: two things cannot be written there",
+                                                       a->path.c_str())};
 }
 
 static void printClosing(const Arguments& arguments, const tetstream_report& report,

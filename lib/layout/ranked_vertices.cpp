@@ -20,8 +20,7 @@ RankedVertices::RankedVertices(IndexedSource& source, const Survey& survey, cons
     : source_(source),
       holds_values_(!source.randomAccess()),
       rows_(rowBytes(source), budget.temp_dir) {
-  ExternalSort sort(rowBytes(source), budget.memory_bytes, budget.account,
-                    budget.temp_dir);
+  ExternalSort sort(rowBytes(source), budget.memory_bytes, budget.account, budget.temp_dir);
   sortPoints(survey, key, sort, schema, [&](double share) { tell(0.7 * share); });
   sort.finish();
   const auto all = static_cast<double>(std::max<uint64_t>(survey.usedCount(), 1));

@@ -38,7 +38,7 @@ class SpooledMesh : public IndexedSource {
   RowSpool positions_, cells_;
   std::vector<std::unique_ptr<RowSpool>> fields_, cell_data_;
   std::unique_ptr<RowSpool> origins_;  // of a stream that has them
-  Array<uint8_t> locked_;  // per vertex so far
+  Array<uint8_t> locked_;              // per vertex so far
   bool any_locked_ = false;
 };
 

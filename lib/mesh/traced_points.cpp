@@ -82,8 +82,7 @@ size_t TracedPoints<S>::locate(const S at[3], size_t guess) const {
 }
 
 template <class S>
-void TracedPoints<S>::place(uint32_t* first, uint32_t list, size_t guess,
-                            const PlacedCell* after) {
+void TracedPoints<S>::place(uint32_t* first, uint32_t list, size_t guess, const PlacedCell* after) {
   while (list != kNone) {
     Point& point = points_[list];
     guess = locate(point.x, guess);

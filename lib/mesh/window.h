@@ -14,11 +14,11 @@ namespace tetstream {
 
 // What one row carries, fixed for a run. Values are kept in the user's units.
 struct WindowShape {
-  int values = 3;      // S per vertex: x y z, then components that are interpolated
-  int quadric = 0;     // S per vertex
-  int picks = 0;       // int64 per vertex: integer fields, picked
-  int cell_means = 0;  // double per cell: float cell data
-  int cell_picks = 0;  // int64 per cell: integer cell data
+  int values = 3;        // S per vertex: x y z, then components that are interpolated
+  int quadric = 0;       // S per vertex
+  int picks = 0;         // int64 per vertex: integer fields, picked
+  int cell_means = 0;    // double per cell: float cell data
+  int cell_picks = 0;    // int64 per cell: integer cell data
   bool origins = false;  // int64 per vertex: where it came from
   bool points = false;   // uint32 per cell: the first of the points traced in it
 };

@@ -79,7 +79,7 @@ class Collapser {
   Array<Refusal> refusals_;
   LinkCondition link_;
   Stars stars_;
-  std::vector<S> merged_;  // values of the merged vertex
+  std::vector<S> merged_;                // values of the merged vertex
   std::vector<uint32_t> traced_before_;  // in slots of the window
   std::vector<PlacedCell> traced_after_;
 };

@@ -30,8 +30,8 @@ struct LockedVertices {
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
 
-// Points of a map for each cell of the window's capacity that may stay with the cells that do, under
-// a memory budget. More of them would take the window's place, fewer let cells go early.
+// Points of a map for each cell of the window's capacity that may stay with the cells that do,
+// under a memory budget. More of them would take the window's place, fewer let cells go early.
 constexpr double kTracedPerCell = 0.75;
 
 // Bytes of a row beside its values: of a cell its corners, flags, links or places in tiles; of a
@@ -71,9 +71,8 @@ struct Core {
         thin(0) {}
 
   static WindowShape shapeOf(const Plan& plan) {
-    return {plan.values,     quadricSize(plan.dimension), plan.picks,
-            plan.cell_means, plan.cell_picks,             plan.traces_vertices,
-            plan.traces_points};
+    return {plan.values,     quadricSize(plan.dimension), plan.picks,        plan.cell_means,
+            plan.cell_picks, plan.traces_vertices,        plan.traces_points};
   }
 
   // What a window of one cell takes, with its share of vertices and the steps' own arrays.
@@ -81,18 +80,22 @@ struct Core {
     const WindowShape shape = shapeOf(plan);
     const size_t vertex = sizeof(S) * static_cast<size_t>(shape.values + shape.quadric) +
                           sizeof(int64_t) * static_cast<size_t>(shape.picks) +
-                          (shape.origins ? sizeof(int64_t) : 0) + rowBytes(mode).vertex;
+                          rowBytes(mode).vertex;
     const size_t data = sizeof(double) * static_cast<size_t>(shape.cell_means + 1) +
                         sizeof(int64_t) * static_cast<size_t>(shape.cell_picks);
     return rowBytes(mode).cell + (shape.cell_means + shape.cell_picks ? data : 0) +
-           vertex / kCellsPerVertex + (shape.points ? tracedBytesPerCell() : 0);
+           vertex / kCellsPerVertex;
   }
 
-  // Of a map: each cell's first point, a point for every vertex that is merged, and with a memory
-  // budget as many again in the cells that stay (see kTracedPerCell).
-  static size_t tracedBytesPerCell() {
-    const double points = kTracedPerCell + 1.0 / kCellsPerVertex;
-    return sizeof(uint32_t) + static_cast<size_t>(points * Tracer<S>::pointBytes());
+  // The same with what is traced: a vertex's origin; of a map each cell's first point, a point for
+  // every vertex that is merged, and those of the cells that stay. The cache does not hold them.
+  static size_t budgetPerCell(const Plan& plan, Mode mode) {
+    constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
+    size_t bytes = bytesPerCell(plan, mode);
+    if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
+    if (plan.traces_points)
+      bytes += sizeof(uint32_t) + static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
+    return bytes;
   }
 
   const Plan& plan;

@@ -96,7 +96,7 @@ class WindowedEngine final : public Simplifier::Engine {
         options_(options),
         progress_(progress),
         account_(static_cast<size_t>(options.memory_bytes)),
-        capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_, options.mode))),
+        capacity_(windowFor(plan_.schema, options, Core<S>::budgetPerCell(plan_, options.mode))),
         core_(plan_, options_, account_, static_cast<size_t>(capacity_),
               static_cast<size_t>(capacity_) / kCellsPerVertex + 64, expectedSpan(plan_.schema)),
         knows_pilot_(pilot.known()),
@@ -249,7 +249,7 @@ class WindowedEngine final : public Simplifier::Engine {
   // The largest window that the budget allows; a stuck one may take half of what is left beyond.
   int64_t affordable(bool stuck) const {
     if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
-    const auto bytes = Core<S>::bytesPerCell(plan_, options_.mode);
+    const auto bytes = Core<S>::budgetPerCell(plan_, options_.mode);
     const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2 / bytes);
     return std::max(fittingCells(plan_.schema, options_, bytes), stuck ? capacity_ + left : 0);
   }
@@ -393,8 +393,8 @@ void Simplifier::finish() {
 int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
   const Plan plan = makePlan(schema, options);
   return windowFor(schema, options,
-                   plan.double_window ? Core<double>::bytesPerCell(plan, options.mode)
-                                      : Core<float>::bytesPerCell(plan, options.mode));
+                   plan.double_window ? Core<double>::budgetPerCell(plan, options.mode)
+                                      : Core<float>::budgetPerCell(plan, options.mode));
 }
 
 int64_t Simplifier::targetCells(const Schema& schema, const SimplifyOptions& options) {

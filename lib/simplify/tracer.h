@@ -2,8 +2,8 @@
 // collapses. Depends on plan.h, mesh, stream (traces).
 //
 // A vertex that stands where it stood is told with the first cell that leaves with it. One that was
-// moved or merged becomes a traced point, which is told when the cell that it lies in leaves. So the
-// map's rows come in the order of the output's cells.
+// moved or merged becomes a traced point, which is told when the cell that it lies in leaves. So
+// the map's rows come in the order of the output's cells.
 #pragma once
 
 #include <vector>

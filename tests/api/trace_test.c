@@ -61,8 +61,7 @@ static int32_t log_put(void* user, const tetstream_log_rows* rows) {
   for (int64_t i = 0; i < rows->count; ++i, ++t->collapses) {
     t->kept[t->collapses] = rows->kept[i];
     t->removed[t->collapses] = rows->removed[i];
-    for (int k = 0; k < 3; ++k)
-      t->positions[3 * t->collapses + k] = rows->positions[3 * i + k];
+    for (int k = 0; k < 3; ++k) t->positions[3 * t->collapses + k] = rows->positions[3 * i + k];
     CHECK(isfinite(rows->values[4 * i]) && rows->errors[i] >= 0);
   }
   return called(t);
@@ -232,8 +231,7 @@ static void files_are_refused_in_formats_that_are_none(void) {
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "tetlog");
   CHECK_EQUAL(tetstream_simplifier_set_map_file(r.simplifier, "/no/such/folder/a.csv", NULL),
               TETSTREAM_IO);
-  CHECK_EQUAL(tetstream_simplifier_set_map_file(r.simplifier, NULL, NULL),
-              TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_simplifier_set_map_file(r.simplifier, NULL, NULL), TETSTREAM_BAD_ARGUMENT);
   CHECK_EQUAL(tetstream_simplifier_set_map_fd(r.simplifier, 1, NULL), TETSTREAM_BAD_ARGUMENT);
   rig_destroy(r);
 }

@@ -110,8 +110,7 @@ TEST(TracedPoints, KeepToTheirBudget) {
   TracedPoints<double> points(account);
   const double x[3] = {0.2, 0.2, 0.1};
   size_t room = 0;
-  EXPECT_THROW(
-      for (;; ++room) points.add(1, x);, Error);
+  EXPECT_THROW(for (;; ++room) points.add(1, x);, Error);
   EXPECT_EQ(points.count(), room);
   EXPECT_GT(room * sizeof(TracedPoints<double>::Point), size_t{90} << 10);
 }

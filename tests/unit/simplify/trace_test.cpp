@@ -159,6 +159,7 @@ TEST(Traces, TellOfEveryVertexAndCollapseInEveryModeAndWindow) {
 
 TEST(Traces, TellOfStrongReductions) {
   for (Mode mode : kModes) expectTraces(fullGrid(8, 8, 16, 0.1), toRatio(0.02, 1500, mode));
+  for (Mode mode : kModes) expectTraces(fullGrid(16, 16, 24, 0.1), toRatio(0.1, 0, mode));
 }
 
 TEST(Traces, TellOfDomainsWithHolesCracksAndSingularPlaces) {
@@ -232,9 +233,8 @@ TEST(Traces, LogTheValuesThatTheOutputHas) {
   addPositionField(mesh, {"carried", 1, ScalarType::kFloat64},
                    [](double x, double, double z) { return x - z; });
   mesh.addIntegerField("label", [](size_t v) { return static_cast<int64_t>(v % 3); });
-  mesh.addField({"measured", 2, ScalarType::kFloat64}, [&](size_t v, int k) {
-    return mesh.position(v, 0) * mesh.position(v, 1) + k;
-  });
+  mesh.addField({"measured", 2, ScalarType::kFloat64},
+                [&](size_t v, int k) { return mesh.position(v, 0) * mesh.position(v, 1) + k; });
   SimplifyOptions options = toRatio(0.4);
   options.fields = {{"measured", 1}};
   const Traced t = traced(mesh, options);
