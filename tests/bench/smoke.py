@@ -104,6 +104,16 @@ def check_orders(build):
     assert all(float(row["simplified: RMS %"]) > 0 for row in rows), rows
 
 
+def check_traces(build):
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        fluid(build, folder)
+        rows = table(build, "traces.py", "--meshes", os.path.join(folder, "fluid.vtu") + ":density",
+                     "--rounds", "1", "--ratios", "0.1")
+    assert len(rows) == 1 and int(rows[0]["points"]) > 500, rows
+    assert 0.2 < float(rows[0]["map / none"]) < 20, rows
+    assert float(rows[0]["window MB map"]) > float(rows[0]["window MB"]) > 0, rows
+
+
 def check_windows(build, mesh):
     rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000")
     assert [row["window"] for row in rows] == ["in core", "4"] * 2, rows
@@ -147,6 +157,7 @@ def main():
     check_slope(build)
     check_structures(build)
     check_orders(build)
+    check_traces(build)
     if not os.path.isdir(os.environ.get("TETSTREAM_JUDGE", "")):
         return print("not run: what asks the judge")
     with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:

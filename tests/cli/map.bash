@@ -13,6 +13,10 @@ only_files mesh.tets mesh.vtu small.vtu other.vtu small.tetmap small.tetlog smal
 tetstream simplify mesh.vtu other.vtu --ratio 0.2 --quiet
 [[ $(bytes_of small.vtu) == "$(bytes_of other.vtu)" ]] || fail "a map changes the mesh"
 tetstream simplify mesh.tets other.tets --ratio 0.2 --quiet --memory 2M --map budget.tetmap
+# Of streams and of points that are put into another order, that before counts.
+mkdir orders
+tetstream simplify mesh.tets orders/stream.vtu --ratio 0.2 --quiet --order hilbert --map orders/stream.tetmap
+tetstream simplify mesh.vtu orders/points.vtu --ratio 0.2 --quiet --order z-order --map orders/points.tetmap
 
 # Standard output takes one of them, as text; the report goes elsewhere then.
 expect 0 simplify mesh.vtu other.vtu --ratio 0.2 --map -
@@ -33,7 +37,7 @@ expect_error 3 "no/such" simplify mesh.vtu x.vtu --ratio 0.2 --map no/such/x.csv
 # A run that fails leaves nothing.
 head -c 20000 mesh.tets >cut.tets
 expect_error 2 "cut.tets" simplify cut.tets x.vtu --ratio 0.2 --map x.csv --collapse-log x.tetlog
-only_files cut.tets mesh.tets mesh.vtu small.vtu other.vtu small.tetmap small.tetlog small.csv log.csv
+only_files cut.tets mesh.tets mesh.vtu small.vtu other.vtu small.tetmap small.tetlog small.csv log.csv orders
 
 # What is in them, by a reader of the manual.
 [[ -x $TETSTREAM_PYTHON ]] && "$TETSTREAM_PYTHON" -c 'import numpy' 2>/dev/null || exit 0
@@ -106,5 +110,13 @@ assert fine.shape == was.shape and error < 0.1, error
 places, field = (vtk_to_numpy(g.GetPoints().GetData()) for g in (reader.GetOutput(), grid))
 found = (rows["weight"][..., None] * field[cells[rows["cell"]]]).sum(axis=1)
 assert abs(found - places[rows["vertex"]]).max() < 1e-14
+for name in ("orders/stream", "orders/points"):
+    reader.SetFileName(name + ".vtu")
+    reader.Update()
+    field = vtk_to_numpy(reader.GetOutput().GetPoints().GetData())
+    cells = vtk_to_numpy(reader.GetOutput().GetCells().GetConnectivityArray()).reshape(-1, 4)
+    rows = np.fromfile(name + ".tetmap", row, np.fromfile(name + ".tetmap", "<i8", 3)[2], offset=64)
+    found = (rows["weight"][..., None] * field[cells[rows["cell"]]]).sum(axis=1)
+    assert len(rows) == len(places) and abs(found - places[rows["vertex"]]).max() < 1e-14, name
 PYTHON
 "$TETSTREAM_PYTHON" example.py >"$logs/example" 2>&1 || fail "the manual's example does not run"
