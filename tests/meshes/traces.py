@@ -107,16 +107,21 @@ class Traces:
         w = np.linalg.solve(sides, (points - cells[..., 0, :])[..., None])[..., 0]
         return np.concatenate([1 - w.sum(axis=-1, keepdims=True), w], axis=-1)
 
-    def check_places(self, cells, points):
+    def solid(self, cells):
+        """Those that have a volume: flat ones of the input are passed on."""
         np = self.np
-        flat = abs(np.linalg.det(cells[:, 1:] - cells[:, :1])) == 0  # of the input, passed on
-        least = self.weights(cells[~flat], points[~flat]).min(axis=1)
+        sides = cells[:, 1:] - cells[:, :1]
+        return abs(np.linalg.det(sides)) > 1e-14 * abs(sides).max(axis=(1, 2)) ** 3
+
+    def check_places(self, cells, points):
+        solid = self.solid(cells)
+        least = self.weights(cells[solid], points[solid]).min(axis=1)
         self.expect(least.min(initial=0) > -1e-9, f"points lie in their cells: {least.min():.2g}")
 
     def hidden(self, cells, points):
         """How many of the points, or of a part of them, lie in some cell."""
         np = self.np
-        cells = cells[np.linalg.det(cells[:, 1:] - cells[:, :1]) != 0]
+        cells = cells[self.solid(cells)]
         sides = np.linalg.inv(np.swapaxes(cells[:, 1:] - cells[:, :1], 1, 2))
         step = int(len(points) * len(cells) / BRUTE_FORCE) + 1
         found = 0
