@@ -62,6 +62,7 @@ class Parser {
   void addFormat(CLI::App* command);
   void addReport(CLI::App* command);
   void addProgress(CLI::App* command);
+  void addTraces(CLI::App* command);
   void addTableOption(CLI::App* command, const tetstream_option_info& info);
   void addStreamOptions(CLI::App* command);
   std::string helpOf(const std::string& command);
@@ -150,6 +151,17 @@ void Parser::addProgress(CLI::App* command) {
   command->add_flag("--quiet", arguments_.quiet, "Say nothing but errors");
 }
 
+void Parser::addTraces(CLI::App* command) {
+  command
+      ->add_option("--map", arguments_.map.path,
+                   "Tell where each vertex of IN lies in OUT: FILE.tetmap, FILE.csv, - (csv)")
+      ->option_text("FILE");
+  command
+      ->add_option("--collapse-log", arguments_.log.path,
+                   "Tell every collapse, in order: FILE.tetlog, FILE.csv, - (csv)")
+      ->option_text("FILE");
+}
+
 void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
   const std::string name = info.name;
   command
@@ -186,11 +198,13 @@ void Parser::addSimplify() {
                    "Measure this field, with that weight (default: all, with 1); may be repeated")
       ->option_text("NAME[:WEIGHT]")
       ->allow_extra_args(false);
+  addTraces(command);
   addFormat(command);
   addReport(command);
   addProgress(command);
   command->footer(std::string("One of --ratio, --cells and --error has to be given. ") +
-                  "The report goes to standard output, or to\nstandard error if OUT is -.\n" +
+                  "The report goes to standard output, or to\nstandard error if OUT, or the map or "
+                  "the log, is -.\n" +
                   kExitCodes);
 }
 

@@ -19,6 +19,7 @@ struct Arguments {
   OptionWords options;
   std::string kind;                    // of generate
   std::string report;                  // "text", "json"; empty: not asked for
+  Place map, log;                      // simplify; no path: not asked for
   bool json = false;                   // info
   std::string title;                   // diagram; empty: IN's name
   int32_t columns = 1200, rows = 800;  // diagram: of the raster

@@ -125,6 +125,26 @@ Writer createWriter(const Place& out, const std::vector<Property>& properties) {
   return writer;
 }
 
+static constexpr const char* kStandardTraces = "csv";
+
+void setMap(tetstream_simplifier* simplifier, const Place& map) {
+  if (map.path.empty()) return;
+  if (map.isStandard()) interruptTransfersOf(STDOUT_FILENO);
+  check(map.isStandard()
+            ? tetstream_simplifier_set_map_fd(simplifier, STDOUT_FILENO, kStandardTraces)
+            : tetstream_simplifier_set_map_file(simplifier, map.path.c_str(), nullptr),
+        simplifier);
+}
+
+void setLog(tetstream_simplifier* simplifier, const Place& log) {
+  if (log.path.empty()) return;
+  if (log.isStandard()) interruptTransfersOf(STDOUT_FILENO);
+  check(log.isStandard()
+            ? tetstream_simplifier_set_log_fd(simplifier, STDOUT_FILENO, kStandardTraces)
+            : tetstream_simplifier_set_log_file(simplifier, log.path.c_str(), nullptr),
+        simplifier);
+}
+
 // `note_at` gives note number i or null.
 template <class NoteAt>
 static std::vector<std::string> collectNotes(NoteAt note_at) {

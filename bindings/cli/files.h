@@ -29,6 +29,9 @@ bool isPipe(const Place& out);
 // The tmpdir option holds for a pipe that has to be spooled, too.
 Reader openReader(const Place& in, const tetstream_options* options);
 Writer createWriter(const Place& out, const std::vector<Property>& properties);
+// A vertex map and a collapse log, unless the path is empty; "-" gets them as text.
+void setMap(tetstream_simplifier* simplifier, const Place& map);
+void setLog(tetstream_simplifier* simplifier, const Place& log);
 Reader generateReader(const std::string& kind, int64_t cells, int64_t seed);
 
 std::vector<std::string> notesOf(const tetstream_reader* reader);

@@ -1,6 +1,8 @@
 // cli: the tetstream command. It reads its words, runs one command and says what went wrong.
 // Everything it does to a mesh is done by the library, through the public header.
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <new>
 
 #include "commands.h"
@@ -12,7 +14,8 @@ namespace tetstream::cli {
 ProgressBar::Show progressOf(const Arguments& arguments) {
   if (arguments.always_progress) return ProgressBar::Show::kAlways;
   // At the other end of a pipe another command may draw on the same terminal.
-  const bool quiet = arguments.quiet || isPipe(arguments.out);
+  const bool quiet =
+      arguments.quiet || isPipe(arguments.out) || isPipe(arguments.map) || isPipe(arguments.log);
   return quiet ? ProgressBar::Show::kNever : ProgressBar::Show::kOnTerminal;
 }
 
@@ -26,7 +29,9 @@ void printNotes(const Arguments& arguments, const tetstream_reader* reader,
 }
 
 void printReport(const Arguments& arguments, const std::string& text) {
-  if (isStandardOutput(arguments.out))
+  const Place* const places[] = {&arguments.out, &arguments.map, &arguments.log};
+  if (std::any_of(std::begin(places), std::end(places),
+                  [](const Place* place) { return isStandardOutput(*place); }))
     printError(text);
   else
     printOut(text);

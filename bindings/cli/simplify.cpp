@@ -21,6 +21,17 @@ static void needTarget(const Arguments& arguments, const tetstream_options* opti
                   "--error E (percent of the fields' range)"};
 }
 
+// Mesh, map and log go to three places.
+static void needPlaces(const Arguments& arguments) {
+  const Place* const places[] = {&arguments.out, &arguments.map, &arguments.log};
+  for (const Place* const& a : places)
+    for (const Place* const* b = places; *b != a; ++b)
+      if (!a->path.empty() && a->path == (*b)->path)
+        throw Failure{kUsage, a->isStandard() ? "only one of OUT, --map and --collapse-log can be -"
+                                              : textOf("%s: two things cannot be written there",
+                                                       a->path.c_str())};
+}
+
 static void printClosing(const Arguments& arguments, const tetstream_report& report,
                          tetstream_status status) {
   if (arguments.quiet && arguments.report.empty()) return;
@@ -40,6 +51,7 @@ ExitCode simplify(const Arguments& arguments) {
   const Options options = makeOptions(arguments.options);
   needTarget(arguments, options.get());
   checkOutput(arguments.out);
+  needPlaces(arguments);
   const Writer writer = createWriter(arguments.out, arguments.properties);
   const Reader reader = openReader(arguments.in, options.get());
 
@@ -47,6 +59,8 @@ ExitCode simplify(const Arguments& arguments) {
   tetstream_status status = tetstream_simplifier_create(options.get(), writer.get(), &handle);
   const Simplifier simplifier(handle);
   check(status, handle);
+  setMap(handle, arguments.map);
+  setLog(handle, arguments.log);
   ProgressBar bar(progressOf(arguments));
   check(tetstream_simplifier_set_progress(handle, ProgressBar::callback, &bar), handle);
   status = tetstream_simplifier_run(handle, reader.get());

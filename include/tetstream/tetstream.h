@@ -437,6 +437,109 @@ TETSTREAM_API tetstream_status tetstream_simplifier_get_report(
 /* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
 TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifier *simplifier);
 
+/* --------------------------------------------------------------- where the vertices went */
+
+/* A run can tell, while it runs, where each vertex of its input lies in its output (a map: the
+ * prolongation of a multigrid, a restart, a comparison), and which collapses it did (a log: the
+ * hierarchy). Neither changes the output, unless the option `memory` bounds both. Vertices of the
+ * input are named by their origins: their ids in the stream, or, of an indexed mesh and of a stream
+ * that the library put into another order, the rank of the point in the input as it was. Positions
+ * are those of the input; where the output's format holds float32 alone, as they were rounded for
+ * it. */
+
+/* Rows of a map. */
+typedef struct tetstream_map_rows {
+  size_t struct_size;      /* sizeof(tetstream_map_rows) */
+  int64_t count;           /* some thousands at most */
+  const int64_t *vertices; /* [count] origins */
+  const int64_t *cells;    /* [count] the cell that the vertex lies in: its rank in the output */
+  const double *weights;   /* [count][4] of the cell's vertices, in its order; their sum is 1 */
+} tetstream_map_rows;
+
+/* Takes a map; the rules of tetstream_reader_callbacks hold. Every vertex of the input that a cell
+ * uses comes once, in the order of the output's cells: a reader that wants them by vertex sorts. For
+ * any field that is linear over the output's cells, sum weights[i] * f(corner i) is its value at the
+ * vertex; of one that is linear in space, exactly so up to rounding. A vertex that was neither moved
+ * nor merged has a 1 at its own corner. One outside of the output, whose boundary has moved, has a
+ * weight below 0, of a cell near it; where none is below 0 the vertex lies in the cell. A row may
+ * come before its cell and its vertices do. Memory: 8 bytes for each vertex in the window, 4 for
+ * each cell, and 24 (float32 throughout) or 40 for each vertex that was moved or merged and whose
+ * cell has not been written: at most those that the window's cells stand for, so more where more
+ * is taken away. The option `memory` counts them. */
+typedef struct tetstream_map_callbacks {
+  size_t struct_size;
+  void *user;
+  /* Optional, may be NULL. Called once, first, after the writer's. */
+  int32_t (*open)(void *user);
+  /* Required. Called any number of times. *rows and its arrays live during the call. */
+  int32_t (*put)(void *user, const tetstream_map_rows *rows);
+  /* Optional, may be NULL. Called once when all rows have come; never after a failure. */
+  int32_t (*finish)(void *user);
+  /* Optional, may be NULL. Called once if open was called or would have been, last. */
+  void (*close)(void *user);
+} tetstream_map_callbacks;
+
+/* Optional, before the stream begins: the run tells its map to these callbacks, in place of what
+ * was set before. The table is copied; NULL: no map. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_set_map(
+    tetstream_simplifier *simplifier, const tetstream_map_callbacks *callbacks);
+/* The same into a file, as tetstream-formats(5) describes it: `format` is "tetmap" or "csv", or
+ * NULL: by the path's ending. It is written under a temporary name beside `path`, and renamed when
+ * it is complete, just before the mesh is. UNSUPPORTED for another format, IO if it cannot be
+ * made. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_set_map_file(tetstream_simplifier *simplifier,
+                                                                 const char *path,
+                                                                 const char *format);
+
+/* The same to a file descriptor, which stays the caller's to close. `format` must be given. Since
+ * 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_set_map_fd(tetstream_simplifier *simplifier,
+                                                               int32_t fd, const char *format);
+
+/* Rows of a log: the vertex `removed` was merged into `kept`, which has the position and the values
+ * from then on. */
+typedef struct tetstream_log_rows {
+  size_t struct_size;      /* sizeof(tetstream_log_rows) */
+  int64_t count;           /* some thousands at most */
+  const int64_t *kept;     /* [count] origins, here and below: that of the vertex kept, whatever */
+  const int64_t *removed;  /* [count] was merged into it before */
+  const double *positions; /* [count][3] as written */
+  const double *values;    /* [count][...] every component of every float field, in order; NULL:
+                              there are none */
+  const double *errors;    /* [count] as largest_error in tetstream_report */
+} tetstream_log_rows;
+
+/* Takes a log; the rules of tetstream_reader_callbacks hold. Every collapse comes once, in the order
+ * in which it was done. Done in that order on the input (the cells with both vertices go, those with
+ * the removed one get the kept one in its place) they make the cells of the output, the last row of
+ * a vertex having its position and values; a vertex without a row is as it was. A vertex that was
+ * removed is in no later row. The same input and options give the same log. Memory: 8 bytes for each
+ * vertex in the window. */
+typedef struct tetstream_log_callbacks {
+  size_t struct_size;
+  void *user;
+  /* Optional, may be NULL. Called once, first, after the writer's and the map's. *info, which lives
+   * during the call, is that of the input: its float fields are those of the values. */
+  int32_t (*open)(void *user, const tetstream_stream_info *info);
+  /* Required. Called any number of times. *rows and its arrays live during the call. */
+  int32_t (*put)(void *user, const tetstream_log_rows *rows);
+  /* Optional, may be NULL. Called once when all rows have come; never after a failure. */
+  int32_t (*finish)(void *user);
+  /* Optional, may be NULL. Called once if open was called or would have been, last. */
+  void (*close)(void *user);
+} tetstream_log_callbacks;
+
+/* As set_map. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_set_log(
+    tetstream_simplifier *simplifier, const tetstream_log_callbacks *callbacks);
+/* As set_map_file; `format` is "tetlog" or "csv". Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_set_log_file(tetstream_simplifier *simplifier,
+                                                                 const char *path,
+                                                                 const char *format);
+/* As set_map_fd. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_simplifier_set_log_fd(tetstream_simplifier *simplifier,
+                                                               int32_t fd, const char *format);
+
 /* ---------------------------------------------------------------------- without simplifying */
 
 /* Reads everything from `reader` and writes it. An indexed mesh is ordered, as the options say, a

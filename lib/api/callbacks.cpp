@@ -2,15 +2,6 @@
 
 namespace tetstream {
 
-// An exception out of `close` has nowhere to go: what was to be said about the stream was said.
-template <class Close>
-static void closeQuietly(Close close, void* user) noexcept {
-  try {
-    if (close) close(user);
-  } catch (...) {
-  }
-}
-
 // -------------------------------------------------------------------------------------- reader
 
 CallbackSource::CallbackSource(const tetstream_reader_callbacks& callbacks)

@@ -22,6 +22,15 @@ void callBack(const char* name, Call&& call) {
   if (value != 0) fail(Status::kCallback, "the %s callback returned %d", name, value);
 }
 
+// An exception out of `close` has nowhere to go: what was to be said about the stream was said.
+template <class Close>
+void closeQuietly(Close close, void* user) noexcept {
+  try {
+    if (close) close(user);
+  } catch (...) {
+  }
+}
+
 // A reader of the caller's. `close` is called once if `open` was, here or by the destructor.
 class CallbackSource final : public Source {
  public:

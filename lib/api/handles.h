@@ -14,6 +14,7 @@
 #include "rounding_source.h"
 #include "spooled_mesh.h"
 #include "structs.h"
+#include "traces.h"
 
 struct tetstream_options : tetstream::Handle {
   static constexpr const char* kNoun = "handle of options";
@@ -43,6 +44,9 @@ struct tetstream_simplifier : tetstream::Handle {
   std::shared_ptr<tetstream::Output> output;
   tetstream_progress_callback progress = nullptr;
   void* progress_user = nullptr;
+  // Not asked for: null. They outlive the run, which borrows them, and close when it is over.
+  std::unique_ptr<tetstream::MapSink> map;
+  std::unique_ptr<tetstream::LogSink> log;
   std::unique_ptr<tetstream::SimplifyRun> run;
   std::optional<tetstream::BatchChecker> batches;  // of a push stream
   std::optional<tetstream::Rounding> rounding;     // of a push stream

@@ -6,6 +6,12 @@ using namespace tetstream;
 
 // --------------------------------------------------------------------- what the functions share
 
+static void closeRun(tetstream_simplifier& s) noexcept {
+  s.run.reset();
+  s.map.reset();
+  s.log.reset();
+}
+
 // The run's end, however it came about: its report stays with the handle, its memory goes.
 static void dropRun(tetstream_simplifier& s) noexcept {
   if (!s.run) return;
@@ -14,7 +20,7 @@ static void dropRun(tetstream_simplifier& s) noexcept {
   } catch (...) {
     // note: without memory for two sentences, the report of the last call stays.
   }
-  s.run.reset();
+  closeRun(s);
 }
 
 // Runs a body that reads or writes the stream; what leaves it as an exception breaks the handle.
@@ -35,11 +41,12 @@ static void startRun(tetstream_simplifier& s) {
   s.output->start(s.options.temp_dir);
   s.run =
       std::make_unique<SimplifyRun>(s.options, *s.output, progressOf(s.progress, s.progress_user));
+  s.run->trace({s.map.get(), s.log.get()});
 }
 
 static Status endRun(tetstream_simplifier& s) {
   s.report = s.run->report();
-  s.run.reset();
+  closeRun(s);
   s.output->complete();
   s.state = State::kFinished;
   return s.report.limited_by.empty() ? Status::kOk : Status::kTargetMissed;
@@ -80,7 +87,7 @@ tetstream_status tetstream_simplifier_create(const tetstream_options* options,
 
 void tetstream_simplifier_destroy(tetstream_simplifier* simplifier) {
   if (simplifier && simplifier->state == State::kRunning) {
-    simplifier->run.reset();
+    closeRun(*simplifier);
     simplifier->output->stop(State::kBroken);
   }
   delete simplifier;

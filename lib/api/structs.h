@@ -23,6 +23,8 @@ TETSTREAM_FIRST_SIZE(tetstream_stream_info, box_max);
 TETSTREAM_FIRST_SIZE(tetstream_batch, finalized);
 TETSTREAM_FIRST_SIZE(tetstream_reader_callbacks, close);
 TETSTREAM_FIRST_SIZE(tetstream_writer_callbacks, close);
+TETSTREAM_FIRST_SIZE(tetstream_map_callbacks, close);
+TETSTREAM_FIRST_SIZE(tetstream_log_callbacks, close);
 TETSTREAM_FIRST_SIZE(tetstream_report, limited_by);
 TETSTREAM_FIRST_SIZE(tetstream_layout_report, seconds);
 TETSTREAM_FIRST_SIZE(tetstream_front_info, window_cells);

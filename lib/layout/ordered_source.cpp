@@ -47,7 +47,8 @@ uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
   const Order order = orderOf(options.order);
   const bool by_graph = order == Order::kBreadthFirst || order == Order::kSpectral;
   const bool by_pieces = by_graph && bytesFor(order, schema) > memory;
-  return by_pieces ? 2 * once + points * (values + 32) + cells * (32 + data) : once;
+  const uint64_t origin = options.origins ? 8 : 0;
+  return by_pieces ? 2 * once + points * (values + 32 + 2 * origin) + cells * (32 + data) : once;
 }
 
 // One reading of the stream.
@@ -82,7 +83,10 @@ class OrderedSource::Reading final : public Source {
     const uint32_t known = ids_.find(rank);
     if (known != kNoSlot) return known;
     const size_t row = batch_.addVertices(1);
-    if (with_values_) ordered_.vertices_->copyTo(rank, batch_, row);
+    if (with_values_) {
+      const int64_t origin = ordered_.vertices_->copyTo(rank, batch_, row);
+      if (ordered_.tells_origins_) batch_.addOrigin(origin);
+    }
     ids_.add(rank, static_cast<uint32_t>(introduced_));
     return static_cast<int64_t>(introduced_++);
   }
@@ -96,7 +100,10 @@ class OrderedSource::Reading final : public Source {
 };
 
 OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
-    : source_(&source), schema_(source.schema()), graph_rank_(account_) {
+    : source_(&source),
+      schema_(source.schema()),
+      graph_rank_(account_),
+      tells_origins_(options.origins) {
   check(schema_, options);
   Order order = orderOf(options.order);
   const bool seeks = order == Order::kAuto && options.narrowest;

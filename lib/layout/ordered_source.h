@@ -15,6 +15,7 @@ struct OrderOptions {
   std::string axis = "auto";   // of "spatial": "x", "y", "z"; auto: the direction of fewest cuts
   std::string temp_dir;
   size_t memory_bytes = 0;  // 0: kDefaultLayoutMemory
+  bool origins = false;     // vertices tell their ranks in the source, or its origins
   Tell tell;                // how much of the ordering is done; may be empty
 };
 
@@ -62,6 +63,7 @@ class OrderedSource : public Source {
   std::unique_ptr<RankedVertices> vertices_;
   std::unique_ptr<OrderedCells> cells_;
   std::unique_ptr<Reading> reading_;
+  bool tells_origins_;
   std::string chosen_;
   int64_t unused_ = 0;
   uint64_t disk_ = 0;

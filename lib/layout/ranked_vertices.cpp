@@ -19,9 +19,8 @@ RankedVertices::RankedVertices(IndexedSource& source, const Survey& survey, cons
                                Budget budget, Schema& schema, const Tell& tell)
     : source_(source),
       holds_values_(!source.randomAccess()),
-      rows_(kHead + valueBytes(source), budget.temp_dir) {
-  ExternalSort sort(kHead + valueBytes(source), budget.memory_bytes, budget.account,
-                    budget.temp_dir);
+      rows_(rowBytes(source), budget.temp_dir) {
+  ExternalSort sort(rowBytes(source), budget.memory_bytes, budget.account, budget.temp_dir);
   sortPoints(survey, key, sort, schema, [&](double share) { tell(0.7 * share); });
   sort.finish();
   const auto all = static_cast<double>(std::max<uint64_t>(survey.usedCount(), 1));
@@ -80,10 +79,12 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
   schema.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
   schema.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
   std::vector<PieceColumn> columns = columnsOf(schema);
+  std::vector<int64_t> origins(source_.hasOrigins() ? kRowsAtOnce : 0);
   readInPieces(static_cast<uint64_t>(schema.vertex_count), tell, [&](uint64_t first, size_t count) {
     source_.readPositions(first, count, columns[0].values.data());
     for (size_t f = 0; f < schema.fields.size(); ++f)
       source_.readField(f, first, count, columns[f + 1].values.data());
+    if (!origins.empty()) source_.readOrigins(first, count, origins.data());
     for (size_t i = 0; i < count; ++i) {
       const uint64_t point = first + i;
       if (!survey.isUsed(point)) continue;
@@ -101,6 +102,8 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
               row + kHead + column.place,
               reinterpret_cast<const unsigned char*>(column.values.data()) + i * column.bytes,
               column.bytes);
+      if (!origins.empty())
+        std::memcpy(row + rowBytes(source_) - sizeof origins[i], &origins[i], sizeof origins[i]);
     }
   });
   if (sort.empty()) {
@@ -118,18 +121,21 @@ void RankedVertices::tellRanks(uint64_t first, Array<uint32_t>& ranks) {
   }
 }
 
-void RankedVertices::copyTo(uint64_t rank, Batch& batch, size_t row) {
+int64_t RankedVertices::copyTo(uint64_t rank, Batch& batch, size_t row) {
   const auto* from = static_cast<const unsigned char*>(rows_.row(rank));
   uint64_t head;
   std::memcpy(&head, from, kHead);
   const uint64_t point = head & ~kLockedBit;
   const Schema& schema = source_.schema();
+  auto origin = static_cast<int64_t>(point);
+  if (source_.hasOrigins())
+    std::memcpy(&origin, from + rowBytes(source_) - sizeof origin, sizeof origin);
   if (head & kLockedBit) batch.lock(row);
   if (!holds_values_) {
     source_.readPositions(point, 1, batch.position(row));
     for (size_t f = 0; f < schema.fields.size(); ++f)
       source_.readField(f, point, 1, batch.field(f, row));
-    return;
+    return origin;
   }
   from += kHead;
   std::memcpy(batch.position(row), from, 3 * sizeOf(schema.position_type));
@@ -138,6 +144,7 @@ void RankedVertices::copyTo(uint64_t rank, Batch& batch, size_t row) {
     std::memcpy(batch.field(f, row), from, schema.fields[f].bytesPerRow());
     from += schema.fields[f].bytesPerRow();
   }
+  return origin;
 }
 
 }  // namespace tetstream

@@ -26,17 +26,21 @@ class RankedVertices {
   uint64_t count() const { return rows_.rows(); }
   // ranks[i] becomes the rank of point first + i, where that is used.
   void tellRanks(uint64_t first, Array<uint32_t>& ranks);
-  // The values of a vertex into a row of a batch.
-  void copyTo(uint64_t rank, Batch& batch, size_t row);
+  // The values of a vertex into a row of a batch; returns its origin.
+  int64_t copyTo(uint64_t rank, Batch& batch, size_t row);
 
   uint64_t diskBytes() const { return rows_.diskBytes(); }
   uint64_t mostDiskBytes() const { return disk_; }  // while they were sorted
 
  private:
-  // A row: the point, whether it is locked, and its values where the source gives no single rows.
+  // A row: the point, whether it is locked, its values where the source gives no single rows, and
+  // its origin where that is not the point itself.
   static constexpr size_t kHead = sizeof(uint64_t);
   static constexpr uint64_t kLockedBit = uint64_t{1} << 63;
   static size_t valueBytes(const IndexedSource& source);
+  static size_t rowBytes(const IndexedSource& source) {
+    return kHead + valueBytes(source) + (source.hasOrigins() ? sizeof(int64_t) : 0);
+  }
 
   void sortPoints(const Survey& survey, const VertexKey& key, ExternalSort& sort, Schema& schema,
                   const Tell& tell);

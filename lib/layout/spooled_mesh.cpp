@@ -19,6 +19,7 @@ static std::vector<std::unique_ptr<RowSpool>> spoolsFor(const std::vector<Column
 
 SpooledMesh::SpooledMesh(const Schema& schema, const std::string& temp_dir)
     : schema_(schema),
+      temp_dir_(temp_dir),
       positions_(3 * sizeOf(schema_.position_type), temp_dir, kInSequence),
       cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
       fields_(spoolsFor(schema_.fields, temp_dir)),
@@ -42,6 +43,9 @@ void SpooledMesh::put(const BatchView& batch) {
     positions_.append(batch.positions, batch.vertex_count);
     for (size_t f = 0; f < fields_.size(); ++f)
       fields_[f]->append(batch.fields[f], batch.vertex_count);
+    if (batch.origins && !origins_)
+      origins_ = std::make_unique<RowSpool>(sizeof(int64_t), temp_dir_, kInSequence);
+    if (batch.origins) origins_->append(batch.origins, batch.vertex_count);
   }
   if (batch.cell_count > 0) {
     cells_.append(batch.cells, batch.cell_count);
@@ -55,6 +59,7 @@ void SpooledMesh::finish() {
   schema_.cell_count = static_cast<int64_t>(cells_.rows());
   if (any_locked_) makeRoomForLocks(static_cast<size_t>(positions_.rows()));
   for (RowSpool* spool : {&positions_, &cells_}) spool->finish();
+  if (origins_) origins_->finish();
   for (auto* columns : {&fields_, &cell_data_})
     for (auto& spool : *columns) spool->finish();
 }
@@ -97,8 +102,14 @@ void SpooledMesh::readCellData(size_t column, uint64_t first, size_t count, void
   readRows(*cell_data_[column], schema_.cell_data[column].bytesPerRow(), first, count, out);
 }
 
+void SpooledMesh::readOrigins(uint64_t first, size_t count, int64_t* out) {
+  if (!origins_) return IndexedSource::readOrigins(first, count, out);
+  readRows(*origins_, sizeof(int64_t), first, count, out);
+}
+
 uint64_t SpooledMesh::diskBytes() const {
   uint64_t bytes = positions_.diskBytes() + cells_.diskBytes();
+  if (origins_) bytes += origins_->diskBytes();
   for (const auto* columns : {&fields_, &cell_data_})
     for (const auto& spool : *columns) bytes += spool->diskBytes();
   return bytes;

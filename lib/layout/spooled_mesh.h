@@ -19,10 +19,12 @@ class SpooledMesh : public IndexedSource {
 
   const Schema& schema() const override { return schema_; }
   const uint8_t* locked() const override { return any_locked_ ? locked_.data() : nullptr; }
+  bool hasOrigins() const override { return origins_ != nullptr; }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
   void readCells(uint64_t first, size_t count, int64_t* out) override;
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override;
+  void readOrigins(uint64_t first, size_t count, int64_t* out) override;
 
   uint64_t diskBytes() const;
 
@@ -31,10 +33,12 @@ class SpooledMesh : public IndexedSource {
   void makeRoomForLocks(size_t vertices);
 
   Schema schema_;
+  std::string temp_dir_;
   Account account_;
   RowSpool positions_, cells_;
   std::vector<std::unique_ptr<RowSpool>> fields_, cell_data_;
-  Array<uint8_t> locked_;  // per vertex so far
+  std::unique_ptr<RowSpool> origins_;  // of a stream that has them
+  Array<uint8_t> locked_;              // per vertex so far
   bool any_locked_ = false;
 };
 

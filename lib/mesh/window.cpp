@@ -12,6 +12,7 @@ void Window<S>::sizeVertices() {
   quadrics_.resize(checkedMultiply(n, static_cast<size_t>(shape_.quadric)) + 3);
   picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.picks)));
   out_rank_.resize(n);
+  origins_.resize(shape_.origins ? n : 0);
   remap_.resize(n);
 }
 
@@ -20,6 +21,7 @@ void Window<S>::sizeCells() {
   const size_t n = mesh.cellCapacity();
   cell_means_.resize(checkedMultiply(n, static_cast<size_t>(meansStride())));
   cell_picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.cell_picks)));
+  first_points_.resize(shape_.points ? n : 0);
 }
 
 template <class S>
@@ -74,6 +76,7 @@ void Window<S>::moveVertices() {
     moveRow(quadrics_.data(), static_cast<size_t>(shape_.quadric), v, to);
     moveRow(picks_.data(), static_cast<size_t>(shape_.picks), v, to);
     out_rank_[to] = out_rank_[v];
+    if (shape_.origins) origins_[to] = origins_[v];
   }
 }
 
@@ -87,6 +90,7 @@ uint64_t Window<S>::pack(Front& front) {
     if (from == to) return;
     moveRow(cell_means_.data(), static_cast<size_t>(meansStride()), from, to);
     moveRow(cell_picks_.data(), static_cast<size_t>(shape_.cell_picks), from, to);
+    if (shape_.points) first_points_[to] = first_points_[from];
   });
   return unused;
 }

@@ -14,11 +14,13 @@ namespace tetstream {
 
 // What one row carries, fixed for a run. Values are kept in the user's units.
 struct WindowShape {
-  int values = 3;      // S per vertex: x y z, then components that are interpolated
-  int quadric = 0;     // S per vertex
-  int picks = 0;       // int64 per vertex: integer fields, picked
-  int cell_means = 0;  // double per cell: float cell data
-  int cell_picks = 0;  // int64 per cell: integer cell data
+  int values = 3;        // S per vertex: x y z, then components that are interpolated
+  int quadric = 0;       // S per vertex
+  int picks = 0;         // int64 per vertex: integer fields, picked
+  int cell_means = 0;    // double per cell: float cell data
+  int cell_picks = 0;    // int64 per cell: integer cell data
+  bool origins = false;  // int64 per vertex: where it came from
+  bool points = false;   // uint32 per cell: the first of the points traced in it
 };
 
 // Rows are short: a call would take longer than the copying.
@@ -39,8 +41,10 @@ class Window {
         quadrics_(account),
         picks_(account),
         out_rank_(account),
+        origins_(account),
         cell_means_(account),
         cell_picks_(account),
+        first_points_(account),
         remap_(account) {
     sizeVertices();
     sizeCells();
@@ -55,6 +59,11 @@ class Window {
   int64_t* picks(uint32_t v) { return &picks_[size_t{v} * shape_.picks]; }
   // Of a vertex that is kWritten: its rank in the output. Until then free for other use.
   uint64_t& outRank(uint32_t v) { return out_rank_[v]; }
+  // Where there are origins: the vertex's own in the input, or its complement, below 0, once the
+  // vertex stands elsewhere.
+  int64_t& origin(uint32_t v) { return origins_[v]; }
+  // Where there are points: the first one of each cell, or kNone.
+  uint32_t* firstPoints() { return first_points_.data(); }
   // Volume that the cell stands for, then the means over it.
   double* cellMeans(uint32_t c) { return &cell_means_[size_t{c} * meansStride()]; }
   int64_t* cellPicks(uint32_t c) { return &cell_picks_[size_t{c} * shape_.cell_picks]; }
@@ -72,6 +81,7 @@ class Window {
   const uint8_t* allFlags() const { return mesh.allVertexFlags(); }
   int valueStride() const { return shape_.values; }
   uint32_t slotOf(uint32_t v) const { return v; }
+  uint32_t cellSlotOf(uint32_t c) const { return c; }
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
     mesh.gather(v, other, star, ring);
   }
@@ -100,8 +110,10 @@ class Window {
   Array<S> values_, quadrics_;
   Array<int64_t> picks_;
   Array<uint64_t> out_rank_;
+  Array<int64_t> origins_;
   Array<double> cell_means_;
   Array<int64_t> cell_picks_;
+  Array<uint32_t> first_points_;
   Array<uint32_t> remap_;
 };
 

@@ -55,6 +55,7 @@ Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFuncti
   order.axis = options.axis;
   order.narrowest = options.automatic == RunOptions::Auto::kNarrows;
   order.temp_dir = options.temp_dir;
+  order.origins = options.origins;
   order.memory_bytes = static_cast<size_t>(options.simplify.memory_bytes);
   p.temporary_bytes = static_cast<int64_t>(plannedDisk(input.schema(), order));
   const double spooling = input.indexed ? 0 : 0.3;

@@ -143,6 +143,11 @@ SimplifyRun::SimplifyRun(const RunOptions& options, Sink& out, ProgressFunction 
 
 SimplifyRun::~SimplifyRun() = default;
 
+void SimplifyRun::trace(TraceSinks sinks) {
+  state_->options.origins = sinks.any();
+  state_->simplifier.trace(sinks);
+}
+
 void SimplifyRun::run(Input& input) {
   state_->start = Clock::now();
   state_->simplify(input);

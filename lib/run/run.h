@@ -9,6 +9,7 @@
 #include "options.h"
 #include "source.h"
 #include "sweep_views.h"
+#include "traces.h"
 
 namespace tetstream {
 
@@ -20,6 +21,7 @@ struct RunOptions {
   enum class Auto { kKeeps, kSweeps, kNarrows } automatic = Auto::kSweeps;
   std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
+  bool origins = false;  // ordered vertices tell their ranks in the input
 };
 
 // One simplification. Pull: run. Push: begin, put as often as wanted, finish; an indexed mesh that
@@ -28,6 +30,9 @@ class SimplifyRun {
  public:
   SimplifyRun(const RunOptions& options, Sink& out, ProgressFunction progress);
   ~SimplifyRun();
+
+  // Before the stream begins: where to tell what became of the vertices.
+  void trace(TraceSinks sinks);
 
   void run(Input& input);
 

@@ -197,15 +197,39 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   if (core_.plan.values > core_.plan.dimension) interpolateCarried(u, v);
   if (core_.plan.picks > 0) pickNearest(u, v);
   if (core_.plan.cell_means > 0) handOverCellData(v);
+  const double in_users_terms = static_cast<double>(error) * core_.error_unit;
+  if (core_.tracer) trace(u, v, in_users_terms);
   mesh_.merge(u, v, stars_);
   std::copy(merged_.begin(), merged_.end(), mesh_.values(u));
   S *a = mesh_.quadric(u), *b = mesh_.quadric(v);
   const int last = core_.window.shape().quadric - 1;
   for (int i = 0; i < last; ++i) a[i] += b[i];
   a[last] = error;
-  const double in_users_terms = static_cast<double>(error) * core_.error_unit;
   core_.report.largest_error = std::max(core_.report.largest_error, in_users_terms);
-  if (observer_) observer_->collapsed(mesh_.slotOf(u), mesh_.slotOf(v), in_users_terms);
+}
+
+// Before the mesh changes: the cells are those of the stars, with the merged vertex at their
+// centres.
+template <class Mesh>
+void Collapser<Mesh>::trace(uint32_t u, uint32_t v, double error) {
+  traced_before_.clear();
+  traced_after_.clear();
+  if (core_.tracer->tracesPoints()) {
+    const auto put = [](const S* from, double to[3]) {
+      for (int i = 0; i < 3; ++i) to[i] = static_cast<double>(from[i]);
+    };
+    for (const Star* star : {&stars_.u, &stars_.v})
+      for (const StarCell& s : *star) {
+        PlacedCell& cell = traced_after_.emplace_back();
+        cell.cell = mesh_.cellSlotOf(s.cell());
+        put(merged_.data(), cell.corner[0]);
+        for (int k = 0; k < 3; ++k) put(mesh_.values(s.t[k]), cell.corner[k + 1]);
+        traced_before_.push_back(cell.cell);
+      }
+    for (const StarCell& s : stars_.ring) traced_before_.push_back(mesh_.cellSlotOf(s.cell()));
+  }
+  core_.tracer->collapsed({mesh_.slotOf(u), mesh_.slotOf(v), mesh_.values(u), mesh_.values(v),
+                           merged_.data(), error, traced_before_, traced_after_});
 }
 
 // Barycentric coordinates of x in a cell, clamped to it.

@@ -9,14 +9,6 @@
 
 namespace tetstream {
 
-// Told of every collapse, in order: vertex v was merged into u, which then has its new values.
-// Slots are those of the window until the next pack. A seam for vertex maps and logs.
-class CollapseObserver {
- public:
-  virtual ~CollapseObserver() = default;
-  virtual void collapsed(uint32_t u, uint32_t v, double error) = 0;
-};
-
 enum class Outcome {
   kDone,
   kLocked,
@@ -36,8 +28,6 @@ class Collapser {
   Collapser(Core<S>& core, Mesh& mesh, Account& account);
 
   Mesh& mesh() { return mesh_; }
-
-  void observe(CollapseObserver* observer) { observer_ = observer; }
 
   // Merges v into u at z, normalised and relative to the edge's midpoint, if the result is legal:
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
@@ -75,6 +65,7 @@ class Collapser {
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
+  void trace(uint32_t u, uint32_t v, double error);
 
   // The cell for which an edge was refused. Tried again, it mostly is for the same.
   struct Refusal {
@@ -88,8 +79,9 @@ class Collapser {
   Array<Refusal> refusals_;
   LinkCondition link_;
   Stars stars_;
-  std::vector<S> merged_;  // values of the merged vertex
-  CollapseObserver* observer_ = nullptr;
+  std::vector<S> merged_;                // values of the merged vertex
+  std::vector<uint32_t> traced_before_;  // in slots of the window
+  std::vector<PlacedCell> traced_after_;
 };
 
 }  // namespace tetstream

@@ -10,6 +10,7 @@
 #include "options.h"
 #include "plan.h"
 #include "star_kernels.h"
+#include "tracer.h"
 #include "window.h"
 
 namespace tetstream {
@@ -28,6 +29,10 @@ struct LockedVertices {
 };
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
+
+// Points of a map for each cell of the window's capacity that may stay with the cells that do,
+// under a memory budget. More of them would take the window's place, fewer let cells go early.
+constexpr double kTracedPerCell = 0.75;
 
 // Bytes of a row beside its values: of a cell its corners, flags, links or places in tiles; of a
 // vertex its flags, rank, new slot or uses, and its first corner or its places in tiles.
@@ -69,8 +74,10 @@ struct Core {
         thin(0) {}
 
   static WindowShape shapeOf(const Plan& plan) {
-    return {plan.values, quadricSize(plan.layout, plan.dimension), plan.picks, plan.cell_means,
-            plan.cell_picks};
+    return {plan.values,       quadricSize(plan.layout, plan.dimension),
+            plan.picks,        plan.cell_means,
+            plan.cell_picks,   plan.traces_vertices,
+            plan.traces_points};
   }
 
   // What a window of one cell takes, with its share of vertices and the steps' own arrays.
@@ -83,6 +90,17 @@ struct Core {
                         sizeof(int64_t) * static_cast<size_t>(shape.cell_picks);
     return rowBytes(mode).cell + (shape.cell_means + shape.cell_picks ? data : 0) +
            vertex / kCellsPerVertex;
+  }
+
+  // The same with what is traced: a vertex's origin; of a map each cell's first point, a point for
+  // every vertex that is merged, and those of the cells that stay. The cache does not hold them.
+  static size_t budgetPerCell(const Plan& plan, Mode mode) {
+    constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
+    size_t bytes = bytesPerCell(plan, mode);
+    if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
+    if (plan.traces_points)
+      bytes += sizeof(uint32_t) + static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
+    return bytes;
   }
 
   // What a patch takes for a vertex that it owns: its arrays have a quarter to spare, and small
@@ -111,6 +129,7 @@ struct Core {
   double rescaled = 1;         // what errors of the last window count in today's units
   Report report;
   LockedVertices locked;
+  Tracer<S>* tracer = nullptr;  // told of all collapses, and of what leaves
 };
 
 // The quadrics measure errors at the vertices, where they are larger than between them, and those

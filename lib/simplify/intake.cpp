@@ -87,6 +87,9 @@ void Intake<S>::takeVertex(size_t row) {
          static_cast<unsigned long long>(batch_.first_vertex + row));
   for (size_t i = 0; i < core_.plan.fields.size(); ++i) readColumn(i, row, slot);
   std::fill_n(window.quadric(slot), window.shape().quadric, S(0));
+  if (window.shape().origins)
+    window.origin(slot) =
+        batch_.origins ? batch_.origins[row] : static_cast<int64_t>(batch_.first_vertex + row);
   core_.front.introduce(slot);
 }
 
@@ -141,6 +144,7 @@ void Intake<S>::takeCell(size_t row) {
   }
   const uint32_t cell = core_.window.mesh.addCell(slots, 0);
   takeCellData(row, cell);
+  if (core_.window.shape().points) core_.window.firstPoints()[cell] = kNone;
   const unsigned last = batch_.last_uses ? batch_.last_uses[row] : 0;
   for (int j = 0; j < 4; ++j)
     if (last >> j & 1) finalize(ids[j]);

@@ -28,6 +28,7 @@ struct Plan {
   int values = 3;  // 3 + measured + carried components
   int picks = 0;
   int cell_means = 0, cell_picks = 0;
+  bool traces_vertices = false, traces_points = false;  // for a map or a log; for a map
   std::vector<ColumnPlan> fields, cell_data;
   std::vector<double> weights;       // of each measured component
   std::vector<int> measured_column;  // of each measured component: its field

@@ -35,6 +35,16 @@ bool Release<S>::mayGo(uint32_t cell) const {
          mesh.vertexFlags(v[3]) & kFinal;
 }
 
+// A memory budget bounds the points of a map that stay, too.
+template <class S>
+bool Release<S>::mustGo(uint32_t keep) const {
+  const Topology& mesh = core_.window.mesh;
+  if (mesh.liveCells() > keep) return true;
+  if (!core_.tracer || core_.options.memory_bytes == 0) return false;
+  return static_cast<double>(core_.tracer->pointCount()) >
+         kTracedPerCell * static_cast<double>(mesh.cellCapacity());
+}
+
 template <class S>
 void Release<S>::countUses() {
   const Topology& mesh = core_.window.mesh;
@@ -87,7 +97,11 @@ void Release<S>::writeCell(uint32_t cell) {
   Topology& mesh = core_.window.mesh;
   const uint32_t* v = mesh.corners(cell);
   for (int j = 0; j < 4; ++j)
-    if (!(mesh.vertexFlags(v[j]) & kWritten)) writeVertex(v[j]);
+    if (!(mesh.vertexFlags(v[j]) & kWritten)) {
+      writeVertex(v[j]);
+      if (core_.tracer) core_.tracer->writeVertex(v[j], j, cells_);
+    }
+  if (core_.tracer) core_.tracer->writeCell(cell, cells_);
   const size_t row = batch_.addCells(1);
   for (int j = 0; j < 4; ++j) {
     batch_.cell(row)[j] = static_cast<int64_t>(core_.window.outRank(v[j]));
@@ -109,7 +123,7 @@ template <class S>
 void Release<S>::write(uint32_t keep) {
   const Topology& mesh = core_.window.mesh;
   countUses();
-  for (uint32_t c = 0; c < mesh.cellEnd() && mesh.liveCells() > keep; ++c)
+  for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(keep); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
   core_.report.unused_vertices += static_cast<int64_t>(core_.window.pack(core_.front));
 }

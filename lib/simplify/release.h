@@ -25,6 +25,7 @@ class Release {
 
  private:
   bool mayGo(uint32_t cell) const;
+  bool mustGo(uint32_t keep) const;
   void countUses();
   void writeCell(uint32_t cell);
   void writeVertex(uint32_t v);

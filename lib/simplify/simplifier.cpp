@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "budget.h"
 #include "intake.h"
@@ -54,7 +55,7 @@ struct RowCosts {
 };
 template <class S>
 RowCosts costsOf(const Plan& plan, const SimplifyOptions& options) {
-  return {static_cast<int64_t>(Core<S>::bytesPerCell(plan, options.mode)),
+  return {static_cast<int64_t>(Core<S>::budgetPerCell(plan, options.mode)),
           Core<S>::tileVertexBytes(plan)};
 }
 
@@ -101,7 +102,7 @@ template <class S>
 class WindowedEngine final : public Simplifier::Engine {
  public:
   WindowedEngine(Plan plan, const SimplifyOptions& options, const Pilot& pilot, Sink& out,
-                 const ProgressFunction& progress)
+                 TraceSinks sinks, const ProgressFunction& progress)
       : plan_(std::move(plan)),
         options_(options),
         progress_(progress),
@@ -119,6 +120,7 @@ class WindowedEngine final : public Simplifier::Engine {
         selector_(options.mode == Mode::kPaper ? makeRandomSelector(core_, collapser_, account_)
                                                : makeSweepSelector(core_, account_)),
         release_(core_, out) {
+    if (sinks.any()) core_.tracer = &tracer_.emplace(core_.window, plan_, sinks, account_);
     core_.report.window_cells = capacity_;
     turn_at_ = firstTurn();
   }
@@ -145,6 +147,7 @@ class WindowedEngine final : public Simplifier::Engine {
     if (now.written == 0) survey(now.read);
     release_.write(0);
     release_.flush();
+    if (tracer_) tracer_->flush();
     closeReport();
   }
 
@@ -347,6 +350,7 @@ class WindowedEngine final : public Simplifier::Engine {
   Pilot pilot_;
   double told_ = 0;  // the last fraction of the progress
   Core<S> core_;
+  std::optional<Tracer<S>> tracer_;
   bool knows_pilot_;
   std::unique_ptr<Budget> budget_;
   Intake<S> intake_;
@@ -367,19 +371,23 @@ Simplifier::~Simplifier() = default;
 
 void Simplifier::begin(const Schema& schema) {
   Plan plan = makePlan(schema, options_);
+  plan.traces_vertices = sinks_.any();
+  plan.traces_points = sinks_.map != nullptr;
   const bool in_double = plan.double_window;
   if (in_double)
     engine_ = std::make_unique<WindowedEngine<double>>(std::move(plan), options_, pilot_, out_,
-                                                       progress_);
+                                                       sinks_, progress_);
   else
-    engine_ =
-        std::make_unique<WindowedEngine<float>>(std::move(plan), options_, pilot_, out_, progress_);
+    engine_ = std::make_unique<WindowedEngine<float>>(std::move(plan), options_, pilot_, out_,
+                                                      sinks_, progress_);
   Schema smaller = schema;
   smaller.vertex_count = smaller.cell_count = -1;
   smaller.front_width = smaller.front_span = smaller.front_cells = -1;
   smaller.box_min.clear();
   smaller.box_max.clear();
   out_.begin(smaller);
+  if (sinks_.map) sinks_.map->begin();
+  if (sinks_.log) sinks_.log->begin(schema);
 }
 
 void Simplifier::put(const BatchView& batch) {
@@ -388,6 +396,8 @@ void Simplifier::put(const BatchView& batch) {
 
 void Simplifier::finish() {
   engine_->finish();
+  if (sinks_.map) sinks_.map->finish();
+  if (sinks_.log) sinks_.log->finish();
   out_.finish();
 }
 

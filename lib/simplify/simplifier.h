@@ -7,6 +7,7 @@
 #include "options.h"
 #include "pilot.h"
 #include "source.h"
+#include "traces.h"
 
 namespace tetstream {
 
@@ -27,6 +28,8 @@ class Simplifier : public Sink {
   static int64_t targetCells(const Schema& schema, const SimplifyOptions& options);
   // Before begin: what is known of the stream from an earlier run.
   void follow(Pilot pilot) { pilot_ = std::move(pilot); }
+  // Before begin: where to tell what became of the vertices.
+  void trace(TraceSinks sinks) { sinks_ = sinks; }
   // After finish, of a run whose window held all cells.
   Pilot pilot() const;
 
@@ -46,6 +49,7 @@ class Simplifier : public Sink {
   ProgressFunction progress_;
   Report no_report_;
   Pilot pilot_;
+  TraceSinks sinks_;
   std::unique_ptr<Engine> engine_;
 };
 

@@ -18,6 +18,7 @@ void Batch::clear(uint64_t first_vertex) {
   any_locked_ = false;
   positions_.clear();
   locked_.clear();
+  origins_.clear();
   last_uses_.clear();
   for (Bytes& b : fields_) b.clear();
   for (Bytes& b : cell_data_) b.clear();
@@ -65,6 +66,7 @@ BatchView Batch::view() {
   v.positions = positions_.data();
   v.fields = field_pointers_.data();
   v.locked = any_locked_ ? locked_.data() : nullptr;
+  v.origins = origins_.empty() ? nullptr : origins_.data();
   v.cell_count = cell_count_;
   v.cells = cells_.data();
   v.last_uses = last_uses_.data();

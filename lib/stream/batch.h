@@ -21,6 +21,8 @@ struct BatchView {
   const void* positions = nullptr;      // [vertex_count][3] of position_type
   const void* const* fields = nullptr;  // per column: [vertex_count][components]
   const uint8_t* locked = nullptr;      // [vertex_count], non-zero: never moved; or null
+  const int64_t* origins = nullptr;     // [vertex_count]: ranks in the input before it was put
+                                        // into another order; or null: as they are here
   size_t cell_count = 0;
   const int64_t* cells = nullptr;          // [cell_count][4] vertex ranks
   const uint8_t* last_uses = nullptr;      // [cell_count], bit j: corner j is its vertex's
@@ -48,6 +50,8 @@ class Batch {
   void addFinalized(int64_t vertex) { finalized_.push_back(vertex); }
   void addFace(const int64_t corners[3], int64_t label);
   void lock(size_t vertex_row);
+  // For all vertices of the batch or for none.
+  void addOrigin(int64_t origin) { origins_.push_back(origin); }
 
   void* position(size_t row) { return positions_.data() + row * position_stride_; }
   void* field(size_t column, size_t row) {
@@ -77,7 +81,7 @@ class Batch {
   std::vector<size_t> field_strides_, cell_strides_;
   Bytes positions_, locked_, last_uses_;
   std::vector<Bytes> fields_, cell_data_;
-  std::vector<int64_t> cells_, finalized_, faces_, face_labels_;
+  std::vector<int64_t> origins_, cells_, finalized_, faces_, face_labels_;
   std::vector<const void*> field_pointers_, cell_pointers_;
 };
 

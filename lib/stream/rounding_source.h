@@ -53,6 +53,7 @@ class RoundingIndexedSource final : public IndexedSource {
   const Schema& schema() const override { return rounding_.schema(); }
   bool randomAccess() const override { return in_.randomAccess(); }
   const uint8_t* locked() const override { return in_.locked(); }
+  bool hasOrigins() const override { return in_.hasOrigins(); }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
   void readCells(uint64_t first, size_t count, int64_t* out) override {
@@ -60,6 +61,9 @@ class RoundingIndexedSource final : public IndexedSource {
   }
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
     in_.readCellData(column, first, count, out);
+  }
+  void readOrigins(uint64_t first, size_t count, int64_t* out) override {
+    in_.readOrigins(first, count, out);
   }
 
  private:

@@ -36,11 +36,16 @@ class IndexedSource {
   virtual bool randomAccess() const { return false; }
   // Per point, non-zero: never moved; null where there are none.
   virtual const uint8_t* locked() const { return nullptr; }
+  // Whether the points have come out of another order; then readOrigins tells their ranks there.
+  virtual bool hasOrigins() const { return false; }
   // Rows [first, first + count) into `out`, laid out as in BatchView.
   virtual void readPositions(uint64_t first, size_t count, void* out) = 0;
   virtual void readField(size_t column, uint64_t first, size_t count, void* out) = 0;
   virtual void readCells(uint64_t first, size_t count, int64_t* out) = 0;
   virtual void readCellData(size_t column, uint64_t first, size_t count, void* out) = 0;
+  virtual void readOrigins(uint64_t first, size_t count, int64_t* out) {
+    for (size_t i = 0; i < count; ++i) out[i] = static_cast<int64_t>(first + i);
+  }
 };
 
 // What a reader opens: exactly one of the two.

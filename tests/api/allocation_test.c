@@ -116,6 +116,26 @@ static tetstream_status configure(void) {
 /* A window of 64 cells is filled more than once; 0: by the front. */
 static int64_t window_cells;
 static const char* mode = "sweep";
+/* Whether the run tells its map and its log, too. */
+static int traced;
+
+static int32_t take_map(void* user, const tetstream_map_rows* rows) {
+  *(int64_t*)user += rows->count;
+  return 0;
+}
+static int32_t take_log(void* user, const tetstream_log_rows* rows) {
+  *(int64_t*)user += rows->count;
+  return 0;
+}
+
+static tetstream_status trace(tetstream_simplifier* simplifier) {
+  static int64_t rows;
+  const tetstream_map_callbacks map = {sizeof map, &rows, NULL, take_map, NULL, NULL};
+  const tetstream_log_callbacks log = {sizeof log, &rows, NULL, take_log, NULL, NULL};
+  tetstream_status status = tetstream_simplifier_set_map(simplifier, &map);
+  if (status >= 0) status = tetstream_simplifier_set_log(simplifier, &log);
+  return status;
+}
 
 static tetstream_status simplify(tetstream_reader* reader, const char* format) {
   tetstream_options* options = NULL;
@@ -130,6 +150,7 @@ static tetstream_status simplify(tetstream_reader* reader, const char* format) {
   if (status >= 0) status = tetstream_options_set_text(options, TETSTREAM_OPTION_MODE, mode);
   if (status >= 0) status = tetstream_writer_create_memory(format, &writer);
   if (status >= 0) status = tetstream_simplifier_create(options, writer, &simplifier);
+  if (status >= 0 && traced) status = trace(simplifier);
   if (status >= 0) status = tetstream_simplifier_run(simplifier, reader);
   if (status >= 0) status = tetstream_simplifier_get_report(simplifier, &report);
   if (status < 0 && !tetstream_simplifier_message(simplifier)) status = TETSTREAM_INTERNAL;
@@ -307,6 +328,10 @@ int main(void) {
       window_cells = 64;
       fails_cleanly_wherever_memory_ends(".tets through a small window", simplify_file);
       fails_cleanly_wherever_memory_ends("stream through a small window", simplify_stream_to_tets);
+      traced = 1;
+      fails_cleanly_wherever_memory_ends("stream, map and log", simplify_stream_to_tets);
+      fails_cleanly_wherever_memory_ends("arrays, map and log", simplify_arrays);
+      traced = 0;
       mode = "paper";
       fails_cleanly_wherever_memory_ends("the same in the paper's mode", simplify_stream_to_tets);
     }

@@ -122,6 +122,16 @@ def check_errors_of_fields(build):
     assert 0.5 < float(rows[-1][6]) < 3, rows
 
 
+def check_traces(build):
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        fluid(build, folder)
+        rows = table(build, "traces.py", "--meshes", os.path.join(folder, "fluid.vtu") + ":density",
+                     "--rounds", "1", "--ratios", "0.1")
+    assert len(rows) == 1 and int(rows[0]["points"]) > 500, rows
+    assert 0.2 < float(rows[0]["map / none"]) < 20, rows
+    assert float(rows[0]["window MB map"]) > float(rows[0]["window MB"]) > 0, rows
+
+
 def check_windows(build, mesh):
     rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000")
     assert [row["window"] for row in rows] == ["in core", "4"] * 2, rows
@@ -166,6 +176,7 @@ def main():
     check_structures(build)
     check_orders(build)
     check_cost_of_fields(build)
+    check_traces(build)
     if not os.path.isdir(os.environ.get("TETSTREAM_JUDGE", "")):
         return print("not run: what asks the judge")
     with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:

@@ -9,15 +9,17 @@
 namespace tetstream::test {
 namespace {
 
-struct Told {
-  uint32_t u, v;
-  double error;
-};
-
-class Listener final : public CollapseObserver {
+class Log final : public LogSink {
  public:
-  void collapsed(uint32_t u, uint32_t v, double error) override { told.push_back({u, v, error}); }
-  std::vector<Told> told;
+  void begin(const Schema&) override {}
+  void put(const LogRows& rows) override {
+    kept.insert(kept.end(), rows.kept, rows.kept + rows.count);
+    removed.insert(removed.end(), rows.removed, rows.removed + rows.count);
+    errors.insert(errors.end(), rows.errors, rows.errors + rows.count);
+  }
+  void finish() override {}
+  std::vector<int64_t> kept, removed;
+  std::vector<double> errors;
 };
 
 uint32_t slotAt(const TestMesh& mesh, double x, double y, double z) {
@@ -78,23 +80,26 @@ Outcome collapse(Place& w, uint32_t u, uint32_t v, const double* z, double error
   return w.collapser.collapse(w.slot(u), w.slot(v), z, error, least, spares);
 }
 
-TYPED_TEST(Collapsers, TellTheirObserverOfEachCollapse) {
+TYPED_TEST(Collapsers, TellTheTracerOfEachCollapse) {
   TypeParam w(gridWithField(4));
-  Listener listener;
-  w.collapser.observe(&listener);
+  Log log;
+  Tracer<double> tracer(w.core.window, w.plan, {nullptr, &log}, w.account);
+  w.core.tracer = &tracer;
   w.selector()->decimate({100, 90, true}, [] {});
   w.store();
-  ASSERT_EQ(static_cast<int64_t>(listener.told.size()), w.core.report.collapses);
-  EXPECT_GT(listener.told.size(), 30u);
+  tracer.flush();
+  ASSERT_EQ(static_cast<int64_t>(log.kept.size()), w.core.report.collapses);
+  EXPECT_GT(log.kept.size(), 30u);
   EXPECT_LE(w.core.window.mesh.liveCells(), 100u);
   EXPECT_GE(w.core.window.mesh.liveCells(), 90u);
   double largest = 0;
   std::vector<bool> gone(w.mesh.vertexCount(), false);
-  for (const Told& t : listener.told) {
-    EXPECT_FALSE(gone[t.u] || gone[t.v]);
-    gone[t.v] = true;
-    largest = std::max(largest, t.error);
-    EXPECT_GE(t.error, 0);
+  for (size_t i = 0; i < log.kept.size(); ++i) {
+    const auto u = static_cast<size_t>(log.kept[i]), v = static_cast<size_t>(log.removed[i]);
+    EXPECT_FALSE(gone[u] || gone[v]);
+    gone[v] = true;
+    largest = std::max(largest, log.errors[i]);
+    EXPECT_GE(log.errors[i], 0);
   }
   EXPECT_EQ(largest, w.core.report.largest_error);
   for (uint32_t v = 0; v < gone.size(); ++v)

@@ -9,13 +9,19 @@
 
 namespace tetstream::test {
 
+// With all that a map and a log need; whether they are told is up to the core's tracer.
+inline Plan tracedPlan(Plan plan) {
+  plan.traces_vertices = plan.traces_points = true;
+  return plan;
+}
+
 // The window of the paper's mode has links: cells can be merged in it without a patch.
 template <class S>
 struct WholeWindow {
   explicit WholeWindow(TestMesh the_mesh, const SimplifyOptions& the_options = inMode(Mode::kPaper))
       : mesh(std::move(the_mesh)),
         options(the_options),
-        plan(makePlan(mesh.schema, options)),
+        plan(tracedPlan(makePlan(mesh.schema, options))),
         core(plan, options, account, mesh.cellCount() + 1, mesh.vertexCount() + 1, 0),
         intake(core, account),
         regions(core),
