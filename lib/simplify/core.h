@@ -9,6 +9,8 @@
 #include "kernels.h"
 #include "options.h"
 #include "plan.h"
+#include "queued_edges.h"
+#include "ranked_cell.h"
 #include "star_kernels.h"
 #include "window.h"
 
@@ -30,12 +32,26 @@ struct LockedVertices {
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
 
 // Bytes of a row beside its values: of a cell its corners, flags, links or places in tiles; of a
-// vertex its flags, rank, new slot or uses, and its first corner or its places in tiles.
+// vertex its flags, rank, new slot or uses, and its first corner or its places in tiles. A queue's
+// edges count with the cells.
 struct RowBytes {
   size_t cell, vertex;
 };
-constexpr RowBytes rowBytes(Mode mode) {
-  return mode == Mode::kPaper ? RowBytes{37, 17} : RowBytes{24, 19};
+inline RowBytes rowBytes(Mode mode) {
+  switch (mode) {
+    case Mode::kPaper:
+      return {37, 17};
+    case Mode::kQueue:
+      return {37 + kQueuedPerCell * sizeof(QueuedEdge), 17};
+    case Mode::kSweep:
+      break;
+  }
+  return {24, 19};
+}
+inline RowBytes rowBytes(const SimplifyOptions& options) {
+  RowBytes row = rowBytes(options.mode);
+  if (options.release == ReleaseOrder::kError) row.cell += sizeof(RankedCell);
+  return row;
 }
 
 // No cell needs to be thinner than this smallest dihedral angle, in degrees: rounding, or another
@@ -59,7 +75,7 @@ struct Core {
       : plan(the_plan),
         options(the_options),
         kernels(quadricKernels<S>(the_plan.dimension)),
-        window(account, shapeOf(the_plan), cells, vertices, the_options.mode == Mode::kPaper),
+        window(account, shapeOf(the_plan), cells, vertices, followsPaper(the_options.mode)),
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
         inverse_scale(scale),
@@ -70,14 +86,15 @@ struct Core {
   }
 
   // What a window of one cell takes, with its share of vertices and the steps' own arrays.
-  static size_t bytesPerCell(const Plan& plan, Mode mode) {
+  static size_t bytesPerCell(const Plan& plan, const SimplifyOptions& options) {
+    const RowBytes row = rowBytes(options);
     const WindowShape shape = shapeOf(plan);
     const size_t vertex = sizeof(S) * static_cast<size_t>(shape.values + shape.quadric) +
                           sizeof(int64_t) * static_cast<size_t>(shape.picks) +
-                          rowBytes(mode).vertex;
+                          row.vertex;
     const size_t data = sizeof(double) * static_cast<size_t>(shape.cell_means + 1) +
                         sizeof(int64_t) * static_cast<size_t>(shape.cell_picks);
-    return rowBytes(mode).cell + (shape.cell_means + shape.cell_picks ? data : 0) +
+    return row.cell + (shape.cell_means + shape.cell_picks ? data : 0) +
            vertex / kCellsPerVertex;
   }
 

@@ -43,8 +43,9 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
     fail(Status::kUnsupported,
          "a number of cells was asked for, but the stream does not say how many it has: give a "
          "ratio");
-  if (target.error > 0 && options.mode == Mode::kPaper)
-    fail(Status::kUnsupported, "mode \"paper\" knows no bound on the error");
+  if (target.error > 0 && followsPaper(options.mode))
+    fail(Status::kUnsupported, "mode \"%s\" knows no bound on the error",
+         options.mode == Mode::kQueue ? "queue" : "paper");
   return target;
 }
 
@@ -53,7 +54,7 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
 int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
   if (options.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
   const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
-  const int64_t patch = options.mode == Mode::kPaper ? 0 : tileVertices(options) * kTileVertexBytes;
+  const int64_t patch = followsPaper(options.mode) ? 0 : tileVertices(options) * kTileVertexBytes;
   const int64_t cells = (options.memory_bytes - kFixedBytes - patch - map) * 6 / 7 /
                         static_cast<int64_t>(bytes_per_cell);
   return std::max<int64_t>(cells, 64);
@@ -62,7 +63,7 @@ int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, size_
 // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
 int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t bytes_per_cell) {
   const int64_t front = std::min(schema.front_cells, kWidestFront);
-  const int64_t least = options.mode == Mode::kPaper ? kLeastPaperWindow : kLeastWindow;
+  const int64_t least = followsPaper(options.mode) ? kLeastPaperWindow : kLeastWindow;
   int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
                   : front >= 0             ? std::max(kFrontsPerWindow * front, least)
                                            : kFirstWindow;
@@ -74,7 +75,7 @@ int64_t windowFor(const Schema& schema, const SimplifyOptions& options, size_t b
 std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
                                    const Pilot& pilot) {
   const Target target = targetOf(schema, options);
-  if (options.mode == Mode::kPaper)
+  if (followsPaper(options.mode) || options.uniform_ratio)
     return std::make_unique<UniformRatio>(target, schema.cell_count);
   return std::make_unique<CommonBound>(target, schema.cell_count, pilot);
 }
@@ -82,7 +83,8 @@ std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
 //   - a vertex may move only when it is final and none of its cells has been written, so that its
 //     whole star is in the window: whatever a collapse changes lies between two such vertices;
-//   - cells leave in the order of their arrival, and only when all their vertices are final;
+//   - cells leave in the order of their arrival, unless another is asked for, and only when all
+//     their vertices are final;
 //   - decisions depend on the cells read, never on how batches cut them;
 //   - memory is that of the window and of the front's map, allocated before the loop; the window
 //     grows between chunks only, when the front proves wider than expected.
@@ -95,7 +97,7 @@ class WindowedEngine final : public Simplifier::Engine {
         options_(options),
         progress_(progress),
         account_(static_cast<size_t>(options.memory_bytes)),
-        capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_, options.mode))),
+        capacity_(windowFor(plan_.schema, options, Core<S>::bytesPerCell(plan_, options))),
         core_(plan_, options_, account_, static_cast<size_t>(capacity_),
               static_cast<size_t>(capacity_) / kCellsPerVertex + 64, expectedSpan(plan_.schema)),
         knows_pilot_(pilot.known()),
@@ -105,9 +107,8 @@ class WindowedEngine final : public Simplifier::Engine {
         metric_(core_),
         resolver_(core_, metric_, regions_, account_),
         collapser_(core_, core_.window, account_),
-        selector_(options.mode == Mode::kPaper ? makeRandomSelector(core_, collapser_, account_)
-                                               : makeSweepSelector(core_, account_)),
-        release_(core_, out) {
+        selector_(makeSelector()),
+        release_(core_, out, account_) {
     core_.report.window_cells = capacity_;
     turn_at_ = firstTurn();
   }
@@ -143,6 +144,18 @@ class WindowedEngine final : public Simplifier::Engine {
  private:
   Topology& mesh() { return core_.window.mesh; }
 
+  std::unique_ptr<Selector> makeSelector() {
+    switch (options_.mode) {
+      case Mode::kPaper:
+        return makeRandomSelector(core_, collapser_, account_);
+      case Mode::kQueue:
+        return makeQueueSelector(core_, collapser_, account_);
+      case Mode::kSweep:
+        break;
+    }
+    return makeSweepSelector(core_, account_);
+  }
+
   static void checkCount(const char* what, int64_t announced, uint64_t came) {
     if (announced >= 0 && static_cast<uint64_t>(announced) != came)
       fail(Status::kBadData, "the stream announced %lld %s, %llu came",
@@ -155,7 +168,7 @@ class WindowedEngine final : public Simplifier::Engine {
   int64_t firstTurn() const {
     const int64_t front = plan_.schema.front_cells, all = plan_.schema.cell_count;
     const bool is_strong = all > kStrongReduction * targetOf(plan_.schema, options_).cellsOf(all);
-    if (options_.mode == Mode::kPaper || knows_pilot_ || front < 0 || all <= capacity_ ||
+    if (followsPaper(options_.mode) || knows_pilot_ || front < 0 || all <= capacity_ ||
         options_.error > 0 || !is_strong)
       return capacity_;
     return std::min(capacity_, std::max(capacity_ / 4, 5 * front / 2));
@@ -216,7 +229,7 @@ class WindowedEngine final : public Simplifier::Engine {
     const int64_t cells = plan_.schema.cell_count;
     const bool is_long = knows_pilot_ || cells >= kLongStream * capacity_;
     const bool is_mild = cells <= kMildReduction * targetOf(plan_.schema, options_).cellsOf(cells);
-    if (options_.mode == Mode::kPaper || options_.error > 0 || !is_long || !is_mild)
+    if (followsPaper(options_.mode) || options_.error > 0 || !is_long || !is_mild)
       return capacity_ / 2;
     return std::min(capacity_ / 2, front_cells_ + std::max(front_cells_, capacity_ / 8));
   }
@@ -246,7 +259,7 @@ class WindowedEngine final : public Simplifier::Engine {
   // The largest window that the budget allows; a stuck one may take half of what is left beyond.
   int64_t affordable(bool stuck) const {
     if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
-    const auto bytes = Core<S>::bytesPerCell(plan_, options_.mode);
+    const auto bytes = Core<S>::bytesPerCell(plan_, options_);
     const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2 / bytes);
     return std::max(fittingCells(plan_.schema, options_, bytes), stuck ? capacity_ + left : 0);
   }
@@ -383,8 +396,8 @@ void Simplifier::finish() {
 int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
   const Plan plan = makePlan(schema, options);
   return windowFor(schema, options,
-                   plan.double_window ? Core<double>::bytesPerCell(plan, options.mode)
-                                      : Core<float>::bytesPerCell(plan, options.mode));
+                   plan.double_window ? Core<double>::bytesPerCell(plan, options)
+                                      : Core<float>::bytesPerCell(plan, options));
 }
 
 int64_t Simplifier::targetCells(const Schema& schema, const SimplifyOptions& options) {
