@@ -90,12 +90,10 @@ struct Core {
     const RowBytes row = rowBytes(options);
     const WindowShape shape = shapeOf(plan);
     const size_t vertex = sizeof(S) * static_cast<size_t>(shape.values + shape.quadric) +
-                          sizeof(int64_t) * static_cast<size_t>(shape.picks) +
-                          row.vertex;
+                          sizeof(int64_t) * static_cast<size_t>(shape.picks) + row.vertex;
     const size_t data = sizeof(double) * static_cast<size_t>(shape.cell_means + 1) +
                         sizeof(int64_t) * static_cast<size_t>(shape.cell_picks);
-    return row.cell + (shape.cell_means + shape.cell_picks ? data : 0) +
-           vertex / kCellsPerVertex;
+    return row.cell + (shape.cell_means + shape.cell_picks ? data : 0) + vertex / kCellsPerVertex;
   }
 
   const Plan& plan;

@@ -64,7 +64,8 @@ class QueuedEdges {
   void makeRoom(IsCurrent is_current) {
     const auto is_dropped = [&](const QueuedEdge& edge) { return !is_current(edge); };
     QueuedEdge *const begin = edges_.data(), *const end = begin + edges_.size();
-    QueuedEdge *const border = begin + queued_, *const left = std::remove_if(border, end, is_dropped);
+    QueuedEdge *const border = begin + queued_, *const left =
+                                                    std::remove_if(border, end, is_dropped);
     queued_ = static_cast<size_t>(std::remove_if(begin, border, is_dropped) - begin);
     waiting_ = static_cast<size_t>(left - border);
     std::move_backward(border, left, end);

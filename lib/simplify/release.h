@@ -8,7 +8,8 @@
 namespace tetstream {
 
 // The cells that have been in the window longest leave first (paper, section 4), or those of the
-// largest error (Wu and Kobbelt 2003: what is dear will not be simplified), each after its vertices; cells that touch a vertex not yet final wait. A vertex that has left with a cell is
+// largest error (Wu and Kobbelt 2003: what is dear will not be simplified), each after its
+// vertices; cells that touch a vertex not yet final wait. A vertex that has left with a cell is
 // frozen from then on, and is finalized in the output by the last cell that uses it.
 template <class S>
 class Release {

@@ -9,8 +9,9 @@ namespace tetstream {
 namespace {
 
 constexpr int kStepsPerTick = 4096;
-// Edges that were not legal are tried again when this share of the cells that are wanted away, or
-// rather of those that are left, has gone since; and when no others are left.
+// Edges that were not legal are tried again when one cell in so many has gone since, and when no
+// others are left. On real meshes reduced to a tenth: with 3 the error is 0.5 to 6 % larger; with
+// 32 as it is, for twice the refusals and a fifth of the time more.
 constexpr int64_t kRetryShare = 8;
 
 template <class S>
@@ -30,7 +31,7 @@ class QueueSelector final : public Selector {
     if (reached()) return;
     build(tick);
     collapseInOrder(tick);
-    if (goal.last && !reached()) exhaustive_->decimate(goal, tick);
+    if (goal.last && core_.options.last_resort && !reached()) exhaustive_->decimate(goal, tick);
   }
 
  private:
