@@ -199,8 +199,7 @@ void Gatherer<S>::layOut(const Place& place) {
       longest += std::fabs(mesh_.points[cell[1]][i] - mesh_.points[cell[0]][i]);
   const double edge = longest / static_cast<double>(mesh_.cells.size());
   const double range = mesh_.field_range > 0 ? mesh_.field_range : high[3] - low[3];
-  const double unit =
-      place.normalised ? std::exp2(-std::round(std::log2(edge * place.unit))) : 1;
+  const double unit = place.normalised ? std::exp2(-std::round(std::log2(edge * place.unit))) : 1;
   for (size_t i = 0; i < 3; ++i) set_.scale[i] = static_cast<S>(unit);
   set_.scale[3] = static_cast<S>(range > 0 ? unit * extent * place.unit / range : 0);
   for (size_t v = 0; v < mesh_.points.size(); ++v)
@@ -300,8 +299,8 @@ void Gatherer<S>::placeEnd(End& end) const {
   const WideVector z = nearestSolution(end.exact.a, r);
   for (int i = 0; i < kN; ++i)
     if (set_.scale[i] > 0)
-      end.p[i] = static_cast<S>(static_cast<double>((start[i] + z[i]) /
-                                                    static_cast<Wide>(set_.scale[i])));
+      end.p[i] =
+          static_cast<S>(static_cast<double>((start[i] + z[i]) / static_cast<Wide>(set_.scale[i])));
   WideVector from{};
   const WideVector p = normalised(end.p);
   for (int i = 0; i < kN; ++i) from[i] = p[i] - origin_[i];

@@ -29,8 +29,9 @@ struct Mesh {
   double field_range = 0;  // 0: that of the values
 };
 
-// smooth: a field with curvature; homogeneous: constant here, not elsewhere; linear; one-dimensional:
-// curved in one direction; thin: smooth on cells flat at 1:1000. Throws where there is no such one.
+// smooth: a field with curvature; homogeneous: constant here, not elsewhere; linear;
+// one-dimensional: curved in one direction; thin: smooth on cells flat at 1:1000. Throws where
+// there is no such one.
 Mesh syntheticMesh(const std::string& name);
 
 // Where a mesh lies, in extents from the origin, and in which unit. Normalised: in units of a mean
@@ -41,15 +42,16 @@ struct Place {
   bool normalised = true;
 };
 
-// Q(m + z) = at_middle - 2 r z + z^T A z, exactly, for the coordinates rounded to S; m is the middle
-// of the two ends. z is normalised.
+// Q(m + z) = at_middle - 2 r z + z^T A z, exactly, for the coordinates rounded to S; m is the
+// middle of the two ends. z is normalised.
 struct ExactQuadric {
   std::array<Wide, kPacked> a;
   WideVector r;
   Wide at_middle;
-  WideVector half;     // of the edge
-  WideVector nearest;  // the minimizer nearest to m: curvatures below 1e-12 of the largest count as 0
-  Wide least;          // Q there
+  WideVector half;  // of the edge
+  WideVector
+      nearest;  // the minimizer nearest to m: curvatures below 1e-12 of the largest count as 0
+  Wide least;   // Q there
 
   Wide at(const WideVector& z) const;
   Wide betterEnd() const;
@@ -68,7 +70,8 @@ template <class S>
 struct CaseSet {
   S scale[kN];
   std::vector<EdgeCase<S>> edges;
-  size_t left_out = 0;  // some cell round them is flat in these coordinates, or one end is the other
+  size_t left_out =
+      0;  // some cell round them is flat in these coordinates, or one end is the other
 };
 
 // `count` edges at random, whose ends stand for `merged` vertices each.

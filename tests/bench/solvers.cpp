@@ -192,7 +192,7 @@ double shareAt(std::vector<double> values, double share) {
 struct Verdict {
   std::vector<double> off;     // from the nearest minimizer, in lengths of the edge
   std::vector<double> excess;  // of the error over the least, in those of the better end
-  std::vector<double> told;    // error as the solver has it, off the true one at its place; likewise
+  std::vector<double> told;  // error as the solver has it, off the true one at its place; likewise
   size_t not_finite = 0, far = 0, worse = 0;
 };
 
@@ -254,8 +254,7 @@ double nsPerEdge(const CaseSet<S>& set, std::vector<Answer<S>>& out) {
   for (int round = 0; round < 7; ++round) {
     const double start = nowNs();
     int times = 0;
-    do
-      Method::solve(set, out);
+    do Method::solve(set, out);
     while (++times, nowNs() - start < 1e6);
     least = std::min(least, (nowNs() - start) / times / static_cast<double>(set.edges.size()));
   }
@@ -269,11 +268,12 @@ void print(const CaseSet<S>& set) {
   Verdict v;
   for (size_t k = 0; k < out.size(); ++k) judge(set.edges[k], out[k], v);
   const double percent = 100 / static_cast<double>(out.size());
-  std::printf("{\"solver\": \"%s\", \"form\": \"%s\", \"edges\": %zu, \"left_out\": %zu, "
-              "\"not_finite\": %.6g, \"far\": %.6g, \"worse\": %.6g",
-              Method::kName, Method::kForm, out.size(), set.left_out,
-              percent * static_cast<double>(v.not_finite), percent * static_cast<double>(v.far),
-              percent * static_cast<double>(v.worse));
+  std::printf(
+      "{\"solver\": \"%s\", \"form\": \"%s\", \"edges\": %zu, \"left_out\": %zu, "
+      "\"not_finite\": %.6g, \"far\": %.6g, \"worse\": %.6g",
+      Method::kName, Method::kForm, out.size(), set.left_out,
+      percent * static_cast<double>(v.not_finite), percent * static_cast<double>(v.far),
+      percent * static_cast<double>(v.worse));
   const std::pair<const char*, const std::vector<double>&> measured[] = {
       {"off", v.off}, {"excess", v.excess}, {"told", v.told}};
   for (const auto& [name, values] : measured)
