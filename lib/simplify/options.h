@@ -41,6 +41,7 @@ struct SimplifyOptions {
   // For comparisons, beyond what users are offered.
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
   bool uniform_ratio = false;  // all along the stream, whatever the mode
+  bool tries_again = true;     // mode queue: edges that were refused, once the window has changed
   // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
   bool last_resort = true;
 };

@@ -132,7 +132,8 @@ void QueueSelector<S>::collapseInOrder(const std::function<void()>& tick) {
   for (int step = 1; !reached(); ++step) {
     if (step % kStepsPerTick == 0) tick();
     const int64_t gone = cells_then - mesh.liveCells();
-    if (edges_.empty() ? gone > 0 : gone > cells_then / kRetryShare) {
+    const bool is_due = edges_.empty() ? gone > 0 : gone > cells_then / kRetryShare;
+    if (is_due && core_.options.tries_again) {
       edges_.wakeAll();
       cells_then = mesh.liveCells();
     }

@@ -160,9 +160,12 @@ def choice(runner):
 
 def locked(runner):
     """How far a run gets where large parts are constant, and what it refuses."""
-    variants = [Variant(f"{mode}, weight {weight}", ["--mode", mode],
-                        switches=["--shape-weight", weight, "--no-last-resort"])
-                for mode in ("queue", "paper", "sweep") for weight in ("0", "1e-6", "1e-4")]
+    modes = {"queue, each edge once": ["--mode", "queue", "--no-retries"],
+             "queue": ["--mode", "queue"], "random": ["--mode", "paper"],
+             "sweep": ["--mode", "sweep"]}
+    variants = [Variant(f"{name}, weight {weight}", [],
+                        switches=[*words, "--shape-weight", weight, "--no-last-resort"])
+                for name, words in modes.items() for weight in ("0", "1e-6", "1e-4")]
     harness.print_head(("mesh", "field", "ratio", "variant", "got / asked", "refused",
                         "refused / collapse", "RMS %", "max %", "Hausdorff %", "CPU s", "valid"))
     for row in runner.rows(with_regions=True):

@@ -132,7 +132,7 @@ def check_paper(build, mesh):
         assert row["valid"] == "yes" and 0 < float(row["RMS %"]) < 20, row
         assert 0.9 < float(row["got / asked"]) <= 1, row
     rows = paper(build, "locked", "--rows", mesh)
-    assert len(rows) == 9 and all(float(row["refused"]) > 0 for row in rows), rows
+    assert len(rows) == 12 and all(float(row["refused"]) > 0 for row in rows), rows
     rows = paper(build, "spending", "--rows", mesh)
     assert len(rows) == 6 and rows[0]["RMS %"] != rows[1]["RMS %"], rows
 

@@ -11,9 +11,11 @@ normalised (in units of a mean edge, as the library has it) or plain (coordinate
 the error there is above the least, and `told`: how far from it the error is that the solver tells,
 both in units of the error at the better end of the edge, but at least in what the type cannot tell
 from 0. 50 %, 99 %: shares of the edges that are not above. `not finite`, `far` (from the middle by
-more than ten edges), `worse` (than the better end): edges in percent. ns: per edge, quadric to
-place and error.
+more than ten edges), `worse` (than the better end): edges in percent. ns: per edge, quadric
+to place and error. With --brief a line per case and place: excess 99 %, the edges that failed in
+any of these three ways, and ns, for each solver and form.
 """
+import itertools
 import json
 import os
 import subprocess
@@ -39,6 +41,7 @@ def arguments():
     parser.add_argument("--solvers", nargs="+", metavar="NAME", help="those only")
     parser.add_argument("--forms", nargs="+", metavar="FORM", help="those only: 'A p e', 'A b c'")
     parser.add_argument("--edges", type=int, default=1000)
+    parser.add_argument("--brief", action="store_true", help="one line per case and place")
     return parser.parse_args()
 
 
@@ -64,22 +67,36 @@ def cells_of(a):
     yield f"{a['ns']:.0f}"
 
 
-def main():
-    args = arguments()
+def brief(a):
+    failed = a["not_finite"] + a["far"] + a["worse"]
+    excess = f"{a['excess_99']:.1g}" if "excess_99" in a else "-"
+    return f"{excess}, {failed:.3g} %, {a['ns']:.0f}"
+
+
+def chosen(args):
+    """Of each case, place, type and number of merged vertices the answers that were asked for."""
     program = os.path.join(args.build, "tests", "bench", "solvers")
     if not os.path.isfile(program):
         harness.not_run(f"there is no {program}: was Eigen found at configure time?")
-    harness.print_head(HEAD)
-    for case in args.cases:
-        for place in args.places:
-            for kind in args.types:
-                for merged in args.merged:
-                    for a in answers(program, case_path(case), place, kind, merged, args.edges):
-                        if args.solvers and a["solver"] not in args.solvers:
-                            continue
-                        if args.forms and a["form"] not in args.forms:
-                            continue
-                        harness.print_row([case, place, kind, merged, *cells_of(a)])
+    for row in itertools.product(args.cases, args.places, args.types, args.merged):
+        found = answers(program, case_path(row[0]), *row[1:], args.edges)
+        yield row, [a for a in found if a["solver"] in (args.solvers or [a["solver"]])
+                    and a["form"] in (args.forms or [a["form"]])]
+
+
+def main():
+    args = arguments()
+    with_head = False
+    for row, found in chosen(args):
+        if not with_head:
+            harness.print_head((*HEAD[:4], *(f"{a['solver']}, {a['form']}" for a in found))
+                               if args.brief else HEAD)
+            with_head = True
+        if args.brief:
+            harness.print_row([*row, *map(brief, found)])
+            continue
+        for a in found:
+            harness.print_row([*row, *cells_of(a)])
 
 
 if __name__ == "__main__":
