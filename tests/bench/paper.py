@@ -19,8 +19,8 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.join(HERE, "..", "support")]
 import compare  # noqa: E402
-import fields  # noqa: E402
 import harness  # noqa: E402
+import homogeneous  # noqa: E402
 import islands  # noqa: E402
 
 IN_CORE = "in core"
@@ -55,7 +55,7 @@ class Runner:
             if not with_regions:
                 yield self.row(kind, "density", path)
                 continue
-            for field in fields.add_to(path):
+            for field in homogeneous.add_to(path):
                 yield self.row(kind, field, path)
 
     def row(self, name, field, path):

@@ -193,7 +193,7 @@ struct Verdict {
   std::vector<double> off;     // from the nearest minimizer, in lengths of the edge
   std::vector<double> excess;  // of the error over the least, in those of the better end
   std::vector<double> told;  // error as the solver has it, off the true one at its place; likewise
-  size_t not_finite = 0, far = 0, worse = 0;
+  size_t not_finite = 0, far = 0, worse = 0, failed = 0;  // failed: any of them
 };
 
 constexpr double kFar = 10;  // edges from the middle: no place for the merged vertex
@@ -230,6 +230,7 @@ void judge(const EdgeCase<S>& edge, const Answer<S>& answer, Verdict& verdict) {
   }
   if (!finite) {
     ++verdict.not_finite;
+    ++verdict.failed;
     return;
   }
   const double unit = unitOf<S>(exact);
@@ -237,8 +238,10 @@ void judge(const EdgeCase<S>& edge, const Answer<S>& answer, Verdict& verdict) {
   verdict.off.push_back(std::sqrt(off / length));
   verdict.excess.push_back(number(there - exact.least) / unit);
   verdict.told.push_back(std::fabs(number(static_cast<Wide>(answer.error) - there)) / unit);
-  verdict.far += moved > kFar * kFar * length;
-  verdict.worse += number(there) > kWorse * unit;
+  const bool is_far = moved > kFar * kFar * length, is_worse = number(there) > kWorse * unit;
+  verdict.far += is_far;
+  verdict.worse += is_worse;
+  verdict.failed += is_far || is_worse;
 }
 
 double nowNs() {
@@ -270,10 +273,10 @@ void print(const CaseSet<S>& set) {
   const double percent = 100 / static_cast<double>(out.size());
   std::printf(
       "{\"solver\": \"%s\", \"form\": \"%s\", \"edges\": %zu, \"left_out\": %zu, "
-      "\"not_finite\": %.6g, \"far\": %.6g, \"worse\": %.6g",
+      "\"not_finite\": %.6g, \"far\": %.6g, \"worse\": %.6g, \"failed\": %.6g",
       Method::kName, Method::kForm, out.size(), set.left_out,
       percent * static_cast<double>(v.not_finite), percent * static_cast<double>(v.far),
-      percent * static_cast<double>(v.worse));
+      percent * static_cast<double>(v.worse), percent * static_cast<double>(v.failed));
   const std::pair<const char*, const std::vector<double>&> measured[] = {
       {"off", v.off}, {"excess", v.excess}, {"told", v.told}};
   for (const auto& [name, values] : measured)
