@@ -103,11 +103,12 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_ERROR 102           /* double, RMS field error in percent of the range */
 #define TETSTREAM_OPTION_BOUNDARY_WEIGHT 110 /* double, dimensionless: boundary against field */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
-#define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper" */
+#define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */
 #define TETSTREAM_OPTION_SEED 131            /* int64, for the random choices of "paper" */
 #define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */
 #define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges "paper" draws for one collapse */
 #define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input twice; "none" */
+#define TETSTREAM_OPTION_RELEASE 136         /* text: what leaves the window first: "order", "error" */
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */

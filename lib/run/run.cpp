@@ -90,7 +90,7 @@ struct SimplifyRun::State {
   std::unique_ptr<Source> pilotSource(Source& source) const {
     const SimplifyOptions& o = options.simplify;
     const int64_t cells = source.schema().cell_count;
-    const bool wanted = o.mode != Mode::kPaper && o.pilot == PilotUse::kAuto &&
+    const bool wanted = !followsPaper(o.mode) && o.pilot == PilotUse::kAuto &&
                         o.memory_bytes == 0 && cells > Simplifier::windowCells(source.schema(), o);
     const bool is_small = cells <= kPilotCells;
     const bool can_sample = o.error == 0 && Sampler::serves(source.schema());

@@ -9,6 +9,8 @@
 #include "kernels.h"
 #include "options.h"
 #include "plan.h"
+#include "queued_edges.h"
+#include "ranked_cell.h"
 #include "star_kernels.h"
 #include "tracer.h"
 #include "window.h"
@@ -35,12 +37,26 @@ constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boun
 constexpr double kTracedPerCell = 0.75;
 
 // Bytes of a row beside its values: of a cell its corners, flags, links or places in tiles; of a
-// vertex its flags, rank, new slot or uses, and its first corner or its places in tiles.
+// vertex its flags, rank, new slot or uses, and its first corner or its places in tiles. A queue's
+// edges count with the cells.
 struct RowBytes {
   size_t cell, vertex;
 };
-constexpr RowBytes rowBytes(Mode mode) {
-  return mode == Mode::kPaper ? RowBytes{37, 17} : RowBytes{24, 19};
+inline RowBytes rowBytes(Mode mode) {
+  switch (mode) {
+    case Mode::kPaper:
+      return {37, 17};
+    case Mode::kQueue:
+      return {37 + kQueuedPerCell * sizeof(QueuedEdge), 17};
+    case Mode::kSweep:
+      break;
+  }
+  return {24, 19};
+}
+inline RowBytes rowBytes(const SimplifyOptions& options) {
+  RowBytes row = rowBytes(options.mode);
+  if (options.release == ReleaseOrder::kError) row.cell += sizeof(RankedCell);
+  return row;
 }
 
 // No cell needs to be thinner than this smallest dihedral angle, in degrees: rounding, or another
@@ -67,7 +83,7 @@ struct Core {
       : plan(the_plan),
         options(the_options),
         kernels(quadricKernels<S>(the_plan.layout, the_plan.dimension)),
-        window(account, shapeOf(the_plan), cells, vertices, the_options.mode == Mode::kPaper),
+        window(account, shapeOf(the_plan), cells, vertices, followsPaper(the_options.mode)),
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
         inverse_scale(scale),
@@ -81,22 +97,21 @@ struct Core {
   }
 
   // What a window of one cell takes, with its share of vertices and the steps' own arrays.
-  static size_t bytesPerCell(const Plan& plan, Mode mode) {
+  static size_t bytesPerCell(const Plan& plan, const SimplifyOptions& options) {
+    const RowBytes row = rowBytes(options);
     const WindowShape shape = shapeOf(plan);
     const size_t vertex = sizeof(S) * static_cast<size_t>(shape.values + shape.quadric) +
-                          sizeof(int64_t) * static_cast<size_t>(shape.picks) +
-                          rowBytes(mode).vertex;
+                          sizeof(int64_t) * static_cast<size_t>(shape.picks) + row.vertex;
     const size_t data = sizeof(double) * static_cast<size_t>(shape.cell_means + 1) +
                         sizeof(int64_t) * static_cast<size_t>(shape.cell_picks);
-    return rowBytes(mode).cell + (shape.cell_means + shape.cell_picks ? data : 0) +
-           vertex / kCellsPerVertex;
+    return row.cell + (shape.cell_means + shape.cell_picks ? data : 0) + vertex / kCellsPerVertex;
   }
 
   // The same with what is traced: a vertex's origin; of a map each cell's first point, a point for
   // every vertex that is merged, and those of the cells that stay. The cache does not hold them.
-  static size_t budgetPerCell(const Plan& plan, Mode mode) {
+  static size_t budgetPerCell(const Plan& plan, const SimplifyOptions& options) {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
-    size_t bytes = bytesPerCell(plan, mode);
+    size_t bytes = bytesPerCell(plan, options);
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
       bytes += sizeof(uint32_t) + static_cast<size_t>(kPoints * Tracer<S>::pointBytes());

@@ -30,12 +30,12 @@ Metric<S>::Metric(Core<S>& core)
       low_(static_cast<size_t>(core.plan.dimension), std::numeric_limits<double>::infinity()),
       high_(low_.size(), -std::numeric_limits<double>::infinity()),
       used_range_(low_.size(), -1) {
-  if (core.options.mode == Mode::kPaper)
+  if (followsPaper(core.options.mode))
     floors_.emplace_back(kLeastFloor);
   else
     for (double degrees : kFloors) floors_.emplace_back(degrees);
   below_.assign(floors_.size(), 0);
-  if (core.options.mode != Mode::kPaper)
+  if (!followsPaper(core.options.mode))
     for (double degrees : kDear) dear_.emplace_back(degrees);
   below_dear_.assign(dear_.size(), 0);
   core.thin = floors_.back();
@@ -224,7 +224,8 @@ bool Metric<S>::addLanes(uint32_t first) {
 
 template <class S>
 double Metric<S>::shapeWeight() const {
-  return core_.options.mode == Mode::kPaper ? kShapeWeightPaper : kShapeWeight;
+  if (core_.options.shape_weight >= 0) return core_.options.shape_weight;
+  return followsPaper(core_.options.mode) ? kShapeWeightPaper : kShapeWeight;
 }
 
 // Counts cells, not windows: the floor depends on what was read, not on how.

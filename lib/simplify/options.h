@@ -12,8 +12,13 @@
 namespace tetstream {
 
 enum class QuadricForm { kDeterminant, kGarlandZhou };
-enum class Mode { kSweep, kPaper };
+enum class Mode { kSweep, kPaper, kQueue };
+// Edges are collapsed in a window with links, one by one, at the same ratio all along the stream.
+constexpr bool followsPaper(Mode mode) {
+  return mode != Mode::kSweep;
+}
 enum class PilotUse { kAuto, kNever };
+enum class ReleaseOrder { kArrival, kError };
 
 struct SimplifyOptions {
   // Targets, of which the first that is reached ends the run; 0: not given. Without any, a ratio of
@@ -27,11 +32,18 @@ struct SimplifyOptions {
   Mode mode = Mode::kSweep;
   QuadricForm quadric = QuadricForm::kDeterminant;
   PilotUse pilot = PilotUse::kAuto;
+  ReleaseOrder release = ReleaseOrder::kArrival;
   int64_t seed = 1;
   int64_t candidates = 8;
   int64_t window_cells = 0;  // 0: from the front
   int64_t memory_bytes = 0;  // 0: no limit
   bool rough = false;        // a sample: only how the cells that are left spread matters
+  // For comparisons, beyond what users are offered.
+  double shape_weight = -1;    // of the regulariser; below 0: the mode's
+  bool uniform_ratio = false;  // all along the stream, whatever the mode
+  bool tries_again = true;     // mode queue: edges that were refused, once the window has changed
+  // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
+  bool last_resort = true;
 };
 
 struct Report {

@@ -1,6 +1,8 @@
 #include "release.h"
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace tetstream {
 
@@ -119,10 +121,47 @@ void Release<S>::flush() {
   batch_.clear(vertices_);
 }
 
+// The error at which the dearest of its edges would be collapsed; infinite if none of them may be.
+template <class S>
+float Release<S>::errorOf(uint32_t cell) const {
+  const Window<S>& window = core_.window;
+  const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
+                                window.shape().values};
+  const uint32_t* v = window.mesh.corners(cell);
+  uint32_t free[4];
+  int count = 0;
+  for (int j = 0; j < 4; ++j)
+    if (window.isFree(v[j])) free[count++] = v[j];
+  S dearest = 0, errors[3];
+  for (int j = 0; j + 1 < count; ++j) {
+    const int others = count - j - 1;
+    core_.kernels.edgeErrors(table, free[j], free + j + 1, others, core_.scale.data(),
+                             core_.plan.dimension, errors);
+    for (int k = 0; k < others; ++k) dearest = std::max(dearest, errors[k]);
+  }
+  // note: written so that NaN counts as infinite.
+  const S most = std::numeric_limits<float>::max();
+  return count > 1 && dearest <= most ? static_cast<float>(dearest)
+                                      : std::numeric_limits<float>::infinity();
+}
+
+template <class S>
+void Release<S>::writeDearest(uint32_t keep) {
+  const Topology& mesh = core_.window.mesh;
+  if (ranked_.size() < mesh.cellEnd()) ranked_.resize(mesh.cellCapacity());
+  RankedCell* end = ranked_.data();
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
+    if (mesh.isLive(c) && mayGo(c)) *end++ = {errorOf(c), c};
+  std::sort(ranked_.data(), end);
+  for (const RankedCell* r = ranked_.data(); r != end && mustGo(keep); ++r)
+    writeCell(r->cell);
+}
+
 template <class S>
 void Release<S>::write(uint32_t keep) {
   const Topology& mesh = core_.window.mesh;
   countUses();
+  if (core_.options.release == ReleaseOrder::kError) writeDearest(keep);
   for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(keep); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
   core_.report.unused_vertices += static_cast<int64_t>(core_.window.pack(core_.front));

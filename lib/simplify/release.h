@@ -1,4 +1,5 @@
-// simplify: WRITE. Cells leave the window in the order in which they came. Depends on core.h.
+// simplify: WRITE. Cells leave the window in the order in which they came, or the dearest first.
+// Depends on core.h.
 #pragma once
 
 #include "core.h"
@@ -6,13 +7,15 @@
 
 namespace tetstream {
 
-// The cells that have been in the window longest leave first (paper, section 4), each after its
+// The cells that have been in the window longest leave first (paper, section 4), or those of the
+// largest error (Wu and Kobbelt 2003: what is dear will not be simplified), each after its
 // vertices; cells that touch a vertex not yet final wait. A vertex that has left with a cell is
 // frozen from then on, and is finalized in the output by the last cell that uses it.
 template <class S>
 class Release {
  public:
-  Release(Core<S>& core, Sink& out) : core_(core), out_(out), batch_(core.plan.schema) {}
+  Release(Core<S>& core, Sink& out, Account& account)
+      : core_(core), out_(out), batch_(core.plan.schema), ranked_(account) {}
 
   // Lets cells go until `keep` live ones are left or no other may go, then packs the window.
   void write(uint32_t keep);
@@ -27,6 +30,8 @@ class Release {
   bool mayGo(uint32_t cell) const;
   bool mustGo(uint32_t keep) const;
   void countUses();
+  void writeDearest(uint32_t keep);
+  float errorOf(uint32_t cell) const;
   void writeCell(uint32_t cell);
   void writeVertex(uint32_t v);
   void writeCellData(uint32_t cell, size_t row);
@@ -34,6 +39,7 @@ class Release {
   Core<S>& core_;
   Sink& out_;
   Batch batch_;
+  Array<RankedCell> ranked_;
   int64_t front_ = 0;
   uint64_t cells_ = 0, vertices_ = 0;
 };

@@ -39,6 +39,12 @@ template <class S>
 std::unique_ptr<Selector> makeRandomSelector(Core<S>& core, Collapser<Window<S>>& collapser,
                                              Account& account);
 
+// For comparison: the cheapest of all edges of the window, again and again (Garland and Heckbert
+// 1997). Edges that are not legal wait until the window has changed.
+template <class S>
+std::unique_ptr<Selector> makeQueueSelector(Core<S>& core, Collapser<Window<S>>& collapser,
+                                            Account& account);
+
 // The default: patches of the window are swept at rising bounds, every vertex offering its best
 // edges.
 template <class S>

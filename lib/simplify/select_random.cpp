@@ -38,7 +38,7 @@ class RandomSelector final : public Selector {
     if (reached()) return;
     tiles_.build();
     sweep(tick);
-    if (goal.last && !reached()) exhaustive_->decimate(goal, tick);
+    if (goal.last && core_.options.last_resort && !reached()) exhaustive_->decimate(goal, tick);
   }
 
  private:

@@ -47,7 +47,7 @@ class SweepSelector final : public Selector {
     unit_ = std::frexp(core_.error_unit, &exponent);
     core_.error_reached = false;
     sweep(tick);
-    if (!goal.last || mustStop(core_.window.liveCells())) return;
+    if (!goal.last || !core_.options.last_resort || mustStop(core_.window.liveCells())) return;
     tryEverything(tick);
     if (mustStop(core_.window.liveCells())) return;
     core_.thin = ThinAngle(kLeastFloor);  // rather than to miss the target

@@ -44,8 +44,9 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
     fail(Status::kUnsupported,
          "a number of cells was asked for, but the stream does not say how many it has: give a "
          "ratio");
-  if (target.error > 0 && options.mode == Mode::kPaper)
-    fail(Status::kUnsupported, "mode \"paper\" knows no bound on the error");
+  if (target.error > 0 && followsPaper(options.mode))
+    fail(Status::kUnsupported, "mode \"%s\" knows no bound on the error",
+         options.mode == Mode::kQueue ? "queue" : "paper");
   return target;
 }
 
@@ -55,7 +56,7 @@ struct RowCosts {
 };
 template <class S>
 RowCosts costsOf(const Plan& plan, const SimplifyOptions& options) {
-  return {static_cast<int64_t>(Core<S>::budgetPerCell(plan, options.mode)),
+  return {static_cast<int64_t>(Core<S>::budgetPerCell(plan, options)),
           Core<S>::tileVertexBytes(plan)};
 }
 
@@ -64,7 +65,7 @@ RowCosts costsOf(const Plan& plan, const SimplifyOptions& options) {
 int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
   if (options.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
   const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
-  const int64_t patch = options.mode == Mode::kPaper
+  const int64_t patch = followsPaper(options.mode)
                             ? 0
                             : tileVertices(options, bytes.patch_vertex) * bytes.patch_vertex;
   const int64_t cells = (options.memory_bytes - kFixedBytes - patch - map) * 6 / 7 / bytes.cell;
@@ -74,7 +75,7 @@ int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, const
 // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
 int64_t windowFor(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
   const int64_t front = std::min(schema.front_cells, kWidestFront);
-  const int64_t least = options.mode == Mode::kPaper ? kLeastPaperWindow : kLeastWindow;
+  const int64_t least = followsPaper(options.mode) ? kLeastPaperWindow : kLeastWindow;
   int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
                   : front >= 0             ? std::max(kFrontsPerWindow * front, least)
                                            : kFirstWindow;
@@ -86,7 +87,7 @@ int64_t windowFor(const Schema& schema, const SimplifyOptions& options, const Ro
 std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
                                    const Pilot& pilot) {
   const Target target = targetOf(schema, options);
-  if (options.mode == Mode::kPaper)
+  if (followsPaper(options.mode) || options.uniform_ratio)
     return std::make_unique<UniformRatio>(target, schema.cell_count);
   return std::make_unique<CommonBound>(target, schema.cell_count, pilot);
 }
@@ -94,7 +95,8 @@ std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
 //   - a vertex may move only when it is final and none of its cells has been written, so that its
 //     whole star is in the window: whatever a collapse changes lies between two such vertices;
-//   - cells leave in the order of their arrival, and only when all their vertices are final;
+//   - cells leave in the order of their arrival, unless another is asked for, and only when all
+//     their vertices are final;
 //   - decisions depend on the cells read, never on how batches cut them;
 //   - memory is that of the window and of the front's map, allocated before the loop; the window
 //     grows between chunks only, when the front proves wider than expected.
@@ -117,9 +119,8 @@ class WindowedEngine final : public Simplifier::Engine {
         metric_(core_),
         resolver_(core_, metric_, regions_, account_),
         collapser_(core_, core_.window, account_),
-        selector_(options.mode == Mode::kPaper ? makeRandomSelector(core_, collapser_, account_)
-                                               : makeSweepSelector(core_, account_)),
-        release_(core_, out) {
+        selector_(makeSelector()),
+        release_(core_, out, account_) {
     if (sinks.any()) core_.tracer = &tracer_.emplace(core_.window, plan_, sinks, account_);
     core_.report.window_cells = capacity_;
     turn_at_ = firstTurn();
@@ -157,6 +158,18 @@ class WindowedEngine final : public Simplifier::Engine {
  private:
   Topology& mesh() { return core_.window.mesh; }
 
+  std::unique_ptr<Selector> makeSelector() {
+    switch (options_.mode) {
+      case Mode::kPaper:
+        return makeRandomSelector(core_, collapser_, account_);
+      case Mode::kQueue:
+        return makeQueueSelector(core_, collapser_, account_);
+      case Mode::kSweep:
+        break;
+    }
+    return makeSweepSelector(core_, account_);
+  }
+
   static void checkCount(const char* what, int64_t announced, uint64_t came) {
     if (announced >= 0 && static_cast<uint64_t>(announced) != came)
       fail(Status::kBadData, "the stream announced %lld %s, %llu came",
@@ -169,7 +182,7 @@ class WindowedEngine final : public Simplifier::Engine {
   int64_t firstTurn() const {
     const int64_t front = plan_.schema.front_cells, all = plan_.schema.cell_count;
     const bool is_strong = all > kStrongReduction * targetOf(plan_.schema, options_).cellsOf(all);
-    if (options_.mode == Mode::kPaper || knows_pilot_ || front < 0 || all <= capacity_ ||
+    if (followsPaper(options_.mode) || knows_pilot_ || front < 0 || all <= capacity_ ||
         options_.error > 0 || !is_strong)
       return capacity_;
     return std::min(capacity_, std::max(capacity_ / 4, 5 * front / 2));
@@ -230,7 +243,7 @@ class WindowedEngine final : public Simplifier::Engine {
     const int64_t cells = plan_.schema.cell_count;
     const bool is_long = knows_pilot_ || cells >= kLongStream * capacity_;
     const bool is_mild = cells <= kMildReduction * targetOf(plan_.schema, options_).cellsOf(cells);
-    if (options_.mode == Mode::kPaper || options_.error > 0 || !is_long || !is_mild)
+    if (followsPaper(options_.mode) || options_.error > 0 || !is_long || !is_mild)
       return capacity_ / 2;
     return std::min(capacity_ / 2, front_cells_ + std::max(front_cells_, capacity_ / 8));
   }

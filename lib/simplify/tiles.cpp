@@ -11,7 +11,7 @@ constexpr size_t kTileBytes = 768 << 10;
 
 template <class S>
 size_t Tiles<S>::cellsPerTile() const {
-  return std::max<size_t>(kTileBytes / Core<S>::bytesPerCell(core_.plan, core_.options.mode), 1024);
+  return std::max<size_t>(kTileBytes / Core<S>::bytesPerCell(core_.plan, core_.options), 1024);
 }
 
 template <class S>

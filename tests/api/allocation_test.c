@@ -334,6 +334,8 @@ int main(void) {
       traced = 0;
       mode = "paper";
       fails_cleanly_wherever_memory_ends("the same in the paper's mode", simplify_stream_to_tets);
+      mode = "queue";
+      fails_cleanly_wherever_memory_ends("the same with a queue", simplify_stream_to_tets);
     }
     tetstream_writer_destroy(writers[kind]);
   }

@@ -42,7 +42,7 @@ HEAD = ("mesh", "field", "ratio", "mode", "asked", "got", "RMS % (VTK)", "max % 
 def judged_parser(description):
     """The arguments of all that judges rows."""
     parser = harness.bench_parser(description)
-    parser.add_argument("--rows", nargs="+", type=harness.mesh_and_field, default=harness.ROWS,
+    parser.add_argument("--rows", nargs="*", type=harness.mesh_and_field, default=harness.ROWS,
                         metavar="MESH:FIELD", help="default: all; MESH is a name in "
                         "TETSTREAM_MESHES or a path")
     parser.add_argument("--ratios", nargs="+", type=float, default=[0.1], metavar="R")

@@ -12,6 +12,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import compare  # noqa: E402
 import harness  # noqa: E402 (compare says where it is)
+import islands  # noqa: E402
 
 
 def printed(build, script, *words):
@@ -133,14 +134,68 @@ def check_traces(build):
 
 
 def check_windows(build, mesh):
-    rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000")
-    assert [row["window"] for row in rows] == ["in core", "4"] * 2, rows
+    rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000",
+                 "--modes", "default", "paper")
+    assert [row["window"] for row in rows] == ["in core", "4"] * 4, rows
+    assert [row["mode"] for row in rows] == ["default", "default", "paper", "paper"] * 2, rows
     core, window = rows[:2]
     assert core["window cells / cells"] == "1.000", core
     assert 0 < float(window["window cells / cells"]) < 1, window
     for error in ("RMS", "max", "Hausdorff"):
         assert float(core[error + " %"]) > 0 and core[error + " / in core"] == "1.00", core
         assert 0.2 < float(window[error + " / in core"]) < 5, window
+
+
+def paper(build, experiment, *words):
+    """Its rows, the means left out."""
+    rows = table(build, "paper.py", "--compare", experiment, "--samples", "2000", *words)
+    return [row for row in rows if not row["mesh"].startswith("**")]
+
+
+def check_paper(build, mesh):
+    rows = paper(build, "choice", "--rows", mesh, "--seeds", "2", "--candidates", "2", "8")
+    assert [row["variant"] for row in rows] == [
+        "queue", "random, best of 2", "random, best of 8", "sweep"], rows
+    for row in rows + paper(build, "quadric", "--rows", mesh):
+        assert row["valid"] == "yes" and 0 < float(row["RMS %"]) < 20, row
+        assert 0.9 < float(row["got / asked"]) <= 1, row
+    rows = paper(build, "locked", "--rows", mesh)
+    assert len(rows) == 12 and all(float(row["refused"]) > 0 for row in rows), rows
+    rows = paper(build, "spending", "--rows", mesh)
+    assert len(rows) == 6 and rows[0]["RMS %"] != rows[1]["RMS %"], rows
+
+
+def check_release(build, mesh):
+    order, error = paper(build, "release", "--rows", mesh, "--ratios", "0.5", "--fronts", "3")[:2]
+    assert (order["variant"], error["variant"]) == ("paper, order", "paper, error"), (order, error)
+    assert int(order["front width"]) < int(error["front width"]), (order, error)
+    assert 0 <= int(order["islands"]) < int(error["islands"]), (order, error)
+
+
+def check_islands():
+    """Two cells with a face, and one apart: an island until the two are written, then none."""
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        path = os.path.join(folder, "three.sva")
+        with open(path, "w", encoding="ascii") as file:
+            file.write("v 0 0 0\n" * 4 + "c 1 2 3 4\nv 1 1 1\nc -4 -3 -2 -1\n" + "v 2 2 2\n" * 4
+                       + "c 6 7 8 9\n")
+        assert islands.cells_of(path) == [(0, 1, 2, 3), (1, 2, 3, 4), (5, 6, 7, 8)]
+        assert islands.of(path) == {"most": 1, "most_cells_percent": 100 / 3}, islands.of(path)
+
+
+def check_solvers(build):
+    if not os.path.isfile(os.path.join(build, "tests", "bench", "solvers")):
+        return print("not run: the comparison of solvers, without Eigen")
+    rows = table(build, "solvers.py", "--cases", "smooth", "homogeneous", "--edges", "64")
+    assert len(rows) == 2 * 2 * 11, rows
+    for row in rows:
+        fails = row["case"] == "homogeneous" and row["solver"] == "Cholesky"
+        assert float(row["not finite %"]) == (100 if fails else 0), row
+        assert fails or float(row["excess 50 %"]) < 0.01, row
+    for row in table(build, "solvers.py", "--cases", "smooth", "--places", "1e4,1,normalised",
+                     "--types", "float32", "--merged", "8", "--solvers", "QR, pivots"):
+        assert (float(row["excess 50 %"]) > 0.001) == (row["form"] == "A b c"), row
+    return None
 
 
 def check_compare(build, mesh):
@@ -177,6 +232,8 @@ def main():
     check_orders(build)
     check_cost_of_fields(build)
     check_traces(build)
+    check_islands()
+    check_solvers(build)
     if not os.path.isdir(os.environ.get("TETSTREAM_JUDGE", "")):
         return print("not run: what asks the judge")
     with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
@@ -184,6 +241,8 @@ def main():
         check_windows(build, mesh)
         check_compare(build, mesh)
     check_errors_of_fields(build)
+        check_paper(build, mesh)
+        check_release(build, mesh)
     return None
 
 

@@ -5,6 +5,7 @@ divided by that of the same simplification in core (a window that holds all cell
 Rows, ratios and errors are those of compare.py; ratios are taken after raising both sides to
 0.001 %. Where the window of so many fronts holds the whole mesh, the two runs are the same.
 """
+import itertools
 import os
 import statistics
 import sys
@@ -15,13 +16,16 @@ import compare  # noqa: E402
 import harness  # noqa: E402
 
 IN_CORE = "in core"
-HEAD = ("mesh", "field", "ratio", "window", "window cells / cells", "got / asked", "RMS %", "max %",
-        "Hausdorff %", "s", "peak MB", "RMS / in core", "max / in core", "Hausdorff / in core")
+HEAD = ("mesh", "field", "ratio", "mode", "window", "window cells / cells", "got / asked", "RMS %",
+        "max %", "Hausdorff %", "s", "CPU s", "peak MB", "RMS / in core", "max / in core",
+        "Hausdorff / in core", "CPU / in core")
 
 
 def arguments():
     parser = compare.judged_parser(__doc__)
     parser.add_argument("--fronts", nargs="+", type=float, default=[1, 2, 4, 8], metavar="N")
+    parser.add_argument("--modes", nargs="+", default=["default"], metavar="MODE",
+                        help="of simplify; default: the one that it has if none is named")
     return parser.parse_args()
 
 
@@ -31,13 +35,17 @@ class Windows:
         self.tetstream, _ = harness.bench_programs(args.build)
         self.judge = harness.Judge(args.samples)
 
-    def result(self, path, field, ratio, stream, window_cells):
+    def result(self, path, field, ratio, mode, stream, window_cells):
         """What came of one window."""
         out = self.tetstream.path("out.tets")
         report = self.tetstream.simplify(stream, out, "--ratio", ratio, "--field", field,
-                                         "--window", window_cells, *self.args.options)
+                                         "--window", window_cells,
+                                         *([] if mode == "default" else ["--mode", mode]),
+                                         *self.args.options)
+        taken = report["measured"]
         mesh = self.tetstream.convert(out, self.tetstream.path("out.vtu"))
-        return {**compare.errors(self.judge(path, mesh, field)), "report": report}
+        return {**compare.errors(self.judge(path, mesh, field)), "report": report,
+                "cpu": taken["user"] + taken["system"]}
 
     def row(self, name, field):
         """The results of a row, those in core first."""
@@ -46,31 +54,36 @@ class Windows:
         info = self.tetstream.info(stream)
         windows = {IN_CORE: info["cells"]}
         windows.update({f"{n:g}": compare.window_of(n, info) for n in self.args.fronts})
-        for ratio in self.args.ratios:
+        for ratio, mode in itertools.product(self.args.ratios, self.args.modes):
             base = None
             for window, cells in windows.items():
-                result = self.result(path, field, ratio, stream, cells)
+                result = self.result(path, field, ratio, mode, stream, cells)
                 base = base or result
-                result["to_core"] = compare.quotients(result, base)
-                yield {"mesh": name, "field": field, "ratio": ratio, "window": window, **result}
+                result["to_core"] = {**compare.quotients(result, base),
+                                     "cpu": result["cpu"] / base["cpu"]}
+                yield {"mesh": name, "field": field, "ratio": ratio, "mode": mode,
+                       "window": window, **result}
 
 
 def cells_of(r):
     report, taken = r["report"], r["report"]["measured"]
-    return [r["mesh"], r["field"], f"{r['ratio']:g}", r["window"],
+    return [r["mesh"], r["field"], f"{r['ratio']:g}", r["mode"], r["window"],
             f"{report['window_cells'] / report['cells_in']:.3f}",
             f"{report['cells_out'] / report['target_cells']:.4f}",
             *(f"{r[k]:.3g}" for k in compare.ERRORS), f"{taken['wall']:.3f}",
-            f"{harness.megabytes(taken['peak_bytes']):.1f}",
-            *(f"{r['to_core'][k]:.2f}" for k in compare.ERRORS)]
+            f"{r['cpu']:.3f}", f"{harness.megabytes(taken['peak_bytes']):.1f}",
+            *(f"{r['to_core'][k]:.2f}" for k in (*compare.ERRORS, "cpu"))]
 
 
 def print_means(results):
-    """One line per ratio and window: the geometric means over the rows."""
-    for ratio, window in dict.fromkeys((r["ratio"], r["window"]) for r in results):
-        chosen = [r["to_core"] for r in results if (r["ratio"], r["window"]) == (ratio, window)]
-        means = [f"{statistics.geometric_mean([c[k] for c in chosen]):.3f}" for k in compare.ERRORS]
-        harness.print_row(["**geometric mean**", "", f"{ratio:g}", window] + [""] * 7 + means)
+    """One line per ratio, mode and window: the geometric means over the rows."""
+    def of(r):
+        return r["ratio"], r["mode"], r["window"]
+    for ratio, mode, window in dict.fromkeys(map(of, results)):
+        chosen = [r["to_core"] for r in results if of(r) == (ratio, mode, window)]
+        means = [f"{statistics.geometric_mean([c[k] for c in chosen]):.3f}"
+                 for k in (*compare.ERRORS, "cpu")]
+        harness.print_row(["**geometric mean**", "", f"{ratio:g}", mode, window] + [""] * 8 + means)
 
 
 def main():

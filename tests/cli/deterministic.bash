@@ -18,4 +18,10 @@ paper=$(simplified --mode paper)
 [[ $first != "$paper" ]] || fail "simplify: both modes give the same bytes"
 [[ $paper == "$(simplified --mode paper)" ]] || fail "simplify: two runs, different bytes"
 [[ $paper == "$(simplified --mode paper --seed 1)" ]] || fail "simplify: the default seed is not 1"
+queue=$(simplified --mode queue)
+[[ $queue != "$paper" && $queue != "$first" ]] || fail "simplify: two modes give the same bytes"
+[[ $queue == "$(simplified --mode queue --seed 2)" ]] || fail "simplify: the queue takes a seed"
+dearest=$(simplified --release error --window 2000)
+[[ $dearest != "$(simplified --window 2000)" ]] || fail "simplify: both releases, same bytes"
+[[ $dearest == "$(simplified --release error --window 2000)" ]] || fail "simplify: two runs, different bytes"
 [[ $paper != "$(simplified --mode paper --seed -77)" ]] || fail "simplify: other seed, same bytes"

@@ -28,6 +28,7 @@ refuses 1 "1%" simplify in.tets old.tets --error 1%
 refuses 1 "abc" simplify in.tets old.tets --ratio abc
 refuses 1 "seed" simplify in.tets old.tets --ratio 0.5 --seed 1.5
 refuses 1 "mode" simplify in.tets old.tets --ratio 0.5 --mode nonsense
+refuses 1 "release" simplify in.tets old.tets --ratio 0.5 --release nonsense
 refuses 1 "--rato" simplify in.tets old.tets --rato 0.5
 refuses 1 "extra" simplify in.tets old.tets extra --ratio 0.5
 refuses 1 "nonsense" simplify in.tets old.tets --ratio 0.5 --field nonsense
@@ -65,6 +66,7 @@ refuses 6 "nonsense" simplify in.tets old.tets --format-in nonsense --ratio 0.5
 refuses 6 "nonsense" convert in.tets old.tets --format nonsense
 refuses 6 "paper" simplify in.tets old.tets --error 1 --mode paper
 refuses 6 "paper" simplify in.tets old.tets --error 1 --ratio 0.5 --mode paper
+refuses 6 "queue" simplify in.tets old.tets --error 1 --mode queue
 
 # 0: targets can be combined.
 expect 0 simplify in.tets out.tets --ratio 0.5 --cells 100 --error 50 --quiet

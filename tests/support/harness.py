@@ -140,6 +140,15 @@ class VtkFilter(Program):
         return {**json.loads(text), "measured": taken}
 
 
+class Switched(Program):
+    """The simplification with switches of its own, as switched of tests/bench runs it."""
+
+    def simplify(self, source, target, *words):
+        """As that of the command."""
+        text, taken = self.run(source, target, *words)
+        return {**json.loads(text), "measured": taken}
+
+
 def bench_programs(build):
     """From the folder of a build: the command, and VTK's filter or None, both measured."""
     bench = os.path.join(build, "tests", "bench")

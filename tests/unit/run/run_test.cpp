@@ -140,7 +140,7 @@ TEST(SimplifyRun, TellsProgressInBothPhases) {
 // never turns back, and the paper's mode needs none.
 TEST(SimplifyRun, ReadsAMeshTwiceForAPilot) {
   TestMesh mesh = shuffled(richMesh(), 6);
-  for (Mode mode : {Mode::kSweep, Mode::kPaper}) {
+  for (Mode mode : {Mode::kSweep, Mode::kPaper, Mode::kQueue}) {
     RunOptions options = toRatio(0.2);
     options.simplify.mode = mode;
     Recorder out;

@@ -295,13 +295,15 @@ TEST(SimplifierTargets, OfCellsNeedACountWhateverElseIsAskedFor) {
   EXPECT_NE(text.find("does not say how many"), std::string::npos) << text;
 }
 
-TEST(SimplifierTargets, OfTheErrorAreNotForThePapersMode) {
-  SimplifyOptions options = toRatio(0.5, 0, Mode::kPaper);
-  options.error = 1;
-  const TestMesh mesh = oneCell();
-  const auto [status, text] = thrownBy([&] { simplified(mesh, options); });
-  EXPECT_EQ(status, Status::kUnsupported);
-  EXPECT_NE(text.find("paper"), std::string::npos) << text;
+TEST(SimplifierTargets, OfTheErrorAreForTheSweepOnly) {
+  for (auto [mode, name] : {std::pair(Mode::kPaper, "paper"), std::pair(Mode::kQueue, "queue")}) {
+    SimplifyOptions options = toRatio(0.5, 0, mode);
+    options.error = 1;
+    const TestMesh mesh = oneCell();
+    const auto [status, text] = thrownBy([&] { simplified(mesh, options); });
+    EXPECT_EQ(status, Status::kUnsupported);
+    EXPECT_NE(text.find(name), std::string::npos) << text;
+  }
 }
 
 }  // namespace

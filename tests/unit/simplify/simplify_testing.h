@@ -27,7 +27,7 @@ inline Result simplified(const TestMesh& mesh, const SimplifyOptions& options,
 }
 
 // What is promised is promised for every mode; the first is the default.
-constexpr Mode kModes[] = {Mode::kSweep, Mode::kPaper};
+constexpr Mode kModes[] = {Mode::kSweep, Mode::kPaper, Mode::kQueue};
 
 inline SimplifyOptions inMode(Mode mode) {
   SimplifyOptions options;

@@ -135,10 +135,11 @@ void expectReachedIn(Mode mode, ScalarType type, const Field& f) {
   expectReached(result);
 }
 
-// In the paper's mode, too, whatever the default is.
+// In the other modes, too, whatever the default is.
 void expectReachedFor(const Field& f) {
   expectReachedIn(SimplifyOptions().mode, k32, f);
   expectReachedIn(Mode::kPaper, k64, f);
+  expectReachedIn(Mode::kQueue, k32, f);
 }
 
 TEST(SimplifierTargetInAFewFronts, IsReachedForAFlatField) {
