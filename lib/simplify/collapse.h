@@ -17,6 +17,20 @@ class CollapseObserver {
   virtual void collapsed(uint32_t u, uint32_t v, double error) = 0;
 };
 
+// Told of every flip: the cells of the window in the slots `before`, of one region, made way for
+// those `after`, which fill the same space; no vertex was moved. Slots are those until the next
+// pack. A seam for maps of points to cells.
+struct PlacedByFlip {
+  uint32_t cell;
+  double corner[4][3];  // positively ordered
+};
+class FlipObserver {
+ public:
+  virtual ~FlipObserver() = default;
+  virtual void flipped(const uint32_t* before, size_t before_count, const PlacedByFlip* after,
+                       size_t after_count) = 0;
+};
+
 enum class Outcome {
   kDone,
   kLocked,

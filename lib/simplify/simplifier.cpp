@@ -45,6 +45,8 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
          "ratio");
   if (target.error > 0 && options.mode == Mode::kPaper)
     fail(Status::kUnsupported, "mode \"paper\" knows no bound on the error");
+  if (options.shape == Shape::kSolver && options.mode == Mode::kPaper)
+    fail(Status::kUnsupported, "mode \"paper\" knows no shapes for solvers");
   return target;
 }
 
@@ -106,7 +108,7 @@ class WindowedEngine final : public Simplifier::Engine {
         resolver_(core_, metric_, regions_, account_),
         collapser_(core_, core_.window, account_),
         selector_(options.mode == Mode::kPaper ? makeRandomSelector(core_, collapser_, account_)
-                                               : makeSweepSelector(core_, account_)),
+                                               : makeSweepSelector(core_, regions_, account_)),
         release_(core_, out) {
     core_.report.window_cells = capacity_;
     turn_at_ = firstTurn();
