@@ -47,7 +47,7 @@ bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out) {
   addGone(beyond, out);
   out.after = -1;
   for (int k = 0; k < 3; ++k) {
-    // (d, t0, t1, t2) is positive, so (d, t0, t1, e) is, with e on the side of t2.
+    // (d, t0, t1, t2) is positive; in it e, beyond the face, takes the place of each t in turn.
     const uint32_t made[4] = {d, t[k], t[(k + 1) % 3], e};
     std::copy_n(made, 4, out.made[out.made_count++]);
     out.after = std::max(out.after, thinnessAt(made));

@@ -1,11 +1,11 @@
-// mesh: how thin a cell is, as a number to compare. Depends on orient.h.
+// mesh: how thin a cell is, as a number to compare. Depends on orient.h, topology.h.
 #pragma once
 
 namespace tetstream {
 
-// The square of the cosine of the cell's smallest dihedral angle, negative for an angle above 90
-// degrees: 0.25 for the regular cell's half right angle and 1 for a flat one's none; larger is
-// worse. kTurned where its volume is not strictly positive, which is decided exactly.
+// The square of the cosine of the cell's smallest dihedral angle: 1/9 for the regular cell, 1 for a
+// flat one; larger is worse. kTurned where its volume is not strictly positive, which is decided
+// exactly.
 constexpr double kTurned = 2;
 double thinness(const double p[4][3]);
 // Of a cell with this smallest angle, from 0 to 90.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "settled.h"
+
 namespace tetstream {
 
 // The mean squared change of the fields over the cells concerned, in those of the whole's error so
@@ -30,6 +32,13 @@ bool Reshaper<S>::reshape(int64_t least_cells, int64_t most_cells) {
   for (uint32_t c = 0; c < patch_.cellEnd(); ++c)
     if (patch_.isLive(c) && reconnector_.thinnessOfCell(c) > core_.poor) any = flipAt(c) || any;
   return any;
+}
+
+template <class S>
+void Reshaper<S>::unsettleChanged() {
+  for (uint32_t v = 0; v < patch_.vertexEnd(); ++v)
+    if (changed_[v] && core_.window.isFree(patch_.slotOf(v)))
+      unsettle(core_.window, patch_.slotOf(v));
 }
 
 // Of all flips that the cell takes part in, the one that improves the worst cell most.

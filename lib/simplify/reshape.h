@@ -21,8 +21,9 @@ class Reshaper {
   // Flips at each cell with a dihedral angle not much above the floor, while the window's cells
   // stay between the limits. Returns whether there was one.
   bool reshape(int64_t least_cells, int64_t most_cells);
-  // Whether the cells round a vertex of the patch were replaced.
-  bool hasChanged(uint32_t v) const { return changed_[v] != 0; }
+  // After the patch was stored: the next sweep looks again at the edges of the vertices whose cells
+  // were replaced.
+  void unsettleChanged();
 
  private:
   bool flipAt(uint32_t c);
@@ -38,7 +39,7 @@ class Reshaper {
   Patch<S>& patch_;
   const Regions<S>& regions_;
   Reconnector<S> reconnector_;
-  Array<uint8_t> changed_;
+  Array<uint8_t> changed_;     // per vertex of the patch: its cells were replaced
   std::vector<double> means_;  // of float cell data
   int64_t least_cells_ = 0, most_cells_ = 0;
   double allowed_change_ = 0;

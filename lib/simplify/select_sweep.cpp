@@ -84,7 +84,6 @@ class SweepSelector final : public Selector {
 
   bool reshape();
   void reshapeAll(const std::function<void()>& tick);
-  void unsettleChanged();
   bool sweepPatch(float bound);
   void evaluateAll(float bound);
   void settleAll();
@@ -173,7 +172,7 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
       const bool reshaped = shapes_first_ && reshape();
       patch_.store();
       settleAll();
-      if (reshaped) unsettleChanged();
+      if (reshaped) reshaper_.unsettleChanged();
     });
     tick();
     if (mustStop(core_.window.liveCells())) return false;
@@ -233,20 +232,13 @@ bool SweepSelector<S>::reshape() {
 }
 
 template <class S>
-void SweepSelector<S>::unsettleChanged() {
-  for (uint32_t v = 0; v < patch_.vertexEnd(); ++v)
-    if (reshaper_.hasChanged(v) && core_.window.isFree(patch_.slotOf(v)))
-      unsettle(core_.window, patch_.slotOf(v));
-}
-
-template <class S>
 void SweepSelector<S>::reshapeAll(const std::function<void()>& tick) {
   tiling_.build(round_++, std::numeric_limits<float>::infinity());
   for (const TilePiece& tile : tiling_.tiles()) {
     onTile(tile, [&] {
       if (!reshape()) return;
       patch_.store();
-      unsettleChanged();
+      reshaper_.unsettleChanged();
     });
     tick();
   }
