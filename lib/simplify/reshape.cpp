@@ -152,7 +152,7 @@ void Reshaper<S>::apply(const Reconnection& r) {
 template <class S>
 void Reshaper<S>::handOverCellData(const Reconnection& r, const uint32_t* slots) {
   Window<S>& window = core_.window;
-  for (uint32_t m = r.gone_count; m < r.made_count; ++m)
+  for (uint32_t m = r.gone_count; m < r.made_count && core_.plan.cell_picks > 0; ++m)
     std::copy_n(window.cellPicks(patch_.cellSlotOf(r.gone[0])), core_.plan.cell_picks,
                 window.cellPicks(patch_.cellSlotOf(slots[m])));
   const size_t n = means_.size();
