@@ -12,8 +12,8 @@ namespace tetstream {
 struct ThinAngle {
   explicit ThinAngle(double angle);  // in degrees; 0: no cell is
   double degrees;
-  double cos2;                         // squared cosine
-  double shape;                        // no cell of a better shape (below) is thin
+  double cos2;   // squared cosine
+  double shape;  // no cell of a better shape (below) is thin
 };
 
 struct StarShape {
