@@ -109,6 +109,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges "paper" draws for one collapse */
 #define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input twice; "none" */
 #define TETSTREAM_OPTION_RELEASE 136         /* text: what leaves the window first: "order", "error" */
+#define TETSTREAM_OPTION_SHAPE 140           /* text: "field", "solver": no thin cells */
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */

@@ -20,7 +20,8 @@ Patch<S>::Patch(Account& account, Window<S>& window)
       values_(account),
       quadrics_(account),
       star_of_(account),
-      lists_(account) {}
+      lists_(account),
+      gone_(account) {}
 
 template <class T>
 static void ensure(Array<T>& array, size_t size) {
@@ -195,6 +196,62 @@ void Patch<S>::merge(uint32_t u, uint32_t v, const Stars& stars) {
   lists_end_ += count;
   flags_[v] |= kCollapsed;
   flags_[u] |= flags_[v] & kBoundary;
+}
+
+// Lists hold dead cells until somebody looks: no more.
+template <class S>
+void Patch<S>::listGone() {
+  for (uint32_t v = 0; v < owned_; ++v) {
+    List& list = star_of_[v];
+    uint16_t* const cells = lists_.data() + list.begin;
+    const auto dead = [this](uint16_t c) { return !isLive(c); };
+    list.size = static_cast<uint32_t>(std::remove_if(cells, cells + list.size, dead) - cells);
+  }
+  ensure(gone_, cells_);
+  gone_end_ = 0;
+  for (uint32_t c = cells_; c-- > 0;)
+    if (!isLive(c)) gone_[gone_end_++] = static_cast<uint16_t>(c);
+}
+
+template <class S>
+void Patch<S>::unlist(uint32_t c) {
+  for (uint32_t j = 0; j < 4; ++j) {
+    if (vertexOf(c, j) >= owned_) continue;
+    List& list = star_of_[vertexOf(c, j)];
+    uint16_t* const cells = lists_.data() + list.begin;
+    list.size = static_cast<uint32_t>(std::remove(cells, cells + list.size, c) - cells);
+  }
+}
+
+template <class S>
+void Patch<S>::list(uint32_t c) {
+  for (uint32_t j = 0; j < 4; ++j) {
+    if (vertexOf(c, j) >= owned_) continue;
+    List& list = star_of_[vertexOf(c, j)];
+    uint16_t* const cells = roomFor(list.size + 1);
+    std::copy_n(lists_.data() + list.begin, list.size, cells);
+    cells[list.size] = static_cast<uint16_t>(c);
+    list.begin = static_cast<uint32_t>(lists_end_);
+    lists_end_ += ++list.size;
+  }
+}
+
+template <class S>
+void Patch<S>::replace(const uint32_t* gone, uint32_t gone_count, const uint32_t (*made)[4],
+                       uint32_t made_count, uint32_t* slots) {
+  for (uint32_t i = 0; i < gone_count; ++i) {
+    unlist(gone[i]);
+    std::fill_n(&corner_[4 * size_t{gone[i]}], 4, kGoneCorner);
+  }
+  for (uint32_t i = made_count; i < gone_count; ++i)
+    gone_[gone_end_++] = static_cast<uint16_t>(gone[i]);
+  for (uint32_t i = 0; i < made_count; ++i) {
+    slots[i] = i < gone_count ? gone[i] : gone_[--gone_end_];
+    for (uint32_t j = 0; j < 4; ++j)
+      corner_[4 * size_t{slots[i]} + j] = static_cast<uint16_t>(made[i][j]);
+    list(slots[i]);
+  }
+  live_ += static_cast<int64_t>(made_count) - static_cast<int64_t>(gone_count);
 }
 
 template class Patch<float>;

@@ -60,6 +60,18 @@ class Patch {
   // As those of Topology; for owned vertices.
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring);
   void merge(uint32_t u, uint32_t v, const Stars& stars);
+
+  // Before cells are replaced, and again when edges were merged since: finds the slots that are of
+  // use for further ones.
+  void listGone();
+  // More cells than that can be made at once than go.
+  uint32_t freeSlots() const { return gone_end_; }
+  // The cells `gone` make way for others with the corners `made`, four to a cell; `slots` becomes
+  // where those are: the slots of the gone first.
+  void replace(const uint32_t* gone, uint32_t gone_count, const uint32_t (*made)[4],
+               uint32_t made_count, uint32_t* slots);
+  uint32_t cellSlotOf(uint32_t c) const { return global_cell_[c]; }  // in the window
+
   // For listVertices: the cells of v's star, dead ones among them, and all corners.
   const uint16_t* starOf(uint32_t v) const { return &lists_[star_of_[v].begin]; }
   uint32_t starSize(uint32_t v) const { return star_of_[v].size; }
@@ -78,6 +90,8 @@ class Patch {
   void forget();
   uint16_t* roomFor(size_t count);
   void storeCell(uint32_t c);
+  void unlist(uint32_t c);
+  void list(uint32_t c);
 
   Account* account_;
   Window<S>& window_;
@@ -92,6 +106,8 @@ class Patch {
   Array<List> star_of_;  // of owned vertices
   Array<uint16_t> lists_;
   size_t lists_end_ = 0;
+  Array<uint16_t> gone_;  // dead cells in no list
+  uint32_t gone_end_ = 0;
 };
 
 }  // namespace tetstream

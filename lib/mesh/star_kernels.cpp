@@ -17,7 +17,7 @@ static const bool has_v3 = processorHasV3();
 #define TETSTREAM_BEST(kernel, ...) kernel##Of(__VA_ARGS__)
 #endif
 
-ThinAngle::ThinAngle(double degrees) {
+ThinAngle::ThinAngle(double angle) : degrees(angle) {
   const double sine = std::sin(degrees * (3.14159265358979323846 / 180));
   cos2 = 1 - sine * sine;
   shape = std::min(4 * sine * sine, 1.0);

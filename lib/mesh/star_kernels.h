@@ -10,9 +10,10 @@ namespace tetstream {
 
 // Cells whose smallest dihedral angle is below this one are thin.
 struct ThinAngle {
-  explicit ThinAngle(double degrees);  // 0: no cell is
-  double cos2;                         // squared cosine
-  double shape;                        // no cell of a better shape (below) is thin
+  explicit ThinAngle(double angle);  // in degrees; 0: no cell is
+  double degrees;
+  double cos2;   // squared cosine
+  double shape;  // no cell of a better shape (below) is thin
 };
 
 struct StarShape {

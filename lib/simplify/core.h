@@ -135,6 +135,7 @@ struct Core {
   std::vector<S> scale, inverse_scale;  // per dimension: normalised = scale * user's units
   double error_unit = 1;                // times a quadric error: the report's unit
   ThinAngle thin;                       // no more cells below than the input has
+  double poor = 1;                      // cells thinner than this are worth a flip (thinness.h)
   std::vector<ThinAngle> dear;          // falling, above: more cells below have their price
   // Of all cells read, normalised: volume, and the error made so far, volume times squared error;
   // the extent of the mesh; the error that may be made.

@@ -5,15 +5,20 @@
 
 #include "orient.h"
 #include "settled.h"
+#include "thinness.h"
 
 namespace tetstream {
 
 // Cells with a dihedral angle below the floor harm a solver: as few as the input has are made. The
 // floor is the largest of these, in degrees, that hardly any cell of the input is below: stretched
-// meshes would lose their field for angles that they never had. The paper's mode has the least
-// only.
+// meshes would lose their field for angles that they never had. Where shapes come first they begin
+// higher; the paper's mode has the least only.
 constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
+constexpr double kSolverFloors[] = {10, 8, 6, 4.5, 3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
 constexpr double kShareBelow = 0.01;
+// Where shapes come first, cells are flipped whose smallest angle is below this many floors. At 2
+// it takes twice the time.
+constexpr double kPoor = 1.5;
 // Where the input has more than this share of cells below one of these, making the share larger has
 // its price. Other meshes are spared the time.
 constexpr double kDear[] = {10, 1.01};
@@ -32,6 +37,8 @@ Metric<S>::Metric(Core<S>& core)
       used_range_(low_.size(), -1) {
   if (followsPaper(core.options.mode))
     floors_.emplace_back(kLeastFloor);
+  else if (core.options.shape == Shape::kSolver)
+    for (double degrees : kSolverFloors) floors_.emplace_back(degrees);
   else
     for (double degrees : kFloors) floors_.emplace_back(degrees);
   below_.assign(floors_.size(), 0);
@@ -254,6 +261,7 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
          static_cast<double>(below_[i]) > kShareBelow * static_cast<double>(sampled_))
     ++i;
   core_.thin = floors_[i];
+  core_.poor = thinnessOfAngle(std::min(kPoor * core_.thin.degrees, 90.0));
   core_.dear.clear();
   for (size_t k = 0; k < dear_.size(); ++k)
     if (dear_[k].cos2<core_.thin.cos2&& static_cast<double>(below_dear_[k])> kShareToSpare *

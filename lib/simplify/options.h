@@ -19,6 +19,7 @@ constexpr bool followsPaper(Mode mode) {
 }
 enum class PilotUse { kAuto, kNever };
 enum class ReleaseOrder { kArrival, kError };
+enum class Shape { kField, kSolver };
 
 struct SimplifyOptions {
   // Targets, of which the first that is reached ends the run; 0: not given. Without any, a ratio of
@@ -35,6 +36,7 @@ struct SimplifyOptions {
   ReleaseOrder release = ReleaseOrder::kArrival;
   int64_t seed = 1;
   int64_t candidates = 8;
+  Shape shape = Shape::kField;
   int64_t window_cells = 0;  // 0: from the front
   int64_t memory_bytes = 0;  // 0: no limit
   bool rough = false;        // a sample: only how the cells that are left spread matters
@@ -50,7 +52,7 @@ struct Report {
   int64_t cells_in = 0, vertices_in = 0, cells_out = 0, vertices_out = 0;
   int64_t target_cells = 0, window_cells = 0;
   int64_t front_width = 0, front_span = 0, front_cells = 0;
-  int64_t collapses = 0;
+  int64_t collapses = 0, flips = 0;
   int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
   int64_t locked_cells = 0, unused_vertices = 0;
   double largest_error = 0;

@@ -153,8 +153,7 @@ void Release<S>::writeDearest(uint32_t keep) {
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
     if (mesh.isLive(c) && mayGo(c)) *end++ = {errorOf(c), c};
   std::sort(ranked_.data(), end);
-  for (const RankedCell* r = ranked_.data(); r != end && mustGo(keep); ++r)
-    writeCell(r->cell);
+  for (const RankedCell* r = ranked_.data(); r != end && mustGo(keep); ++r) writeCell(r->cell);
 }
 
 template <class S>

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "choices.h"
+#include "reshape.h"
 #include "select.h"
 #include "settled.h"
 #include "solutions.h"
@@ -25,12 +26,13 @@ constexpr int64_t kSlackShare = 50;  // one part in these of a goal is no reason
 template <class S>
 class SweepSelector final : public Selector {
  public:
-  SweepSelector(Core<S>& core, Account& account)
+  SweepSelector(Core<S>& core, const Regions<S>& regions, Account& account)
       : core_(core),
         tiling_(core, account),
         bounds_(core),
         patch_(account, core.window),
         collapser_(core, patch_, account),
+        reshaper_(core, patch_, regions, account),
         exhaustive_(makeExhaustiveSelector(core, collapser_)),
         choices_(account),
         solutions_(core, account),
@@ -39,19 +41,20 @@ class SweepSelector final : public Selector {
         seen_(account),
         looks_(account),
         spared_(account),
-        z_(static_cast<size_t>(core.plan.dimension)) {}
+        z_(static_cast<size_t>(core.plan.dimension)),
+        shapes_first_(core.options.shape == Shape::kSolver) {}
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
     goal_ = goal;
     int exponent;
     unit_ = std::frexp(core_.error_unit, &exponent);
     core_.error_reached = false;
+    reshaper_.observe(core_.tracer && core_.tracer->tracesPoints() ? core_.tracer : nullptr);
     sweep(tick);
-    if (!goal.last || !core_.options.last_resort || mustStop(core_.window.liveCells())) return;
-    tryEverything(tick);
-    if (mustStop(core_.window.liveCells())) return;
-    core_.thin = ThinAngle(kLeastFloor);  // rather than to miss the target
-    tryEverything(tick);
+    if (goal.last && core_.options.last_resort && !mustStop(core_.window.liveCells()))
+      sweepOut(tick);
+    // Twice, with seams that lie elsewhere.
+    for (int round = 0; shapes_first_ && round < 2; ++round) reshapeAll(tick);
   }
 
   double bound() const override { return bound_ / unit_; }
@@ -69,6 +72,7 @@ class SweepSelector final : public Selector {
            core_.error_reached;
   }
   void sweep(const std::function<void()>& tick);
+  void sweepOut(const std::function<void()>& tick);
   double firstBound();
   bool pass(float bound, const std::function<void()>& tick);
   template <class Work>
@@ -80,6 +84,8 @@ class SweepSelector final : public Selector {
   }
   void tryEverything(const std::function<void()>& tick);
 
+  bool reshape();
+  void reshapeAll(const std::function<void()>& tick);
   bool sweepPatch(float bound);
   void evaluateAll(float bound);
   void settleAll();
@@ -104,6 +110,7 @@ class SweepSelector final : public Selector {
   SweepBounds<S> bounds_;
   Patch<S> patch_;
   Collapser<Patch<S>> collapser_;
+  Reshaper<S> reshaper_;
   std::unique_ptr<Selector> exhaustive_;
   Choices choices_;
   Solutions<S> solutions_;
@@ -112,6 +119,7 @@ class SweepSelector final : public Selector {
   Array<uint8_t> looks_;               // of an owned vertex: at all its edges
   Array<float> spared_;                // and the least error of those that were spared
   std::vector<S> z_;
+  const bool shapes_first_;
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
   Goal goal_{};
@@ -163,8 +171,10 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   for (const TilePiece& tile : tiling_.tiles()) {
     onTile(tile, [&] {
       more = sweepPatch(bound) || more;
+      const bool reshaped = shapes_first_ && reshape();
       patch_.store();
       settleAll();
+      if (reshaped) reshaper_.unsettleChanged();
     });
     tick();
     if (mustStop(core_.window.liveCells())) return false;
@@ -200,6 +210,40 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
       if (mustStop(core_.window.liveCells())) return;
     }
   } while (core_.window.liveCells() < live);
+}
+
+// The target is not reached: edges are tried one by one, then with less regard for shapes.
+template <class S>
+void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
+  tryEverything(tick);
+  while (!mustStop(core_.window.liveCells())) {
+    const double floor = core_.thin.degrees;
+    if (shapes_first_) reshapeAll(tick);
+    core_.thin = ThinAngle(shapes_first_ ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
+    tryEverything(tick);
+    if (!shapes_first_ || floor == kLeastFloor) return;
+  }
+}
+
+// A target that is reached stays so.
+template <class S>
+bool SweepSelector<S>::reshape() {
+  const bool is_reached = goal_.last && patch_.liveCells() <= goal_.cells;
+  return reshaper_.reshape(goal_.least_cells,
+                           is_reached ? goal_.cells : std::numeric_limits<int64_t>::max());
+}
+
+template <class S>
+void SweepSelector<S>::reshapeAll(const std::function<void()>& tick) {
+  tiling_.build(round_++, std::numeric_limits<float>::infinity());
+  for (const TilePiece& tile : tiling_.tiles()) {
+    onTile(tile, [&] {
+      if (!reshape()) return;
+      patch_.store();
+      reshaper_.unsettleChanged();
+    });
+    tick();
+  }
 }
 
 // ------------------------------------------------------------------------------- in a patch
@@ -443,11 +487,13 @@ void SweepSelector<S>::settleAll() {
 }  // namespace
 
 template <class S>
-std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, Account& account) {
-  return std::make_unique<SweepSelector<S>>(core, account);
+std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, const Regions<S>& regions,
+                                            Account& account) {
+  return std::make_unique<SweepSelector<S>>(core, regions, account);
 }
 
-template std::unique_ptr<Selector> makeSweepSelector(Core<float>&, Account&);
-template std::unique_ptr<Selector> makeSweepSelector(Core<double>&, Account&);
+template std::unique_ptr<Selector> makeSweepSelector(Core<float>&, const Regions<float>&, Account&);
+template std::unique_ptr<Selector> makeSweepSelector(Core<double>&, const Regions<double>&,
+                                                     Account&);
 
 }  // namespace tetstream

@@ -44,9 +44,11 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
     fail(Status::kUnsupported,
          "a number of cells was asked for, but the stream does not say how many it has: give a "
          "ratio");
+  const char* const mode = options.mode == Mode::kQueue ? "queue" : "paper";
   if (target.error > 0 && followsPaper(options.mode))
-    fail(Status::kUnsupported, "mode \"%s\" knows no bound on the error",
-         options.mode == Mode::kQueue ? "queue" : "paper");
+    fail(Status::kUnsupported, "mode \"%s\" knows no bound on the error", mode);
+  if (options.shape == Shape::kSolver && followsPaper(options.mode))
+    fail(Status::kUnsupported, "mode \"%s\" knows no shapes for solvers", mode);
   return target;
 }
 
@@ -167,7 +169,7 @@ class WindowedEngine final : public Simplifier::Engine {
       case Mode::kSweep:
         break;
     }
-    return makeSweepSelector(core_, account_);
+    return makeSweepSelector(core_, regions_, account_);
   }
 
   static void checkCount(const char* what, int64_t announced, uint64_t came) {

@@ -33,6 +33,12 @@ void Tracer<S>::collapsed(const TracedCollapse<S>& c) {
 }
 
 template <class S>
+void Tracer<S>::flipped(const uint32_t* before, size_t before_count, const PlacedCell* after,
+                        size_t after_count) {
+  points_.reshaped(window_.firstPoints(), before, before_count, after, after_count);
+}
+
+template <class S>
 void Tracer<S>::writeVertex(uint32_t v, int corner, uint64_t rank) {
   const int64_t origin = window_.origin(v);
   if (!sinks_.map || origin < 0) return;

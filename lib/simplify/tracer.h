@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "flip_observer.h"
 #include "plan.h"
 #include "traced_points.h"
 #include "traces.h"
@@ -28,12 +29,14 @@ struct TracedCollapse {
 };
 
 template <class S>
-class Tracer {
+class Tracer final : public FlipObserver {
  public:
   Tracer(Window<S>& window, const Plan& plan, TraceSinks sinks, Account& account);
 
   bool tracesPoints() const { return sinks_.map != nullptr; }
   void collapsed(const TracedCollapse<S>& collapse);
+  void flipped(const uint32_t* before, size_t before_count, const PlacedCell* after,
+               size_t after_count) override;
   // A cell leaves, with that rank; at `corner`, with its vertex, which no cell has left with.
   void writeVertex(uint32_t v, int corner, uint64_t rank);
   void writeCell(uint32_t cell, uint64_t rank);

@@ -83,5 +83,115 @@ TEST(Shapes, AreNoWorseWhereSomeAreThin) {
   }
 }
 
+SimplifyOptions forSolvers(double ratio, int64_t window = 0) {
+  SimplifyOptions options = toRatio(ratio, window);
+  options.shape = Shape::kSolver;
+  return options;
+}
+
+TEST(Shapes, SuitASolverWhereThoseOfTheInputDo) {
+  for (ScalarType type : {ScalarType::kFloat32, ScalarType::kFloat64}) {
+    TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1, type);
+    addPositionField(mesh, {"f", 1, type}, [](double x, double y, double z) {
+      return std::sin(0.5 * x) * std::cos(0.4 * y) + std::sin(0.7 * z);
+    });
+    ASSERT_EQ(shareBelow(mesh, 10), 0);
+    const MeshFacts before = factsOf(mesh);
+    for (double ratio : {0.5, 0.1}) {
+      const Result usual = simplified(mesh, toRatio(ratio, fourFronts()));
+      const Result result = simplified(mesh, forSolvers(ratio, fourFronts()));
+      expectSound(mesh, result);
+      expectReached(result);
+      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "") << ratio;
+      EXPECT_EQ(shareBelow(result.out.mesh, 9.99), 0) << ratio;
+      EXPECT_GT(shareBelow(usual.out.mesh, 9.99), 0) << ratio;
+      EXPECT_GT(result.report.flips, 0) << ratio;
+      EXPECT_LE(result.report.estimated_error, 2 * usual.report.estimated_error) << ratio;
+    }
+  }
+}
+
+// Windows are cut by cells read, whatever the batches.
+TEST(Shapes, OfASolverDoNotDependOnBatches) {
+  const TestMesh mesh = layered(side(), 1, 1);
+  const SimplifyOptions options = forSolvers(0.1, fourFronts());
+  const Result result = simplified(mesh, options);
+  for (size_t batch : {size_t{7}, size_t{100000}}) {
+    Cut cut;
+    cut.batch_cells = batch;
+    EXPECT_TRUE(simplified(mesh, options, cut).out.allBytes() == result.out.allBytes()) << batch;
+  }
+}
+
+TEST(Shapes, OfASolverAreNoWorseWhereSomeAreThin) {
+  for (double flatness : {12.0, 70.0}) {
+    const TestMesh mesh = layered(side(), 6, flatness);
+    const double thin = shareBelow(mesh, 10), very_thin = shareBelow(mesh, 1.01);
+    for (double ratio : {0.5, 0.1}) {
+      const Result result = simplified(mesh, forSolvers(ratio, fourFronts()));
+      expectSound(mesh, result);
+      expectReached(result);
+      EXPECT_LE(shareBelow(result.out.mesh, 10), (ratio < 0.5 ? 0.75 : 1) * thin) << ratio;
+      EXPECT_LE(shareBelow(result.out.mesh, 1), very_thin) << ratio;
+    }
+  }
+}
+
+// A target beyond what good shapes allow is reached with worse ones.
+TEST(Shapes, OfASolverGiveWayToTheTarget) {
+  const TestMesh mesh = layered(side(), 1, 1);
+  for (double ratio : {0.01, 0.003}) {
+    const Result result = simplified(mesh, forSolvers(ratio));
+    expectSound(mesh, result);
+    expectReached(result);
+  }
+}
+
+TEST(Shapes, OfASolverKeepRegionsAndLockedVertices) {
+  TestMesh mesh = layered(side(), 1, 1);
+  const auto middle = [&](size_t c) {
+    double z = 0;
+    for (size_t j = 0; j < 4; ++j)
+      z += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), 2) / 4;
+    return z;
+  };
+  mesh.addIntegerCellData("material", [&](size_t c) { return middle(c) < side() ? 1 : 2; });
+  mesh.addCellData({"amount", 1, ScalarType::kFloat64}, [&](size_t c, int) { return middle(c); });
+  mesh.locked.assign(mesh.vertexCount(), 0);
+  for (size_t v = 0; v < mesh.vertexCount(); v += 29) mesh.locked[v] = 1;
+  const Result result = simplified(mesh, forSolvers(0.3, fourFronts()));
+  expectSound(mesh, result);
+  const TestMesh& out = result.out.mesh;
+  double volume[3] = {0, 0, 0}, before[3] = {0, 0, 0}, amount = 0, amount_before = 0;
+  for (size_t c = 0; c < out.cellCount(); ++c) {
+    volume[out.cellInteger(0, c)] += std::fabs(cellVolume(out, c));
+    amount += std::fabs(cellVolume(out, c)) * out.cellValue(1, c);
+  }
+  for (size_t c = 0; c < mesh.cellCount(); ++c) {
+    before[mesh.cellInteger(0, c)] += std::fabs(cellVolume(mesh, c));
+    amount_before += std::fabs(cellVolume(mesh, c)) * mesh.cellValue(1, c);
+  }
+  for (int label : {1, 2}) EXPECT_NEAR(volume[label], before[label], 1e-2 * before[label]);
+  EXPECT_NEAR(amount, amount_before, 1e-2 * amount_before);
+  size_t locked = 0;
+  for (uint8_t l : out.locked) locked += l;
+  EXPECT_EQ(locked, (mesh.vertexCount() + 28) / 29);
+}
+
+TEST(Shapes, OfASolverFitABudget) {
+  const TestMesh mesh = layered(side(), 1, 1);
+  SimplifyOptions options = forSolvers(0.1);
+  options.memory_bytes = 3 << 20;
+  const Result result = simplified(mesh, options);
+  expectReached(result);
+  EXPECT_LE(result.report.peak_window_bytes, static_cast<uint64_t>(options.memory_bytes));
+}
+
+TEST(Shapes, OfASolverAreNotForThePapersMode) {
+  SimplifyOptions options = forSolvers(0.1);
+  options.mode = Mode::kPaper;
+  EXPECT_EQ(thrownBy([&] { simplified(oneCell(), options); }).first, Status::kUnsupported);
+}
+
 }  // namespace
 }  // namespace tetstream::test

@@ -1,0 +1,47 @@
+// mesh: other cells in the place of some: flips. Depends on patch.h, thinness.h.
+//
+// After Freitag and Ollivier-Gooch 1997 and Klingner and Shewchuk 2007. A flip replaces cells by
+// others with the same outer faces, so boundary, interfaces and vertices stay; with the new cells
+// strictly positive, which is decided exactly, they cover the same points once.
+#pragma once
+
+#include "patch.h"
+#include "thinness.h"
+
+namespace tetstream {
+
+struct Reconnection {
+  static constexpr uint32_t kMostRing = 7, kMostCells = 2 * (kMostRing - 2);
+  uint32_t gone[kMostRing], made[kMostCells][4];  // cells; corners, positively ordered
+  uint32_t gone_count = 0, made_count = 0;
+  // The worst thinness. Where it would not improve, `made` is not complete.
+  double before = -1, after = kTurned;
+  bool improves() const { return after < before; }
+};
+
+// Finds flips in a patch; Patch::replace does them.
+template <class S>
+class Reconnector {
+ public:
+  Reconnector(Patch<S>& patch, Account& account) : patch_(patch), star_(account), ring_(account) {}
+
+  // The face opposite corner j of cell c makes way for an edge: two cells become three. False where
+  // it is on the boundary or the cell beyond is not known.
+  bool removeFace(uint32_t c, uint32_t j, Reconnection& out);
+  // The edge between corners i and j of cell c makes way for triangles spanning its ring: n cells
+  // become 2 (n - 2), by the best triangulation. False where it is on the boundary, its ring is not
+  // known or has more than kMostRing cells.
+  bool removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out);
+  double thinnessOfCell(uint32_t c) const;
+
+ private:
+  double thinnessAt(const uint32_t corners[4]) const;
+  bool orderRing(uint32_t v, uint32_t* ring) const;
+  void addGone(uint32_t c, Reconnection& out) const;
+  void triangulate(uint32_t u, uint32_t v, const uint32_t* ring, Reconnection& out) const;
+
+  Patch<S>& patch_;
+  Star star_, ring_;
+};
+
+}  // namespace tetstream

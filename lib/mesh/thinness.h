@@ -1,0 +1,17 @@
+// mesh: how thin a cell is, as a number to compare. Depends on orient.h, topology.h.
+#pragma once
+
+namespace tetstream {
+
+// The square of the cosine of the cell's smallest dihedral angle: 1/9 for the regular cell, 1 for a
+// flat one; larger is worse. kTurned where its volume is not strictly positive, which is decided
+// exactly.
+constexpr double kTurned = 2;
+double thinness(const double p[4][3]);
+// Of a cell with this smallest angle, from 0 to 90.
+double thinnessOfAngle(double degrees);
+
+// 6 V, with its sign.
+double sixVolume(const double p[4][3]);
+
+}  // namespace tetstream

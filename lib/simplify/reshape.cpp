@@ -1,0 +1,194 @@
+#include "reshape.h"
+
+#include <algorithm>
+
+#include "settled.h"
+
+namespace tetstream {
+
+// The mean squared change of the fields over the cells concerned, in those of the whole's error so
+// far. At 1 the errors at steep fronts are larger, since collapses stay illegal there; at 100 those
+// of smooth fields are.
+constexpr double kMostChange = 10;
+
+template <class S>
+Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, const Regions<S>& regions, Account& account)
+    : core_(core),
+      patch_(patch),
+      regions_(regions),
+      reconnector_(patch, account),
+      changed_(account),
+      means_(static_cast<size_t>(core.plan.cell_means)) {}
+
+template <class S>
+bool Reshaper<S>::reshape(int64_t least_cells, int64_t most_cells) {
+  least_cells_ = least_cells;
+  most_cells_ = most_cells;
+  allowed_change_ = core_.volume > 0 ? kMostChange * core_.error / core_.volume : 0;
+  patch_.listGone();
+  if (changed_.size() < patch_.vertexEnd()) changed_.resize(patch_.vertexEnd() + 1024);
+  std::fill_n(changed_.data(), patch_.vertexEnd(), uint8_t{0});
+  bool any = false;
+  for (uint32_t c = 0; c < patch_.cellEnd(); ++c)
+    if (patch_.isLive(c) && reconnector_.thinnessOfCell(c) > core_.poor) any = flipAt(c) || any;
+  return any;
+}
+
+template <class S>
+void Reshaper<S>::unsettleChanged() {
+  for (uint32_t v = 0; v < patch_.vertexEnd(); ++v)
+    if (changed_[v] && core_.window.isFree(patch_.slotOf(v)))
+      unsettle(core_.window, patch_.slotOf(v));
+}
+
+// Of all flips that the cell takes part in, the one that improves the worst cell most.
+template <class S>
+bool Reshaper<S>::flipAt(uint32_t c) {
+  Reconnection best, r;
+  const auto offer = [&] {
+    if (r.improves() && r.before - r.after > best.before - best.after && isLegal(r)) best = r;
+  };
+  for (uint32_t j = 0; j < 4; ++j)
+    if (reconnector_.removeFace(c, j, r)) offer();
+  for (uint32_t i = 0; i < 4; ++i)
+    for (uint32_t j = 0; j < i; ++j)
+      if (reconnector_.removeEdge(c, i, j, r)) offer();
+  if (!best.improves()) return false;
+  apply(best);
+  return true;
+}
+
+template <class S>
+bool Reshaper<S>::isLegal(const Reconnection& r) const {
+  const int64_t live = patch_.liveCells() + r.made_count - r.gone_count;
+  if (live < least_cells_ || live > most_cells_) return false;
+  if (r.made_count > r.gone_count + patch_.freeSlots()) return false;
+  // Which cells a tile has is listed beforehand: vertices of others get no new ones.
+  for (uint32_t m = 0; m < r.made_count; ++m)
+    for (uint32_t v : r.made[m])
+      if (patch_.isFreeElsewhere(v)) return false;
+  const uint32_t first = patch_.cellSlotOf(r.gone[0]);
+  for (uint32_t g = 0; g < r.gone_count; ++g) {
+    const uint32_t slot = patch_.cellSlotOf(r.gone[g]);
+    if (core_.window.mesh.cellFlags(slot) & (kFlat | kFolded)) return false;
+    if (!regions_.none() && regions_.differ(first, slot)) return false;
+  }
+  return change(r) <= allowed_change_;
+}
+
+template <class S>
+void Reshaper<S>::positionsOf(const uint32_t corners[4], double p[4][3]) const {
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(patch_.values(corners[k])[i]);
+}
+
+template <class S>
+void Reshaper<S>::cornersOf(uint32_t c, uint32_t corners[4]) const {
+  for (uint32_t j = 0; j < 4; ++j) corners[j] = patch_.vertexOf(c, j);
+}
+
+// Barycentric coordinates of x; returns the least.
+static double weightsOf(const double p[4][3], const double x[3], double weights[4]) {
+  const double whole = sixVolume(p);
+  for (int k = 0; k < 4; ++k) {
+    double part[4][3];
+    std::copy_n(p[0], 12, part[0]);
+    std::copy_n(x, 3, part[k]);
+    weights[k] = sixVolume(part) / whole;
+  }
+  return *std::min_element(weights, weights + 4);
+}
+
+// Mean squared difference of the measured fields, normalised, taken at the centroids of the new
+// cells.
+template <class S>
+double Reshaper<S>::change(const Reconnection& r) const {
+  double sum = 0, volume = 0;
+  for (uint32_t m = 0; m < r.made_count; ++m) {
+    double p[4][3], x[3], weights[4] = {}, least = -1e301;
+    positionsOf(r.made[m], p);
+    for (int i = 0; i < 3; ++i) x[i] = (p[0][i] + p[1][i] + p[2][i] + p[3][i]) / 4;
+    const double part = sixVolume(p);
+    uint32_t old[4] = {};
+    for (uint32_t g = 0; g < r.gone_count; ++g) {
+      double w[4];
+      uint32_t corners[4];
+      cornersOf(r.gone[g], corners);
+      positionsOf(corners, p);
+      const double l = weightsOf(p, x, w);
+      if (!(l > least)) continue;
+      least = l;
+      std::copy_n(w, 4, weights);
+      std::copy_n(corners, 4, old);
+    }
+    for (size_t f = 3; f < core_.scale.size(); ++f) {
+      double difference = 0;
+      for (uint32_t k = 0; k < 4; ++k)
+        difference += static_cast<double>(patch_.values(r.made[m][k])[f]) / 4 -
+                      weights[k] * static_cast<double>(patch_.values(old[k])[f]);
+      difference *= static_cast<double>(core_.scale[f]);
+      sum += part * difference * difference;
+    }
+    volume += part;
+  }
+  return volume > 0 ? sum / volume : 0;
+}
+
+// The one place where cells are replaced.
+template <class S>
+void Reshaper<S>::apply(const Reconnection& r) {
+  uint32_t slots[Reconnection::kMostCells];
+  patch_.replace(r.gone, r.gone_count, r.made, r.made_count, slots);
+  for (uint32_t m = 0; m < r.made_count; ++m)
+    for (uint32_t v : r.made[m]) changed_[v] = 1;
+  handOverCellData(r, slots);
+  if (observer_) tell(r, slots);
+  ++core_.report.flips;
+}
+
+// Float cell data: each new cell stands for its share, by its volume, of what the old ones stood
+// for, and has their mean. Integers are those of the cell whose place it takes, of further cells
+// those of the first: all are of one region.
+template <class S>
+void Reshaper<S>::handOverCellData(const Reconnection& r, const uint32_t* slots) {
+  Window<S>& window = core_.window;
+  for (uint32_t m = r.gone_count; m < r.made_count && core_.plan.cell_picks > 0; ++m)
+    std::copy_n(window.cellPicks(patch_.cellSlotOf(r.gone[0])), core_.plan.cell_picks,
+                window.cellPicks(patch_.cellSlotOf(slots[m])));
+  const size_t n = means_.size();
+  if (n == 0) return;
+  double stood_for = 0, volume = 0, part[Reconnection::kMostCells];
+  std::fill(means_.begin(), means_.end(), 0.0);
+  for (uint32_t g = 0; g < r.gone_count; ++g) {
+    const double* const old = patch_.cellMeans(r.gone[g]);
+    stood_for += old[0];
+    for (size_t i = 0; i < n; ++i) means_[i] += old[0] * old[i + 1];
+  }
+  for (uint32_t m = 0; m < r.made_count; ++m) {
+    double p[4][3];
+    positionsOf(r.made[m], p);
+    volume += part[m] = sixVolume(p);
+  }
+  for (uint32_t m = 0; m < r.made_count && stood_for > 0; ++m) {
+    double* const to = patch_.cellMeans(slots[m]);
+    to[0] = stood_for * (part[m] / volume);
+    for (size_t i = 0; i < n; ++i) to[i + 1] = means_[i] / stood_for;
+  }
+}
+
+template <class S>
+void Reshaper<S>::tell(const Reconnection& r, const uint32_t* slots) {
+  uint32_t before[Reconnection::kMostRing];
+  PlacedCell after[Reconnection::kMostCells];
+  for (uint32_t g = 0; g < r.gone_count; ++g) before[g] = patch_.cellSlotOf(r.gone[g]);
+  for (uint32_t m = 0; m < r.made_count; ++m) {
+    after[m].cell = patch_.cellSlotOf(slots[m]);
+    positionsOf(r.made[m], after[m].corner);
+  }
+  observer_->flipped(before, r.gone_count, after, r.made_count);
+}
+
+template class Reshaper<float>;
+template class Reshaper<double>;
+
+}  // namespace tetstream

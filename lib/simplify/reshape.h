@@ -1,0 +1,50 @@
+// simplify: better shapes for the cells of a patch, by flips. Depends on core.h, collapse.h,
+// regions.h, mesh.
+#pragma once
+
+#include "collapse.h"
+#include "flip_observer.h"
+#include "reconnect.h"
+#include "regions.h"
+
+namespace tetstream {
+
+// A flip lets collapses become legal that a thin cell stood against. It keeps vertices, boundary,
+// interfaces and the cells' regions, and is taken where it makes the worst of the cells concerned
+// less thin and changes the fields between the vertices by little.
+template <class S>
+class Reshaper {
+ public:
+  Reshaper(Core<S>& core, Patch<S>& patch, const Regions<S>& regions, Account& account);
+
+  void observe(FlipObserver* observer) { observer_ = observer; }
+
+  // Flips at each cell with a dihedral angle not much above the floor, while the window's cells
+  // stay between the limits. Returns whether there was one.
+  bool reshape(int64_t least_cells, int64_t most_cells);
+  // After the patch was stored: the next sweep looks again at the edges of the vertices whose cells
+  // were replaced.
+  void unsettleChanged();
+
+ private:
+  bool flipAt(uint32_t c);
+  bool isLegal(const Reconnection& r) const;
+  double change(const Reconnection& r) const;
+  void positionsOf(const uint32_t corners[4], double p[4][3]) const;
+  void cornersOf(uint32_t c, uint32_t corners[4]) const;
+  void apply(const Reconnection& r);
+  void handOverCellData(const Reconnection& r, const uint32_t* slots);
+  void tell(const Reconnection& r, const uint32_t* slots);
+
+  Core<S>& core_;
+  Patch<S>& patch_;
+  const Regions<S>& regions_;
+  Reconnector<S> reconnector_;
+  Array<uint8_t> changed_;     // per vertex of the patch: its cells were replaced
+  std::vector<double> means_;  // of float cell data
+  int64_t least_cells_ = 0, most_cells_ = 0;
+  double allowed_change_ = 0;
+  FlipObserver* observer_ = nullptr;
+};
+
+}  // namespace tetstream

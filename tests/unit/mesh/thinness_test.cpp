@@ -1,0 +1,59 @@
+// The thinness of cells whose angles are known.
+#include "thinness.h"
+
+#include <gtest/gtest.h>
+#include <array>
+#include <cmath>
+
+namespace tetstream::test {
+namespace {
+
+using Cell = std::array<std::array<double, 3>, 4>;
+
+double of(const Cell& cell) {
+  double p[4][3];
+  for (size_t k = 0; k < 4; ++k)
+    for (size_t i = 0; i < 3; ++i) p[k][i] = cell[k][i];
+  return thinness(p);
+}
+
+// Edges 0 1 and 2 3 cross at right angles at a distance: a sliver as that goes to 0, with two
+// angles near 180 and four small ones.
+Cell sliver(double height, double size = 1) {
+  return {{{-size, 0, 0}, {size, 0, 0}, {0, size, height * size}, {0, -size, height * size}}};
+}
+
+TEST(Thinness, IsTheSquaredCosineOfTheSmallestAngle) {
+  const Cell regular = {{{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}}};
+  EXPECT_NEAR(of(regular), 1.0 / 9, 1e-15);
+  const Cell corner = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  EXPECT_NEAR(of(corner), 1.0 / 3, 1e-15);
+  EXPECT_NEAR(thinnessOfAngle(60), 0.25, 1e-15);
+  EXPECT_EQ(thinnessOfAngle(0), 1);
+}
+
+TEST(Thinness, FollowsTheAngleWhateverTheUnitAndTheOrderOfCorners) {
+  for (double height : {1.0, 0.3, 0.01}) {
+    // The faces at 0 1 have normals (0, +-h, 1), those at 2 3 (+-h, 0, 1): four angles between the
+    // pairs have the cosine 1 / (1 + h^2).
+    const double expected = std::pow(1 / (1 + height * height), 2);
+    for (double unit : {1.0, 1e-30, 1e30}) {
+      Cell cell = sliver(height, unit);
+      EXPECT_NEAR(of(cell), expected, 1e-12) << height;
+      std::swap(cell[0], cell[1]);
+      std::swap(cell[2], cell[3]);
+      EXPECT_NEAR(of(cell), expected, 1e-12);
+    }
+  }
+}
+
+TEST(Thinness, OfATurnedOrFlatCellIsWorseThanAny) {
+  Cell cell = sliver(0.1);
+  std::swap(cell[0], cell[1]);
+  EXPECT_EQ(of(cell), kTurned);
+  EXPECT_EQ(of(sliver(0)), kTurned);
+  EXPECT_LE(of(sliver(1e-12)), 1);
+}
+
+}  // namespace
+}  // namespace tetstream::test

@@ -1,0 +1,177 @@
+// Flips in patches of real windows: what stays as it was, and who is told.
+#include "reshape.h"
+
+#include <cmath>
+#include <map>
+
+#include "window_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+// Jittered until many cells are thin, and a few nearly turned over.
+TestMesh squeezed(int n) {
+  TestMesh mesh = fullGrid(n, n, n, 0.25);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return std::sin(x) * y + 0.2 * z * z; });
+  mesh.addCellData({"amount", 1, ScalarType::kFloat64},
+                   [](size_t c, int) { return static_cast<double>(c % 7); });
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    double z = 0;
+    for (size_t j = 0; j < 4; ++j)
+      z += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), 2) / 4;
+    return z < n / 2.0 ? 1 : 2;
+  });
+  return mesh;
+}
+
+struct Squeezed : WholePatch<double> {
+  explicit Squeezed(const std::string& region_names = "auto")
+      : WholePatch<double>(squeezed(slowRun() ? 4 : 8), options(region_names)),
+        reshaper(core, patch, regions, account) {
+    core.poor = thinnessOfAngle(25);
+    core.error = core.volume;  // any change of the field is allowed
+    mergeSome();
+  }
+  static SimplifyOptions options(const std::string& region_names) {
+    SimplifyOptions options;
+    options.regions = region_names;
+    return options;
+  }
+  // Slots for further cells come from cells that died.
+  void mergeSome() {
+    Collapser<Patch<double>> collapser(core, patch, account);
+    std::vector<double> z(core.scale.size());
+    for (uint32_t c = 0; c < patch.cellEnd(); c += 9) {
+      if (!patch.isLive(c)) continue;
+      const uint32_t u = patch.vertexOf(c, 0), v = patch.vertexOf(c, 1);
+      if (!patch.isFree(u) || !patch.isFree(v)) continue;
+      collapser.endOf(u, v, false, z.data());
+      collapser.collapse(u, v, z.data(), 0, 0);
+    }
+  }
+  int poorCells() {
+    Reconnector<double> look(patch, account);
+    int count = 0;
+    for (uint32_t c = 0; c < patch.cellEnd(); ++c)
+      count += patch.isLive(c) && look.thinnessOfCell(c) > core.poor;
+    return count;
+  }
+  // Float cell data times volume, by region.
+  std::map<int64_t, double> amounts() {
+    std::map<int64_t, double> all;
+    for (uint32_t c = 0; c < patch.cellEnd(); ++c)
+      if (patch.isLive(c)) {
+        const double* means = patch.cellMeans(c);
+        all[core.window.cellPicks(patch.cellSlotOf(c))[0]] += means[0] * means[1];
+      }
+    return all;
+  }
+  Reshaper<double> reshaper;
+};
+
+TEST(Reshape, KeepsTheDomainItsTopologyAndWhatCellsStandFor) {
+  Squeezed s;
+  ASSERT_TRUE(s.loaded);
+  const auto amounts = s.amounts();
+  const int poor = s.poorCells();
+  Squeezed untouched;  // the same, for what was before
+  untouched.patch.store();
+  const MeshFacts before = factsOf(untouched.live());
+  ASSERT_TRUE(s.reshaper.reshape(0, 1 << 30));
+  EXPECT_GT(s.core.report.flips, 30);
+  EXPECT_LT(s.poorCells(), 0.6 * poor);
+  const auto after_amounts = s.amounts();
+  ASSERT_EQ(after_amounts.size(), amounts.size());
+  for (auto [label, amount] : amounts)
+    EXPECT_NEAR(after_amounts.at(label), amount, 1e-9 * amount) << label;
+  s.patch.store();
+  const MeshFacts after = factsOf(s.live());
+  EXPECT_EQ(topologyChange(before, after), "");
+  EXPECT_EQ(after.boundary_faces, before.boundary_faces);
+  EXPECT_NEAR(after.volume, before.volume, 1e-9 * before.volume);
+}
+
+TEST(Reshape, StaysWithinTheLimitsOfCells) {
+  for (int64_t room : {0, 3}) {
+    Squeezed s;
+    const int64_t live = s.patch.liveCells();
+    s.reshaper.reshape(live - room, live + room);
+    EXPECT_GE(s.patch.liveCells(), live - room);
+    EXPECT_LE(s.patch.liveCells(), live + room);
+  }
+}
+
+TEST(Reshape, LeavesFieldsAloneThatWouldChange) {
+  Squeezed s;
+  s.core.error = 0;
+  EXPECT_FALSE(s.reshaper.reshape(0, 1 << 30));
+}
+
+// Cells of one material are not made of those of two.
+TEST(Reshape, KeepsRegionsApart) {
+  Squeezed with, without("none");
+  const auto volumes = [](Squeezed& s) {
+    s.patch.store();
+    std::map<int64_t, double> all;
+    const TestMesh live = s.live();
+    size_t row = 0;
+    for (uint32_t c = 0; c < s.core.window.cellEnd(); ++c)
+      if (s.core.window.isLive(c))
+        all[s.core.window.cellPicks(c)[0]] += std::fabs(cellVolume(live, row++));
+    return all;
+  };
+  Squeezed untouched;
+  const auto before = volumes(untouched);
+  ASSERT_TRUE(with.reshaper.reshape(0, 1 << 30));
+  for (auto [label, volume] : volumes(with)) EXPECT_NEAR(volume, before.at(label), 1e-9) << label;
+  ASSERT_TRUE(without.reshaper.reshape(0, 1 << 30));
+  double change = 0;  // where labels are no regions the flips cross them
+  for (auto [label, volume] : volumes(without)) change += std::fabs(volume - before.at(label));
+  EXPECT_GT(change, 0.01);
+}
+
+// What it is told suffices to follow every cell.
+class Ledger final : public FlipObserver {
+ public:
+  void flipped(const uint32_t* before, size_t before_count, const PlacedCell* after,
+               size_t after_count) override {
+    double gone = 0, made = 0;
+    for (size_t i = 0; i < before_count; ++i) {
+      const auto cell = volume_of.find(before[i]);
+      ASSERT_NE(cell, volume_of.end());
+      gone += cell->second;
+      volume_of.erase(cell);
+    }
+    for (size_t i = 0; i < after_count; ++i) {
+      const double volume = sixVolume(after[i].corner);
+      EXPECT_GT(volume, 0);
+      made += volume;
+      EXPECT_TRUE(volume_of.emplace(after[i].cell, volume).second);
+    }
+    EXPECT_NEAR(made, gone, 1e-12 * gone + 1e-15);
+  }
+  std::map<uint32_t, double> volume_of;
+};
+
+TEST(Reshape, TellsWhichCellsMadeWayForWhich) {
+  Squeezed s;
+  Ledger ledger;
+  const auto volumes = [&] {
+    std::map<uint32_t, double> all;
+    for (uint32_t c = 0; c < s.patch.cellEnd(); ++c) {
+      if (!s.patch.isLive(c)) continue;
+      double p[4][3];
+      for (uint32_t k = 0; k < 4; ++k) std::copy_n(s.patch.values(s.patch.vertexOf(c, k)), 3, p[k]);
+      all[s.patch.cellSlotOf(c)] = sixVolume(p);
+    }
+    return all;
+  };
+  ledger.volume_of = volumes();
+  s.reshaper.observe(&ledger);
+  ASSERT_TRUE(s.reshaper.reshape(0, 1 << 30));
+  EXPECT_TRUE(ledger.volume_of == volumes());
+}
+
+}  // namespace
+}  // namespace tetstream::test
