@@ -70,7 +70,6 @@ class Patch {
   // where those are: the slots of the gone first.
   void replace(const uint32_t* gone, uint32_t gone_count, const uint32_t (*made)[4],
                uint32_t made_count, uint32_t* slots);
-  uint32_t cellSlotOf(uint32_t c) const { return global_cell_[c]; }  // in the window
 
   // For listVertices: the cells of v's star, dead ones among them, and all corners.
   const uint16_t* starOf(uint32_t v) const { return &lists_[star_of_[v].begin]; }

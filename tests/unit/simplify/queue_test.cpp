@@ -91,23 +91,30 @@ TestMesh wavyGrid(int n) {
   return mesh;
 }
 
-struct Errors final : CollapseObserver {
-  void collapsed(uint32_t, uint32_t, double error) override { all.push_back(error); }
+struct Errors final : LogSink {
+  void begin(const Schema&) override {}
+  void put(const LogRows& rows) override {
+    all.insert(all.end(), rows.errors, rows.errors + rows.count);
+  }
+  void finish() override {}
   std::vector<double> all;
 };
 
 struct Queue : WholeWindow<double> {
   explicit Queue(TestMesh the_mesh)
       : WholeWindow(std::move(the_mesh), inMode(Mode::kQueue)),
+        tracer(core.window, plan, {nullptr, &errors}, account),
         collapser(core, core.window, account),
         selector(makeQueueSelector(core, collapser, account)) {
-    collapser.observe(&errors);
+    core.tracer = &tracer;
   }
   void collapseTo(int64_t cells) {
     selector->decimate({cells, 0, false}, [] {});
+    tracer.flush();
   }
 
   Errors errors;
+  Tracer<double> tracer;
   Collapser<Window<double>> collapser;
   std::unique_ptr<Selector> selector;
 };
