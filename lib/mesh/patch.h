@@ -55,6 +55,8 @@ class Patch {
   int64_t* picks(uint32_t v) { return window_.picks(global_vertex_[v]); }
   double* cellMeans(uint32_t c) { return window_.cellMeans(global_cell_[c]); }
   uint32_t slotOf(uint32_t v) const { return global_vertex_[v]; }  // in the window
+  const uint32_t* vertexSlots() const { return global_vertex_.data(); }
+  const uint32_t* cellSlots() const { return global_cell_.data(); }
 
   // As those of Topology; for owned vertices.
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring);

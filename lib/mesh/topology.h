@@ -22,7 +22,11 @@ enum VertexFlag : uint8_t {
   kLocked = 4,    // never moved: non-manifold boundary, interface, flat cell, or the caller's wish
   kWritten = 8,   // a cell that uses it has left: it is frozen
   kCollapsed = 16,  // merged into another vertex
+  kInterface = 128,  // cells of different regions meet there (known as kBoundary is)
 };
+
+// On a sheet: the boundary of the domain or an interface of regions.
+constexpr uint8_t kOnSheet = kBoundary | kInterface;
 
 constexpr bool isFreeVertex(uint8_t flags) {
   return (flags & (kFinal | kLocked | kWritten | kCollapsed)) == kFinal;

@@ -83,6 +83,7 @@ uint64_t Window<S>::pack(Front& front) {
   const uint32_t kept = chooseVertices(&unused);
   moveVertices();
   front.remap(remap_.data());
+  curves.remap(remap_.data());
   mesh.pack(remap_.data(), kept, [this](uint32_t from, uint32_t to) {
     if (from == to) return;
     moveRow(cell_means_.data(), static_cast<size_t>(meansStride()), from, to);

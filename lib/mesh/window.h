@@ -7,6 +7,7 @@
 
 #include <cstring>
 
+#include "embedded.h"
 #include "front.h"
 #include "topology.h"
 
@@ -34,6 +35,7 @@ class Window {
   using Scalar = S;
   Window(Account& account, const WindowShape& shape, size_t cells, size_t vertices, bool linked)
       : mesh(account, cells, vertices, linked),
+        curves(account),
         shape_(shape),
         values_(account),
         quadrics_(account),
@@ -47,6 +49,7 @@ class Window {
   }
 
   Topology mesh;
+  Curves curves;
 
   const WindowShape& shape() const { return shape_; }
   S* values(uint32_t v) { return &values_[size_t{v} * shape_.values]; }
@@ -67,11 +70,14 @@ class Window {
   int64_t liveCells() const { return mesh.liveCells(); }
   bool isFree(uint32_t v) const { return mesh.isFree(v); }
   bool isBoundary(uint32_t v) const { return mesh.vertexFlags(v) & kBoundary; }
+  const int64_t* allCellPicks() const { return cell_picks_.data(); }
   const S* allValues() const { return values_.data(); }
   const S* allQuadrics() const { return quadrics_.data(); }
   const uint8_t* allFlags() const { return mesh.allVertexFlags(); }
   int valueStride() const { return shape_.values; }
   uint32_t slotOf(uint32_t v) const { return v; }
+  const uint32_t* vertexSlots() const { return nullptr; }
+  const uint32_t* cellSlots() const { return nullptr; }
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
     mesh.gather(v, other, star, ring);
   }

@@ -110,6 +110,27 @@ bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
   return !shapeFrom(merged_.data(), &cell, 1, core_.thin).positive;
 }
 
+template <class Mesh>
+Embedded Collapser<Mesh>::embedded() const {
+  Embedded e{core_.cellLabels(), &core_.window.curves, mesh_.vertexSlots()};
+  e.labels.slots = mesh_.cellSlots();
+  return e;
+}
+
+template <class Mesh>
+StrataCondition::End Collapser<Mesh>::endOf(uint32_t v, const Embedded& embedded) const {
+  return {v, embedded.stratumOf(v, mesh_.allFlags()[v] & kOnSheet), mesh_.isBoundary(v)};
+}
+
+// Of the stars as gathered.
+template <class Mesh>
+bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded) {
+  const uint8_t* flags = mesh_.allFlags();
+  if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, flags)) return false;
+  return !embedded.any() ||
+         strata_.holds(endOf(u, embedded), endOf(v, embedded), stars_, flags, embedded);
+}
+
 // Half of all edges fail, most of them by the cells of the end that moves most.
 template <class Mesh>
 Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool spares) {
@@ -125,9 +146,13 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool 
       mesh_.gather(v, u, stars_.v, stars_.ring_from_v);
   };
   gather(u_first);
-  const auto dying = static_cast<int64_t>((u_first ? stars_.ring : stars_.ring_from_v).size());
+  const Star& ring = u_first ? stars_.ring : stars_.ring_from_v;
+  const auto dying = static_cast<int64_t>(ring.size());
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
+  const Embedded embedded = this->embedded();
+  if (embedded.any() && !strata_.mayHold(endOf(u, embedded), endOf(v, embedded), ring, embedded))
+    return Outcome::kTopology;
   spares = spares && !core_.dear.empty();
   const ThinAngle& angle = spares ? core_.dear.front() : core_.thin;
   const Star& farther = u_first ? stars_.u : stars_.v;
@@ -139,9 +164,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool 
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
   if (a.thin + b.thin > 0)
     if (const Outcome o = thins(u, v, spares, a.thin + b.thin); o != Outcome::kDone) return o;
-  return link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, mesh_.allFlags())
-             ? Outcome::kDone
-             : Outcome::kTopology;
+  return keepsTopology(u, v, embedded) ? Outcome::kDone : Outcome::kTopology;
 }
 
 // What merging two vertices adds to the error of the whole.
@@ -198,6 +221,7 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   if (core_.plan.picks > 0) pickNearest(u, v);
   if (core_.plan.cell_means > 0) handOverCellData(v);
   mesh_.merge(u, v, stars_);
+  core_.window.curves.merge(mesh_.slotOf(u), mesh_.slotOf(v));
   std::copy(merged_.begin(), merged_.end(), mesh_.values(u));
   S *a = mesh_.quadric(u), *b = mesh_.quadric(v);
   const int last = core_.window.shape().quadric - 1;

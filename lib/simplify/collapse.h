@@ -6,6 +6,7 @@
 #include "link.h"
 #include "patch.h"
 #include "star_kernels.h"
+#include "strata.h"
 
 namespace tetstream {
 
@@ -55,6 +56,9 @@ class Collapser {
   const Stars& stars() const { return stars_; }
 
  private:
+  Embedded embedded() const;
+  StrataCondition::End endOf(uint32_t v, const Embedded& embedded) const;
+  bool keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded);
   Outcome test(uint32_t u, uint32_t v, int64_t least_cells, bool spares);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v) const;
@@ -87,6 +91,7 @@ class Collapser {
   Mesh& mesh_;
   Array<Refusal> refusals_;
   LinkCondition link_;
+  StrataCondition strata_;
   Stars stars_;
   std::vector<S> merged_;  // values of the merged vertex
   CollapseObserver* observer_ = nullptr;

@@ -19,12 +19,10 @@ namespace tetstream {
 constexpr uint8_t kResolved = 32;
 // Locked by the stream itself, which the output says again.
 constexpr uint8_t kCallerLocked = 64;
-// While a vertex is resolved: cells of different regions meet there.
-constexpr uint8_t kInterface = 128;
 
 // Vertices that never move, by reason: what a missed target is explained with.
 struct LockedVertices {
-  int64_t interfaces = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
+  int64_t corners = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
 };
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
@@ -81,6 +79,11 @@ struct Core {
            vertex / kCellsPerVertex;
   }
 
+  CellLabels cellLabels() const {
+    return {window.allCellPicks(), static_cast<size_t>(plan.cell_picks), region_picks.data(),
+            static_cast<int>(region_picks.size()), nullptr};
+  }
+
   const Plan& plan;
   const SimplifyOptions& options;
   const QuadricKernels<S>& kernels;
@@ -96,6 +99,7 @@ struct Core {
   double error_limit = std::numeric_limits<double>::infinity();
   bool error_reached = false;  // a collapse was refused for it
   double rescaled = 1;         // what errors of the last window count in today's units
+  std::vector<int> region_picks;  // columns of the cell picks that label regions
   Report report;
   LockedVertices locked;
 };

@@ -292,6 +292,46 @@ void Metric<S>::addBoundaryFace(uint32_t a, uint32_t b, uint32_t c) {
       core_.options.boundary_weight * extent() / length_unit_, q);
 }
 
+// The squared distance to the line of the edge, with the weight of two faces that are squares on
+// it: their planes meet there at a right angle.
+template <class S>
+void Metric<S>::addCurve(uint32_t a, uint32_t b) {
+  Window<S>& window = core_.window;
+  double along[3], square = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>(window.values(b)[i]) - static_cast<double>(window.values(a)[i]);
+    square += along[i] * along[i];
+  }
+  if (!(square > 0)) return;
+  // Across the edge and the axis that it is farthest from.
+  size_t axis = 0;
+  for (size_t i = 1; i < 3; ++i)
+    if (std::fabs(along[i]) < std::fabs(along[axis])) axis = i;
+  const double length = std::sqrt(square);
+  double across[2][3];
+  const auto cross = [](const double* p, const double* q, double* out) {
+    for (size_t i = 0; i < 3; ++i)
+      out[i] = p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3];
+  };
+  double unit[3] = {0, 0, 0};
+  unit[axis] = 1;
+  cross(along, unit, across[0]);
+  cross(along, across[0], across[1]);
+  std::vector<S> tip(window.values(b), window.values(b) + core_.plan.dimension);
+  std::vector<S> nowhere(static_cast<size_t>(window.shape().quadric), S(0));
+  for (const double* direction : {across[0], across[1]}) {
+    const double norm = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] +
+                                  direction[2] * direction[2]);
+    for (size_t i = 0; i < 3; ++i)
+      tip[i] = static_cast<S>(static_cast<double>(window.values(b)[i]) +
+                              direction[i] * (length / norm));
+    const S* x[3] = {window.values(a), window.values(b), tip.data()};
+    S* q[3] = {window.quadric(a), window.quadric(b), nowhere.data()};
+    core_.kernels.addFacePlane(x, core_.scale.data(), core_.plan.dimension,
+                               core_.options.boundary_weight * extent() / length_unit_, q);
+  }
+}
+
 template class Metric<float>;
 template class Metric<double>;
 

@@ -21,6 +21,8 @@ class Metric {
   void addCells(uint32_t first, uint32_t end);
   // A boundary face adds its quadric to its three vertices.
   void addBoundaryFace(uint32_t a, uint32_t b, uint32_t c);
+  // An edge of a curve adds one to its two ends.
+  void addCurve(uint32_t a, uint32_t b);
 
  private:
   void growBox(uint32_t first, uint32_t end);

@@ -5,6 +5,7 @@
 
 #include "budget.h"
 #include "intake.h"
+#include "regions.h"
 #include "release.h"
 #include "resolve.h"
 #include "select.h"
@@ -103,7 +104,7 @@ class WindowedEngine final : public Simplifier::Engine {
         intake_(core_, account_),
         regions_(core_),
         metric_(core_),
-        resolver_(core_, metric_, regions_, account_),
+        resolver_(core_, metric_, account_),
         collapser_(core_, core_.window, account_),
         selector_(options.mode == Mode::kPaper ? makeRandomSelector(core_, collapser_, account_)
                                                : makeSweepSelector(core_, account_)),
@@ -307,7 +308,7 @@ class WindowedEngine final : public Simplifier::Engine {
       if (count > 0)
         kept += textOf("%s%lld %s", kept.empty() ? "" : ", ", static_cast<long long>(count), what);
     };
-    name(core_.locked.interfaces, "vertices on interfaces of regions");
+    name(core_.locked.corners, "vertices where interfaces end, branch or touch");
     name(core_.locked.non_manifold, "vertices at non-manifold places of the boundary");
     name(core_.locked.bad_cells, "flat or folded cells of the input");
     name(core_.locked.by_caller, "vertices locked by the stream");
