@@ -11,7 +11,8 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
       refusals_(account),
       link_(account),
       stars_(account),
-      merged_(static_cast<size_t>(core.plan.values)) {}
+      merged_(static_cast<size_t>(core.plan.values)),
+      z_(static_cast<size_t>(core.plan.dimension)) {}
 
 template <class Mesh>
 void Collapser<Mesh>::endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
@@ -122,6 +123,24 @@ StrataCondition::End Collapser<Mesh>::endOf(uint32_t v, const Embedded& embedded
   return {v, embedded.stratumOf(v, mesh_.allFlags()[v] & kOnSheet), mesh_.isBoundary(v)};
 }
 
+// Moves the place, by as much as it takes, to where no region of the stars grows or shrinks.
+template <class Mesh>
+void Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, S* error, const CellLabels& labels) {
+  const uint32_t ends[2] = {u, v};
+  const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
+                       static_cast<double>(merged_[2])};
+  volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
+                   labels);
+  double step[3];
+  volumes_.step(step);
+  for (size_t i = 0; i < 3; ++i) z_[i] += static_cast<S>(step[i]) * core_.scale[i];
+  placeAt(u, v, z_.data());
+  *error = std::max(*error, core_.kernels.errorAt(mesh_.quadric(u), mesh_.values(u),
+                                                  mesh_.quadric(v), mesh_.values(v),
+                                                  core_.scale.data(), core_.plan.dimension,
+                                                  z_.data()));
+}
+
 // Of the stars as gathered.
 template <class Mesh>
 bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded) {
@@ -133,7 +152,8 @@ bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Embedded& embe
 
 // Half of all edges fail, most of them by the cells of the end that moves most.
 template <class Mesh>
-Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool spares) {
+Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells,
+                              bool spares) {
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
@@ -153,6 +173,10 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool 
   const Embedded embedded = this->embedded();
   if (embedded.any() && !strata_.mayHold(endOf(u, embedded), endOf(v, embedded), ring, embedded))
     return Outcome::kTopology;
+  if (embedded.labels.count > 0 && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
+    gather(!u_first);
+    keepVolumes(u, v, error, embedded.labels);
+  }
   spares = spares && !core_.dear.empty();
   const ThinAngle& angle = spares ? core_.dear.front() : core_.thin;
   const Star& farther = u_first ? stars_.u : stars_.v;
@@ -178,12 +202,13 @@ double Collapser<Mesh>::growth(uint32_t u, uint32_t v, S error) {
 template <class Mesh>
 Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                                   bool spares) {
+  std::copy_n(z, z_.size(), z_.data());
   placeAt(u, v, z);
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               merged_.data() + core_.plan.dimension);
   Outcome outcome = Outcome::kNotFinite;
   if (std::isfinite(error)) {
-    outcome = test(u, v, least_cells, spares);
+    outcome = test(u, v, &error, least_cells, spares);
     if (outcome == Outcome::kDone && core_.error + growth(u, v, error) > core_.error_limit) {
       core_.error_reached = true;
       outcome = Outcome::kTooFar;

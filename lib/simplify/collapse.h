@@ -5,6 +5,7 @@
 #include "core.h"
 #include "link.h"
 #include "patch.h"
+#include "region_volumes.h"
 #include "star_kernels.h"
 #include "strata.h"
 
@@ -59,7 +60,8 @@ class Collapser {
   Embedded embedded() const;
   StrataCondition::End endOf(uint32_t v, const Embedded& embedded) const;
   bool keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded);
-  Outcome test(uint32_t u, uint32_t v, int64_t least_cells, bool spares);
+  Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares);
+  void keepVolumes(uint32_t u, uint32_t v, S* error, const CellLabels& labels);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
@@ -92,8 +94,10 @@ class Collapser {
   Array<Refusal> refusals_;
   LinkCondition link_;
   StrataCondition strata_;
+  RegionVolumes volumes_;
   Stars stars_;
   std::vector<S> merged_;  // values of the merged vertex
+  std::vector<S> z_;       // its place, normalised and relative to the edge's midpoint
   CollapseObserver* observer_ = nullptr;
 };
 
