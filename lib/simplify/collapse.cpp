@@ -4,6 +4,10 @@
 
 namespace tetstream {
 
+// A place that keeps the volumes of regions and has more than this times the error of the best one
+// has its price: where curves and sheets are tightly curved, the step to it may be large.
+constexpr float kDearGrowth = 1.5f;
+
 template <class Mesh>
 Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
     : core_(core),
@@ -123,9 +127,10 @@ StrataCondition::End Collapser<Mesh>::endOf(uint32_t v, const Embedded& embedded
   return {v, embedded.stratumOf(v, mesh_.allFlags()[v] & kOnSheet), mesh_.isBoundary(v)};
 }
 
-// Moves the place, by as much as it takes, to where no region of the stars grows or shrinks.
+// Moves the place, by as much as it takes, to where no region of the stars grows or shrinks;
+// returns the error there.
 template <class Mesh>
-void Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, S* error, const CellLabels& labels) {
+auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels) -> S {
   const uint32_t ends[2] = {u, v};
   const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
                        static_cast<double>(merged_[2])};
@@ -135,10 +140,9 @@ void Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, S* error, const CellLa
   volumes_.step(step);
   for (size_t i = 0; i < 3; ++i) z_[i] += static_cast<S>(step[i]) * core_.scale[i];
   placeAt(u, v, z_.data());
-  *error = std::max(*error, core_.kernels.errorAt(mesh_.quadric(u), mesh_.values(u),
-                                                  mesh_.quadric(v), mesh_.values(v),
-                                                  core_.scale.data(), core_.plan.dimension,
-                                                  z_.data()));
+  return core_.kernels.errorAt(mesh_.quadric(u), mesh_.values(u), mesh_.quadric(v),
+                               mesh_.values(v), core_.scale.data(), core_.plan.dimension,
+                               z_.data());
 }
 
 // Of the stars as gathered.
@@ -175,7 +179,9 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     return Outcome::kTopology;
   if (embedded.labels.count > 0 && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
     gather(!u_first);
-    keepVolumes(u, v, error, embedded.labels);
+    const S moved = keepVolumes(u, v, embedded.labels);
+    if (spares && moved > kDearGrowth * *error) return Outcome::kDear;
+    *error = std::max(*error, moved);
   }
   spares = spares && !core_.dear.empty();
   const ThinAngle& angle = spares ? core_.dear.front() : core_.thin;

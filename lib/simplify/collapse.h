@@ -45,7 +45,8 @@ class Collapser {
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
   // before, decided exactly on the values as they will be written, and the share of thin ones no
   // larger; the whole error within its limit; no fewer than `least_cells` cells left in the window.
-  // Where it spares, the share of those below the dear angles may not grow either: kDear otherwise.
+  // Where it spares, the share of those below the dear angles may not grow either, and keeping the
+  // volumes of regions may not cost much: kDear otherwise.
   // Counts what happened in the report.
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                    bool spares = false);
@@ -61,7 +62,7 @@ class Collapser {
   StrataCondition::End endOf(uint32_t v, const Embedded& embedded) const;
   bool keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares);
-  void keepVolumes(uint32_t u, uint32_t v, S* error, const CellLabels& labels);
+  S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);

@@ -84,6 +84,9 @@ struct Core {
             static_cast<int>(region_picks.size()), nullptr};
   }
 
+  // Whether some collapses have more than the price of their error.
+  bool spares() const { return !dear.empty() || !region_picks.empty(); }
+
   const Plan& plan;
   const SimplifyOptions& options;
   const QuadricKernels<S>& kernels;

@@ -20,6 +20,10 @@ constexpr double kDear[] = {10, 1.01};
 constexpr double kShareToSpare = 0.002;
 constexpr int64_t kCellsPerSample = 16;
 
+// Of a boundary face, where fields are measured: they would pay with the shape of interfaces, at
+// which they have their kinks. Without fields there is only the boundary to pay for interfaces.
+constexpr double kInterfaceShare = 50;
+
 // Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
 constexpr double kRescaleStep = 1.25;
 
@@ -281,15 +285,20 @@ void Metric<S>::addCells(uint32_t first, uint32_t end) {
 }
 
 template <class S>
-void Metric<S>::addBoundaryFace(uint32_t a, uint32_t b, uint32_t c) {
+double Metric<S>::faceWeight(bool interface) const {
+  const double share = interface && core_.plan.dimension > 3 ? kInterfaceShare : 1;
+  return share * core_.options.boundary_weight * extent() / length_unit_;
+}
+
+template <class S>
+void Metric<S>::addFace(uint32_t a, uint32_t b, uint32_t c, bool interface) {
   Window<S>& window = core_.window;
   const S* x[3] = {window.values(a), window.values(b), window.values(c)};
   S* q[3] = {window.quadric(a), window.quadric(b), window.quadric(c)};
   const auto add = core_.options.quadric == QuadricForm::kGarlandZhou
                        ? core_.kernels.addFaceDistance
                        : core_.kernels.addFacePlane;
-  add(x, core_.scale.data(), core_.plan.dimension,
-      core_.options.boundary_weight * extent() / length_unit_, q);
+  add(x, core_.scale.data(), core_.plan.dimension, faceWeight(interface), q);
 }
 
 // The squared distance to the line of the edge, with the weight of two faces that are squares on
@@ -327,8 +336,7 @@ void Metric<S>::addCurve(uint32_t a, uint32_t b) {
                               direction[i] * (length / norm));
     const S* x[3] = {window.values(a), window.values(b), tip.data()};
     S* q[3] = {window.quadric(a), window.quadric(b), nowhere.data()};
-    core_.kernels.addFacePlane(x, core_.scale.data(), core_.plan.dimension,
-                               core_.options.boundary_weight * extent() / length_unit_, q);
+    core_.kernels.addFacePlane(x, core_.scale.data(), core_.plan.dimension, faceWeight(true), q);
   }
 }
 

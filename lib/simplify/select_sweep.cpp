@@ -380,7 +380,7 @@ bool SweepSelector<S>::sweepPatch(float bound) {
   float level = bound * kFirstLevel, least;
   for (;;) {
     choices_.reconsider();
-    if (!core_.dear.empty()) sweepSpared(level / kThinPrice);
+    if (core_.spares()) sweepSpared(level / kThinPrice);
     do least = sweepLevel(level, true);
     while (least <= level);
     if (level >= bound || mustStop(patch_.liveCells())) break;
