@@ -7,6 +7,8 @@ namespace tetstream {
 // A place that keeps the volumes of regions and has more than this times the error of the best one
 // has its price: where curves and sheets are tightly curved, the step to it may be large.
 constexpr float kDearGrowth = 1.5f;
+// Of an edge's length: nearer to it than this is on it.
+constexpr double kOnEdge = 1e-3;
 
 template <class Mesh>
 Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
@@ -140,9 +142,51 @@ auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labe
   volumes_.step(step);
   for (size_t i = 0; i < 3; ++i) z_[i] += static_cast<S>(step[i]) * core_.scale[i];
   placeAt(u, v, z_.data());
+  return errorHere(u, v);
+}
+
+template <class Mesh>
+auto Collapser<Mesh>::errorHere(uint32_t u, uint32_t v) const -> S {
   return core_.kernels.errorAt(mesh_.quadric(u), mesh_.values(u), mesh_.quadric(v),
                                mesh_.values(v), core_.scale.data(), core_.plan.dimension,
                                z_.data());
+}
+
+// With features, curves stay where they are: what is merged with a vertex of one goes there, and
+// between two of them a place off their edge by rounding goes onto it. False, and nothing is done,
+// for other places between two.
+template <class Mesh>
+bool Collapser<Mesh>::putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it) {
+  double along[3], square = 0, dot = 0, off = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>((mesh_.values(v)[i] - mesh_.values(u)[i]) * core_.scale[i]);
+    square += along[i] * along[i];
+    dot += along[i] * static_cast<double>(z_[i]);
+  }
+  double t = v_on_it ? 0.5 : -0.5;
+  if (u_on_it == v_on_it) {
+    t = std::clamp(dot / square, -0.5, 0.5);
+    for (size_t i = 0; i < 3; ++i) {
+      const double d = static_cast<double>(z_[i]) - t * along[i];
+      off += d * d;
+    }
+    if (!(off <= kOnEdge * kOnEdge * square)) return false;
+  }
+  for (size_t i = 0; i < 3; ++i) z_[i] = static_cast<S>(t * along[i]);
+  placeAt(u, v, z_.data());
+  if (u_on_it != v_on_it) std::copy_n(mesh_.values(v_on_it ? v : u), 3, merged_.data());
+  return true;
+}
+
+// The place that sheets and curves want; returns the error there.
+template <class Mesh>
+auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Embedded& embedded) -> S {
+  const bool u_on_it = endOf(u, embedded).stratum == Stratum::kCurve;
+  const bool v_on_it = endOf(v, embedded).stratum == Stratum::kCurve;
+  const bool kept = core_.options.feature_angle > 0 && (u_on_it || v_on_it) &&
+                    putOnCurve(u, v, u_on_it, v_on_it);
+  if (!kept && embedded.labels.count > 0) return keepVolumes(u, v, embedded.labels);
+  return errorHere(u, v);
 }
 
 // Of the stars as gathered.
@@ -177,9 +221,9 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const Embedded embedded = this->embedded();
   if (embedded.any() && !strata_.mayHold(endOf(u, embedded), endOf(v, embedded), ring, embedded))
     return Outcome::kTopology;
-  if (embedded.labels.count > 0 && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
+  if (embedded.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
     gather(!u_first);
-    const S moved = keepVolumes(u, v, embedded.labels);
+    const S moved = adjust(u, v, embedded);
     if (spares && moved > kDearGrowth * *error) return Outcome::kDear;
     *error = std::max(*error, moved);
   }

@@ -62,6 +62,9 @@ class Collapser {
   StrataCondition::End endOf(uint32_t v, const Embedded& embedded) const;
   bool keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares);
+  S adjust(uint32_t u, uint32_t v, const Embedded& embedded);
+  bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
+  S errorHere(uint32_t u, uint32_t v) const;
   S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v) const;

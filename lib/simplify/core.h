@@ -85,7 +85,9 @@ struct Core {
   }
 
   // Whether some collapses have more than the price of their error.
-  bool spares() const { return !dear.empty() || !region_picks.empty(); }
+  bool spares() const {
+    return !dear.empty() || !region_picks.empty() || options.feature_angle > 0;
+  }
 
   const Plan& plan;
   const SimplifyOptions& options;

@@ -336,7 +336,7 @@ void Metric<S>::addCurve(uint32_t a, uint32_t b) {
                               direction[i] * (length / norm));
     const S* x[3] = {window.values(a), window.values(b), tip.data()};
     S* q[3] = {window.quadric(a), window.quadric(b), nowhere.data()};
-    core_.kernels.addFacePlane(x, core_.scale.data(), core_.plan.dimension, faceWeight(true), q);
+    core_.kernels.addFacePlane(x, core_.scale.data(), core_.plan.dimension, faceWeight(false), q);
   }
 }
 

@@ -200,7 +200,7 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     }
   }
   if (!boundary_.empty() && !isDisk(boundary_)) lockNonManifold(v);
-  if (labels.count > 0 && !sheets_.empty() && !sheets_.classify(v)) {
+  if (sheets_.wanted() && !sheets_.classify(v)) {
     mesh.flagVertex(v, kLocked);
     ++core_.locked.corners;
   }

@@ -1,6 +1,8 @@
 #include "sheets.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace tetstream {
 
@@ -10,11 +12,47 @@ const typename Sheets<S>::Use* Sheets<S>::usesOf(uint32_t vertex) const {
                             [](const Use& use, uint32_t x) { return use.vertex < x; });
 }
 
+// In a plane sheet the faces at an edge lead in opposite directions.
+template <class S>
+Sheets<S>::Sheets(Core<S>& core, Metric<S>& metric)
+    : core_(core),
+      metric_(metric),
+      least_cosine_(core.options.feature_angle > 0
+                        ? -std::cos(core.options.feature_angle * std::numbers::pi / 180)
+                        : 2) {}
+
+// Whether the faces vab and vac bend at va.
+template <class S>
+bool Sheets<S>::isRidge(uint32_t v, uint32_t a, uint32_t b, uint32_t c) const {
+  if (least_cosine_ > 1) return false;
+  double along[3], square = 0, into[2][3], dot[2] = {0, 0}, product[3] = {0, 0, 0};
+  const S *x = core_.window.values(v), *y = core_.window.values(a);
+  for (int i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>(y[i]) - static_cast<double>(x[i]);
+    square += along[i] * along[i];
+  }
+  for (int k = 0; k < 2; ++k) {
+    const S* z = core_.window.values(k == 0 ? b : c);
+    for (int i = 0; i < 3; ++i) {
+      into[k][i] = static_cast<double>(z[i]) - static_cast<double>(x[i]);
+      dot[k] += into[k][i] * along[i];
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 2; ++k) into[k][i] -= dot[k] / square * along[i];
+    product[0] += into[0][i] * into[1][i];
+    product[1] += into[0][i] * into[0][i];
+    product[2] += into[1][i] * into[1][i];
+  }
+  return product[0] > least_cosine_ * std::sqrt(product[1] * product[2]);
+}
+
 // An end that was resolved before has told of its curves; it may have moved since.
 template <class S>
-bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use*, size_t degree) const {
+bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree) const {
   if (core_.window.mesh.vertexFlags(a) & kResolved) return core_.window.curves.has(v, a);
-  return degree != 2;
+  return degree != 2 ||
+         isRidge(v, a, faces_[uses[0].face].other(a), faces_[uses[1].face].other(a));
 }
 
 // Along faces of the link from one of its vertices to the next node, or once round to the start;

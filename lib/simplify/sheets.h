@@ -11,11 +11,14 @@ namespace tetstream {
 template <class S>
 class Sheets {
  public:
-  Sheets(Core<S>& core, Metric<S>& metric) : core_(core), metric_(metric) {}
+  Sheets(Core<S>& core, Metric<S>& metric);
 
   void clear() { faces_.clear(); }
   void add(uint32_t a, uint32_t b) { faces_.push_back({a, b}); }
-  bool empty() const { return faces_.empty(); }
+  // Whether there can be more than the boundary, which is looked at by others.
+  bool wanted() const {
+    return !faces_.empty() && (!core_.region_picks.empty() || core_.options.feature_angle > 0);
+  }
   // Marks the edges of curves at v that no end resolved before has told of; returns whether v is
   // inside a sheet or on a single curve, no corner.
   bool classify(uint32_t v);
@@ -31,11 +34,13 @@ class Sheets {
 
   const Use* usesOf(uint32_t vertex) const;
   bool isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree) const;
+  bool isRidge(uint32_t v, uint32_t a, uint32_t b, uint32_t c) const;
   size_t walk(uint32_t from, uint32_t face, uint32_t* end) const;
   bool isWhole(const std::vector<uint32_t>& nodes) const;
 
   Core<S>& core_;
   Metric<S>& metric_;
+  double least_cosine_;  // of a ridge: between the directions from the edge into its two faces
   std::vector<Face> faces_;
   std::vector<Use> uses_;        // sorted by vertex
   std::vector<uint32_t> nodes_;  // other ends of the curves' edges at v

@@ -20,7 +20,7 @@ struct WholeWindow {
         intake(core, account),
         regions(core),
         metric(core),
-        resolver(core, metric, regions, account) {
+        resolver(core, metric, account) {
     MeshStream stream(mesh, {});
     BatchView batch;
     while (stream.next(batch)) {
