@@ -119,7 +119,8 @@ bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
 
 template <class Mesh>
 Embedded Collapser<Mesh>::embedded() const {
-  Embedded e{core_.cellLabels(), &core_.window.curves, mesh_.vertexSlots()};
+  Embedded e{{}, &core_.window.curves, mesh_.vertexSlots()};
+  if (core_.interfaces) e.labels = core_.cellLabels();
   e.labels.slots = mesh_.cellSlots();
   return e;
 }

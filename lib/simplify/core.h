@@ -86,7 +86,7 @@ struct Core {
 
   // Whether some collapses have more than the price of their error.
   bool spares() const {
-    return !dear.empty() || !region_picks.empty() || options.feature_angle > 0;
+    return !dear.empty() || interfaces || options.feature_angle > 0;
   }
 
   const Plan& plan;
@@ -104,6 +104,7 @@ struct Core {
   double error_limit = std::numeric_limits<double>::infinity();
   bool error_reached = false;  // a collapse was refused for it
   double rescaled = 1;         // what errors of the last window count in today's units
+  bool interfaces = false;        // met any: labels that are all the same cost nothing
   std::vector<int> region_picks;  // columns of the cell picks that label regions
   Report report;
   LockedVertices locked;

@@ -164,6 +164,7 @@ void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet) {
   Topology& mesh = core_.window.mesh;
   for (uint32_t x : {v, a, b}) mesh.flagVertex(x, sheet);
   sheets_.add(a, b);
+  core_.interfaces |= sheet == kInterface;
   const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
   if (!counted) metric_.addFace(v, a, b, sheet == kInterface);
 }

@@ -1,5 +1,6 @@
-// Regions: vertices on the interface of two labels stay, ids are told from labels.
+// Regions: their interfaces keep shape and topology and get coarser, ids are told from labels.
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "simplify_testing.h"
@@ -37,6 +38,22 @@ std::set<Place> interfaceOf(const TestMesh& mesh) {
   return places;
 }
 
+double volumeOf(const TestMesh& mesh, int64_t label) {
+  double volume = 0;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) {
+    if (mesh.cellInteger(0, c) != label) continue;
+    double e[3][3];
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t i = 0; i < 3; ++i)
+        e[k][i] = mesh.position(static_cast<size_t>(mesh.cells[4 * c + k + 1]), i) -
+                  mesh.position(static_cast<size_t>(mesh.cells[4 * c]), i);
+    volume += std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                        e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                        e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) / 6;
+  }
+  return volume;
+}
+
 Result withRegions(const TestMesh& mesh, const std::string& regions, int64_t window,
                    Mode mode = SimplifyOptions().mode) {
   SimplifyOptions options = toRatio(0.25, window, mode);
@@ -50,7 +67,14 @@ void expectInterfaceKept(const TestMesh& mesh, Mode mode) {
     for (const char* regions : {"auto", "material"}) {
       const Result result = withRegions(mesh, regions, window, mode);
       expectSound(mesh, result);
-      EXPECT_TRUE(interfaceOf(result.out.mesh) == interface);
+      // The sheet has become coarser, and is where it was.
+      const std::set<Place> left = interfaceOf(result.out.mesh);
+      EXPECT_LT(left.size(), interface.size());
+      EXPECT_GE(left.size(), 4u);
+      for (const Place& p : left) EXPECT_NEAR(p[2], (*interface.begin())[2], 1e-2);
+      for (int64_t label : {3, 8})
+        EXPECT_NEAR(volumeOf(result.out.mesh, label), volumeOf(mesh, label),
+                    1e-3 * volumeOf(mesh, label));
       EXPECT_NE(result.report.regions.find("material"), std::string::npos);
       EXPECT_GT(result.report.collapses, 20);
       std::set<int64_t> labels;
