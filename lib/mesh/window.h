@@ -9,6 +9,7 @@
 
 #include "embedded.h"
 #include "front.h"
+#include "labelled_faces.h"
 #include "topology.h"
 
 namespace tetstream {
@@ -36,6 +37,7 @@ class Window {
   Window(Account& account, const WindowShape& shape, size_t cells, size_t vertices, bool linked)
       : mesh(account, cells, vertices, linked),
         curves(account),
+        faces(account),
         shape_(shape),
         values_(account),
         quadrics_(account),
@@ -50,6 +52,7 @@ class Window {
 
   Topology mesh;
   Curves curves;
+  LabelledFaces faces;
 
   const WindowShape& shape() const { return shape_; }
   S* values(uint32_t v) { return &values_[size_t{v} * shape_.values]; }
@@ -78,6 +81,7 @@ class Window {
   uint32_t slotOf(uint32_t v) const { return v; }
   const uint32_t* vertexSlots() const { return nullptr; }
   const uint32_t* cellSlots() const { return nullptr; }
+  uint32_t cornerSlot(uint32_t corner) const { return corner; }
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
     mesh.gather(v, other, star, ring);
   }

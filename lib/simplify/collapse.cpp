@@ -184,7 +184,7 @@ template <class Mesh>
 auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Embedded& embedded) -> S {
   const bool u_on_it = endOf(u, embedded).stratum == Stratum::kCurve;
   const bool v_on_it = endOf(v, embedded).stratum == Stratum::kCurve;
-  const bool kept = core_.options.feature_angle > 0 && (u_on_it || v_on_it) &&
+  const bool kept = core_.exact_curves && (u_on_it || v_on_it) &&
                     putOnCurve(u, v, u_on_it, v_on_it);
   if (!kept && embedded.labels.count > 0) return keepVolumes(u, v, embedded.labels);
   return errorHere(u, v);
@@ -296,6 +296,7 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   if (core_.plan.values > core_.plan.dimension) interpolateCarried(u, v);
   if (core_.plan.picks > 0) pickNearest(u, v);
   if (core_.plan.cell_means > 0) handOverCellData(v);
+  if (core_.window.faces.anyPlaced()) handOverFaces(u, v);
   mesh_.merge(u, v, stars_);
   core_.window.curves.merge(mesh_.slotOf(u), mesh_.slotOf(v));
   std::copy(merged_.begin(), merged_.end(), mesh_.values(u));
@@ -393,6 +394,34 @@ void Collapser<Mesh>::handOverCellData(uint32_t v) {
       for (int i = 1; i <= n && sum > 0; ++i) to[i] += (from[i] - to[i]) * (share / sum);
       to[0] = sum;
     }
+  }
+}
+
+template <class Mesh>
+uint32_t Collapser<Mesh>::cornerOf(uint32_t cell, uint32_t v) const {
+  uint32_t j = 0;
+  while (mesh_.vertexOf(cell, j) != v) ++j;
+  return 4 * cell + j;
+}
+
+// The faces uab and vab of a dying cell u v a b become one, of the cell across that of them which
+// has no label: where both are on a sheet the edge is not collapsed.
+template <class Mesh>
+void Collapser<Mesh>::handOverFaces(uint32_t u, uint32_t v) {
+  LabelledFaces& faces = core_.window.faces;
+  for (const StarCell& dying : stars_.ring) {
+    for (const Star* star : {&stars_.u, &stars_.v}) {
+      // Across the face at u lies a cell of u's star; the face at v is opposite u.
+      const uint32_t from = mesh_.cornerSlot(cornerOf(dying.cell(), star == &stars_.u ? u : v));
+      if (!faces.labelOf(from)) continue;
+      for (const StarCell& s : *star) {
+        uint32_t beyond = kNone, shared = 0;
+        for (uint32_t t : s.t) dying.has(t) ? void(++shared) : void(beyond = t);
+        if (shared == 2)
+          faces.hand(from, mesh_.cornerSlot(cornerOf(s.cell(), beyond)));
+      }
+    }
+    faces.forgetCell(mesh_.cornerSlot(dying.corner) / 4);
   }
 }
 

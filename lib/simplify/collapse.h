@@ -84,6 +84,8 @@ class Collapser {
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
+  uint32_t cornerOf(uint32_t cell, uint32_t v) const;
+  void handOverFaces(uint32_t u, uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
 
   // The cell for which an edge was refused. Tried again, it mostly is for the same.

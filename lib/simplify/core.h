@@ -22,7 +22,7 @@ constexpr uint8_t kCallerLocked = 64;
 
 // Vertices that never move, by reason: what a missed target is explained with.
 struct LockedVertices {
-  int64_t corners = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
+  int64_t corners = 0, inner_faces = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
 };
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
@@ -61,7 +61,8 @@ struct Core {
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
         inverse_scale(scale),
-        thin(0) {}
+        thin(0),
+        exact_curves(the_options.feature_angle > 0) {}
 
   static WindowShape shapeOf(const Plan& plan) {
     return {plan.values, quadricSize(plan.dimension), plan.picks, plan.cell_means, plan.cell_picks};
@@ -86,7 +87,7 @@ struct Core {
 
   // Whether some collapses have more than the price of their error.
   bool spares() const {
-    return !dear.empty() || interfaces || options.feature_angle > 0;
+    return !dear.empty() || interfaces || exact_curves;
   }
 
   const Plan& plan;
@@ -104,6 +105,7 @@ struct Core {
   double error_limit = std::numeric_limits<double>::infinity();
   bool error_reached = false;  // a collapse was refused for it
   double rescaled = 1;         // what errors of the last window count in today's units
+  bool exact_curves;              // there are curves that the user wants to stay where they are
   bool interfaces = false;        // met any: labels that are all the same cost nothing
   std::vector<int> region_picks;  // columns of the cell picks that label regions
   Report report;

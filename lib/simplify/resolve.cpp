@@ -160,13 +160,24 @@ void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
 }
 
 template <class S>
-void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet) {
+void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet,
+                          const int64_t* label) {
   Topology& mesh = core_.window.mesh;
   for (uint32_t x : {v, a, b}) mesh.flagVertex(x, sheet);
-  sheets_.add(a, b);
+  sheets_.add(a, b, label);
   core_.interfaces |= sheet == kInterface;
   const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
   if (!counted) metric_.addFace(v, a, b, sheet == kInterface);
+}
+
+// Of the face vab of a cell; null if it has none.
+template <class S>
+const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t v, uint32_t a, uint32_t b) {
+  if (core_.window.faces.empty()) return nullptr;
+  const uint32_t* corners = core_.window.mesh.corners(cell);
+  uint32_t j = 0;
+  while (corners[j] == v || corners[j] == a || corners[j] == b) ++j;
+  return core_.window.faces.labelOf(4 * cell + j, v, a, b);
 }
 
 template <class S>
@@ -192,10 +203,15 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     const uint32_t a = static_cast<uint32_t>(pair >> 32), b = static_cast<uint32_t>(pair);
     if (j - i == 1) {
       boundary_.push_back(uint64_t{a} << 32 | b);
-      addFace(v, a, b, kBoundary);
+      addFace(v, a, b, kBoundary, labelOf(edges_[i].cell, v, a, b));
     } else if (j - i == 2) {
       if ((edges_[i].key & 1) == (edges_[i + 1].key & 1)) lockFold(a, b);
-      if (labels.differ(edges_[i].cell, edges_[i + 1].cell)) addFace(v, a, b, kInterface);
+      const int64_t* label = labelOf(edges_[i].cell, v, a, b);
+      if (!label) label = labelOf(edges_[i + 1].cell, v, a, b);
+      if (labels.differ(edges_[i].cell, edges_[i + 1].cell))
+        addFace(v, a, b, kInterface, label);
+      else if (label)
+        lockInnerFace(v);
     } else {
       lockNonManifold(v);  // a face of three cells or more
     }
@@ -205,6 +221,13 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     mesh.flagVertex(v, kLocked);
     ++core_.locked.corners;
   }
+}
+
+// A labelled face with cells of one region on both sides is no part of a sheet.
+template <class S>
+void Resolver<S>::lockInnerFace(uint32_t v) {
+  core_.locked.inner_faces += !(core_.window.mesh.vertexFlags(v) & kLocked);
+  core_.window.mesh.flagVertex(v, kLocked);
 }
 
 template <class S>

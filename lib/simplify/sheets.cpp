@@ -51,8 +51,10 @@ bool Sheets<S>::isRidge(uint32_t v, uint32_t a, uint32_t b, uint32_t c) const {
 template <class S>
 bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree) const {
   if (core_.window.mesh.vertexFlags(a) & kResolved) return core_.window.curves.has(v, a);
-  return degree != 2 ||
-         isRidge(v, a, faces_[uses[0].face].other(a), faces_[uses[1].face].other(a));
+  if (degree != 2) return true;
+  const Face &one = faces_[uses[0].face], &other = faces_[uses[1].face];
+  return one.labelled != other.labelled || one.label != other.label ||
+         isRidge(v, a, one.other(a), other.other(a));
 }
 
 // Along faces of the link from one of its vertices to the next node, or once round to the start;

@@ -14,10 +14,13 @@ class Sheets {
   Sheets(Core<S>& core, Metric<S>& metric);
 
   void clear() { faces_.clear(); }
-  void add(uint32_t a, uint32_t b) { faces_.push_back({a, b}); }
+  // `label`: of a labelled face, or null.
+  void add(uint32_t a, uint32_t b, const int64_t* label) {
+    faces_.push_back({a, b, label != nullptr, label ? *label : 0});
+  }
   // Whether there can be more than the boundary, which is looked at by others.
   bool wanted() const {
-    return !faces_.empty() && (!core_.region_picks.empty() || core_.options.feature_angle > 0);
+    return !faces_.empty() && (!core_.region_picks.empty() || core_.exact_curves);
   }
   // Marks the edges of curves at v that no end resolved before has told of; returns whether v is
   // inside a sheet or on a single curve, no corner.
@@ -26,6 +29,8 @@ class Sheets {
  private:
   struct Face {
     uint32_t a, b;
+    bool labelled;
+    int64_t label;
     uint32_t other(uint32_t x) const { return x == a ? b : a; }
   };
   struct Use {  // of a link's vertex by a face

@@ -114,9 +114,6 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   void put(const BatchView& batch) override {
-    if (batch.face_count > 0)
-      fail(Status::kUnsupported,
-           "the stream has labelled boundary faces, which a simplification cannot keep yet");
     intake_.startBatch(batch);
     for (size_t row = 0; row < batch.cell_count; ++row) {
       if (mesh().cellEnd() == turn_at_) turn();
@@ -130,6 +127,8 @@ class WindowedEngine final : public Simplifier::Engine {
     checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
     intake_.finalizeAll();
     resolveNew();
+    if (const size_t strange = core_.window.faces.coming())
+      fail(Status::kBadData, "%zu labelled faces are faces of no cell, or came twice", strange);
     Ledger now = ledger();
     decimate(budget_->lastGoal(now));
     if (now.written == 0) survey(now.read);
@@ -309,6 +308,7 @@ class WindowedEngine final : public Simplifier::Engine {
         kept += textOf("%s%lld %s", kept.empty() ? "" : ", ", static_cast<long long>(count), what);
     };
     name(core_.locked.corners, "vertices where interfaces end, branch or touch");
+    name(core_.locked.inner_faces, "vertices of labelled faces inside a region");
     name(core_.locked.non_manifold, "vertices at non-manifold places of the boundary");
     name(core_.locked.bad_cells, "flat or folded cells of the input");
     name(core_.locked.by_caller, "vertices locked by the stream");
