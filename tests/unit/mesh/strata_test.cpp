@@ -93,12 +93,16 @@ TEST(StrataCondition, ForbidsEdgesThatWouldPierceALayer) {
   EXPECT_TRUE(k.holds(k.at(2, 2, 3), k.at(3, 2, 3)));
 }
 
-// A column of one cube's width: three edges of its sheet make a triangle round it that is no face.
-// Edges along the column stay possible, those round it would cut it in two.
+// A column whose section is a triangle: three edges of its sheet go round it, and are no face of the
+// sheet. Without any of them the column would be cut in two. One whose section is a square has an
+// edge to spare.
 TEST(StrataCondition, ForbidsWhatWouldPinchAColumn) {
-  Labelled k(6, [](double x, double y, double) { return x > 2 && x < 3 && y > 2 && y < 3; });
+  Labelled k(6, [](double x, double y, double) { return x < 3 && y > 2 && x > y; });
   EXPECT_FALSE(k.holds(k.at(2, 2, 3), k.at(3, 2, 3)));
-  EXPECT_FALSE(k.holds(k.at(2, 2, 3), k.at(2, 3, 3)));
+  EXPECT_FALSE(k.holds(k.at(3, 2, 3), k.at(3, 3, 3)));
+  EXPECT_TRUE(k.holds(k.at(2, 2, 3), k.at(2, 2, 2)));
+  Labelled square(6, [](double x, double y, double) { return x > 2 && x < 3 && y > 2 && y < 3; });
+  EXPECT_TRUE(square.holds(square.at(2, 2, 3), square.at(3, 2, 3)));
 }
 
 // Four quarters meet along a line: it is a curve, and its vertices are merged with each other along
@@ -146,8 +150,9 @@ TEST(Curves, FollowMergersAndPacking) {
   curves.remap(keep.data());
   EXPECT_TRUE(curves.has(100, 4) && curves.has(100, 6) && curves.has(0, 1));
   EXPECT_FALSE(curves.passes(9) && curves.has(9, 10));
-  for (uint32_t round = 0; round < 1000; ++round) curves.merge(round % 2 ? 200 : 201, round % 2 ? 201 : 200);
-  EXPECT_TRUE(curves.has(0, 1));
+  for (uint32_t round = 0; round < 1000; ++round)
+    curves.merge(100 + (round + 1) % 2, 100 + round % 2);
+  EXPECT_TRUE(curves.has(0, 1) && curves.has(100, 4) && curves.has(6, 100));
 }
 
 }  // namespace

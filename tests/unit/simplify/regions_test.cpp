@@ -67,14 +67,14 @@ void expectInterfaceKept(const TestMesh& mesh, int n, Mode mode) {
     for (const char* regions : {"auto", "material"}) {
       const Result result = withRegions(mesh, regions, window, mode);
       expectSound(mesh, result);
-      // The sheet has become coarser, and is where it was.
+      // The sheet is where it was, bumps and all.
       const std::set<Place> left = interfaceOf(result.out.mesh);
-      EXPECT_LT(left.size(), interface.size());
+      EXPECT_LE(left.size(), interface.size());
       EXPECT_GE(left.size(), 4u);
       for (const Place& p : left) EXPECT_NEAR(p[2], n, 0.25);
       for (int64_t label : {3, 8})
         EXPECT_NEAR(volumeOf(result.out.mesh, label), volumeOf(mesh, label),
-                    1e-3 * volumeOf(mesh, label));
+                    5e-3 * volumeOf(mesh, label));
       EXPECT_NE(result.report.regions.find("material"), std::string::npos);
       EXPECT_GT(result.report.collapses, 20);
       std::set<int64_t> labels;
@@ -99,6 +99,27 @@ TEST(SimplifierRegions, KeepTheirInterface) {
   const int n = slowRun() ? 3 : 5;
   const TestMesh mesh = twoMaterials(n);
   for (Mode mode : kModes) expectInterfaceKept(mesh, n, mode);
+}
+
+// A plane interface costs nothing: it becomes as coarse as the rest, and stays a plane.
+TEST(SimplifierRegions, LetAPlaneInterfaceBecomeCoarse) {
+  const int n = slowRun() ? 4 : 6;
+  TestMesh mesh = fullGrid(n, n, 2 * n);
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    double z = 0;
+    for (size_t j = 0; j < 4; ++j)
+      z += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), 2) / 4;
+    return z < n;
+  });
+  for (Mode mode : kModes)
+    for (int64_t window : {0, 900}) {
+      const Result result = withRegions(mesh, "auto", window, mode);
+      expectSound(mesh, result);
+      EXPECT_EQ(result.report.limited_by, "");
+      const std::set<Place> left = interfaceOf(result.out.mesh);
+      EXPECT_LT(2 * left.size(), interfaceOf(mesh).size());
+      for (const Place& p : left) EXPECT_NEAR(p[2], n, 1e-2);
+    }
 }
 
 TEST(SimplifierRegions, AreNotTakenFromIds) {
