@@ -222,7 +222,7 @@ typedef struct tetstream_batch {
   const void *const *cell_data; /* one pointer per cell array: [cell_count][components] */
   int64_t finalized_count;
   const int64_t *finalized;     /* vertices that no later cell uses */
-  /* Since the first version: labelled faces of cells, on the boundary or between regions, and what
+  /* Labelled faces of cells, on the boundary or between regions, and what
      must stay. They come at the latest with the batch in which the first of their vertices gets its
      last use or is finalized. Curves between faces of different labels are kept like ridges. */
   int64_t face_count;

@@ -39,9 +39,7 @@ struct Embedded {
     if (!on_sheet) return Stratum::kInside;
     return curves && curves->passes(slotOf(v)) ? Stratum::kCurve : Stratum::kSheet;
   }
-  bool onCurve(uint32_t u, uint32_t v) const {
-    return curves && curves->has(slotOf(u), slotOf(v));
-  }
+  bool onCurve(uint32_t u, uint32_t v) const { return curves && curves->has(slotOf(u), slotOf(v)); }
 };
 
 }  // namespace tetstream

@@ -61,8 +61,7 @@ class LabelMap {
   size_t placeOf(const Key& key) const {
     const size_t mask = places_.size() - 1;
     size_t i = static_cast<size_t>(key.hash()) & mask;
-    while (places_[i].state != kEmpty &&
-           !(places_[i].state == kUsed && places_[i].key == key))
+    while (places_[i].state != kEmpty && !(places_[i].state == kUsed && places_[i].key == key))
       i = (i + 1) & mask;
     return i;
   }

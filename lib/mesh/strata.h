@@ -30,7 +30,8 @@ namespace tetstream {
 // makes it the cone over its boundary S', and S' is S with the disk D = star of u in S replaced by
 // another, D' = the part of the link of u off v, with the same rim Lk(uv). So it is enough that the
 // new pattern P' is P up to a homeomorphism of spheres: then the ball with all that is embedded is
-// mapped to the new one, its boundary fixed. The label of a triangle of D' is that of the cell at u.
+// mapped to the new one, its boundary fixed. The label of a triangle of D' is that of the cell at
+// u.
 //   u inside: D and D' have one label, the same; on the rim labels are as they were.
 //   u sheet:  as uv is in X2, P enters D at u and leaves it as two edges, to a and b, with
 //             Lk(uv) n X2 = {a, b}. In D', P' is the circle of u without v: one arc from a to b.
@@ -45,7 +46,8 @@ namespace tetstream {
 //             arm, P' is P.
 // Of (2) and (1) nothing was used but for the lower kind u, so v may be of any kind.
 //
-// Where neither u nor v is on the boundary, (3) follows from the cells' orientation, as link.h says.
+// Where neither u nor v is on the boundary, (3) follows from the cells' orientation, as link.h
+// says.
 class StrataCondition {
  public:
   struct End {
@@ -65,8 +67,8 @@ class StrataCondition {
     uint64_t ends;
     uint32_t cell;
   };
-  void listSheets(const Star& star, const Star& ring, const uint8_t* flags, const CellLabels& labels,
-                  std::vector<uint64_t>& faces);
+  void listSheets(const Star& star, const Star& ring, const uint8_t* flags,
+                  const CellLabels& labels, std::vector<uint64_t>& faces);
   bool linksAgree(uint32_t v);
 
   std::vector<Edge> edges_;

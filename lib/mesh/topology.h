@@ -21,7 +21,7 @@ enum VertexFlag : uint8_t {
   kBoundary = 2,  // on the boundary of the domain (known once it or a neighbour there is final)
   kLocked = 4,    // never moved: non-manifold boundary, interface, flat cell, or the caller's wish
   kWritten = 8,   // a cell that uses it has left: it is frozen
-  kCollapsed = 16,  // merged into another vertex
+  kCollapsed = 16,   // merged into another vertex
   kInterface = 128,  // cells of different regions meet there (known as kBoundary is)
 };
 

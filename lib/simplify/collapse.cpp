@@ -148,9 +148,8 @@ auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labe
 
 template <class Mesh>
 auto Collapser<Mesh>::errorHere(uint32_t u, uint32_t v) const -> S {
-  return core_.kernels.errorAt(mesh_.quadric(u), mesh_.values(u), mesh_.quadric(v),
-                               mesh_.values(v), core_.scale.data(), core_.plan.dimension,
-                               z_.data());
+  return core_.kernels.errorAt(mesh_.quadric(u), mesh_.values(u), mesh_.quadric(v), mesh_.values(v),
+                               core_.scale.data(), core_.plan.dimension, z_.data());
 }
 
 // With features, curves stay where they are: what is merged with a vertex of one goes there, and
@@ -184,8 +183,8 @@ template <class Mesh>
 auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Embedded& embedded) -> S {
   const bool u_on_it = endOf(u, embedded).stratum == Stratum::kCurve;
   const bool v_on_it = endOf(v, embedded).stratum == Stratum::kCurve;
-  const bool kept = core_.exact_curves && (u_on_it || v_on_it) &&
-                    putOnCurve(u, v, u_on_it, v_on_it);
+  const bool kept =
+      core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it);
   if (!kept && embedded.labels.count > 0) return keepVolumes(u, v, embedded.labels);
   return errorHere(u, v);
 }
@@ -201,8 +200,7 @@ bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Embedded& embe
 
 // Half of all edges fail, most of them by the cells of the end that moves most.
 template <class Mesh>
-Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells,
-                              bool spares) {
+Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares) {
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
@@ -417,8 +415,7 @@ void Collapser<Mesh>::handOverFaces(uint32_t u, uint32_t v) {
       for (const StarCell& s : *star) {
         uint32_t beyond = kNone, shared = 0;
         for (uint32_t t : s.t) dying.has(t) ? void(++shared) : void(beyond = t);
-        if (shared == 2)
-          faces.hand(from, mesh_.cornerSlot(cornerOf(s.cell(), beyond)));
+        if (shared == 2) faces.hand(from, mesh_.cornerSlot(cornerOf(s.cell(), beyond)));
       }
     }
     faces.forgetCell(mesh_.cornerSlot(dying.corner) / 4);

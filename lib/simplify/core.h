@@ -86,9 +86,7 @@ struct Core {
   }
 
   // Whether some collapses have more than the price of their error.
-  bool spares() const {
-    return !dear.empty() || interfaces || exact_curves;
-  }
+  bool spares() const { return !dear.empty() || interfaces || exact_curves; }
 
   const Plan& plan;
   const SimplifyOptions& options;
@@ -103,8 +101,8 @@ struct Core {
   // the extent of the mesh; the error that may be made.
   double volume = 0, error = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();
-  bool error_reached = false;  // a collapse was refused for it
-  double rescaled = 1;         // what errors of the last window count in today's units
+  bool error_reached = false;     // a collapse was refused for it
+  double rescaled = 1;            // what errors of the last window count in today's units
   bool exact_curves;              // there are curves that the user wants to stay where they are
   bool interfaces = false;        // met any: labels that are all the same cost nothing
   std::vector<int> region_picks;  // columns of the cell picks that label regions

@@ -332,8 +332,8 @@ void Metric<S>::addCurve(uint32_t a, uint32_t b) {
     const double norm = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] +
                                   direction[2] * direction[2]);
     for (size_t i = 0; i < 3; ++i)
-      tip[i] = static_cast<S>(static_cast<double>(window.values(b)[i]) +
-                              direction[i] * (length / norm));
+      tip[i] =
+          static_cast<S>(static_cast<double>(window.values(b)[i]) + direction[i] * (length / norm));
     const S* x[3] = {window.values(a), window.values(b), tip.data()};
     S* q[3] = {window.quadric(a), window.quadric(b), nowhere.data()};
     core_.kernels.addFacePlane(x, core_.scale.data(), core_.plan.dimension, faceWeight(false), q);

@@ -41,8 +41,8 @@ void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S*
       if (star == &stars.ring) continue;
       change.volume += determinant(t[0], t[1], t[2]) / 6;
       for (size_t i = 0; i < 3; ++i)
-        change.gradient[i] -= (e[0][(i + 1) % 3] * e[1][(i + 2) % 3] -
-                               e[0][(i + 2) % 3] * e[1][(i + 1) % 3]) / 6;
+        change.gradient[i] -=
+            (e[0][(i + 1) % 3] * e[1][(i + 2) % 3] - e[0][(i + 2) % 3] * e[1][(i + 1) % 3]) / 6;
     }
   }
 }

@@ -5,9 +5,10 @@
 
 namespace tetstream {
 
-// Decides once, on the first window's cells, which picks of a cell are its labels: "none": none; a name: that array; "auto": every
-// integer array, but for those whose values are nearly all different, which are ids. Says in the
-// report what was taken. Throws kBadArgument for a name that is no integer cell array.
+// Decides once, on the first window's cells, which picks of a cell are its labels: "none": none; a
+// name: that array; "auto": every integer array, but for those whose values are nearly all
+// different, which are ids. Says in the report what was taken. Throws kBadArgument for a name that
+// is no integer cell array.
 template <class S>
 class Regions {
  public:

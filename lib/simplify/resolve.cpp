@@ -160,8 +160,7 @@ void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
 }
 
 template <class S>
-void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet,
-                          const int64_t* label) {
+void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label) {
   Topology& mesh = core_.window.mesh;
   for (uint32_t x : {v, a, b}) mesh.flagVertex(x, sheet);
   sheets_.add(a, b, label);

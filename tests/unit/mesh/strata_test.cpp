@@ -93,9 +93,9 @@ TEST(StrataCondition, ForbidsEdgesThatWouldPierceALayer) {
   EXPECT_TRUE(k.holds(k.at(2, 2, 3), k.at(3, 2, 3)));
 }
 
-// A column whose section is a triangle: three edges of its sheet go round it, and are no face of the
-// sheet. Without any of them the column would be cut in two. One whose section is a square has an
-// edge to spare.
+// A column whose section is a triangle: three edges of its sheet go round it, and are no face of
+// the sheet. Without any of them the column would be cut in two. One whose section is a square has
+// an edge to spare.
 TEST(StrataCondition, ForbidsWhatWouldPinchAColumn) {
   Labelled k(6, [](double x, double y, double) { return x < 3 && y > 2 && x > y; });
   EXPECT_FALSE(k.holds(k.at(2, 2, 3), k.at(3, 2, 3)));

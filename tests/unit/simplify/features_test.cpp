@@ -206,8 +206,8 @@ TEST(SimplifierLocks, KeepFacesAndEdges) {
   BatchView batch = whole.view();
   std::vector<int64_t> faces, labels;
   for (const auto& [face, count] : facesOf(mesh.cells)) {
-    if (count != 1 || placeOf(mesh, face[0])[2] + placeOf(mesh, face[1])[2] +
-                              placeOf(mesh, face[2])[2] > 0.5)
+    if (count != 1 ||
+        placeOf(mesh, face[0])[2] + placeOf(mesh, face[1])[2] + placeOf(mesh, face[2])[2] > 0.5)
       continue;
     faces.insert(faces.end(), face.begin(), face.end());
     labels.push_back(4);

@@ -49,7 +49,8 @@ double volumeOf(const TestMesh& mesh, int64_t label) {
                   mesh.position(static_cast<size_t>(mesh.cells[4 * c]), i);
     volume += std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
                         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                        e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) / 6;
+                        e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+              6;
   }
   return volume;
 }

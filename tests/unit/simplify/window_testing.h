@@ -3,6 +3,7 @@
 
 #include "collapse.h"
 #include "intake.h"
+#include "regions.h"
 #include "resolve.h"
 #include "select.h"
 #include "simplify_testing.h"
