@@ -217,7 +217,8 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const auto dying = static_cast<int64_t>(ring.size());
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
-  const Embedded embedded = this->embedded();
+  Embedded embedded;
+  if (core_.interfaces || !core_.window.curves.empty()) embedded = this->embedded();
   if (embedded.any() && !strata_.mayHold(endOf(u, embedded), endOf(v, embedded), ring, embedded))
     return Outcome::kTopology;
   if (embedded.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
