@@ -103,6 +103,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_ERROR 102           /* double, RMS field error in percent of the range */
 #define TETSTREAM_OPTION_BOUNDARY_WEIGHT 110 /* double, dimensionless: boundary against field */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
+#define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: none */
 #define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */
 #define TETSTREAM_OPTION_SEED 131            /* int64, for the random choices of "paper" */
 #define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */
@@ -225,6 +226,16 @@ typedef struct tetstream_batch {
   const void *const *cell_data; /* one pointer per cell array: [cell_count][components] */
   int64_t finalized_count;
   const int64_t *finalized;     /* vertices that no later cell uses */
+  /* Labelled faces of cells, on the boundary or between regions, and what
+     must stay. They come at the latest with the batch in which the first of their vertices gets its
+     last use or is finalized. Curves between faces of different labels are kept like ridges. */
+  int64_t face_count;
+  const int64_t *faces;         /* [face_count][3] vertex ids */
+  const int64_t *face_labels;   /* [face_count] */
+  const uint8_t *locked_faces;  /* [face_count], non-zero: none of its vertices moves; NULL: none */
+  int64_t locked_edge_count;
+  const int64_t *locked_edges;  /* [locked_edge_count][2] vertex ids; neither end moves, which is
+                                   enough: an edge changes only with its ends */
 } tetstream_batch;
 
 /* -------------------------------------------------------------------------------- reader */

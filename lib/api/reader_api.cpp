@@ -68,6 +68,10 @@ tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,
     batch.last_uses = nullptr;
     batch.finalized_count = 0;
     const BatchView view = BatchChecker(schema).view(batch);
+    if (view.face_count + view.edge_count > 0)
+      fail(Status::kUnsupported,
+           "a mesh in memory has no order, and labelled faces and locked edges cannot be ordered "
+           "yet: push them in batches, or lock vertices");
     r.input.indexed = std::make_unique<MemorySource>(schema, view);
     openReader(r);
   });

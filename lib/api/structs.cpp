@@ -145,6 +145,11 @@ BatchView BatchChecker::view(const tetstream_batch& batch) {
   v.vertex_count = place.count(batch.vertex_count, "vertices");
   v.cell_count = place.count(batch.cell_count, "cells");
   v.finalized_count = place.count(batch.finalized_count, "finalized vertices");
+  v.face_count = place.count(batch.face_count, "labelled faces");
+  v.edge_count = place.count(batch.locked_edge_count, "locked edges");
+  place.need(batch.faces, "labelled faces", batch.face_count);
+  place.need(batch.face_labels, "labels of faces", batch.face_count);
+  place.need(batch.locked_edges, "locked edges", batch.locked_edge_count);
   place.need(batch.positions, "positions", batch.vertex_count);
   place.need(batch.cells, "cells", batch.cell_count);
   place.need(batch.finalized, "finalized vertices", batch.finalized_count);
@@ -160,6 +165,10 @@ BatchView BatchChecker::view(const tetstream_batch& batch) {
   v.last_uses = batch.last_uses;
   v.cell_data = batch.cell_data;
   v.finalized = batch.finalized;
+  v.faces = batch.faces;
+  v.face_labels = batch.face_labels;
+  v.face_locks = batch.locked_faces;
+  v.locked_edges = batch.locked_edges;
   vertices_ += v.vertex_count;
   ++batches_;
   return v;
@@ -178,6 +187,12 @@ tetstream_batch publicBatch(const BatchView& view) {
   b.cell_data = view.cell_data;
   b.finalized_count = static_cast<int64_t>(view.finalized_count);
   b.finalized = view.finalized;
+  b.face_count = static_cast<int64_t>(view.face_count);
+  b.faces = view.faces;
+  b.face_labels = view.face_labels;
+  b.locked_faces = view.face_locks;
+  b.locked_edge_count = static_cast<int64_t>(view.edge_count);
+  b.locked_edges = view.locked_edges;
   return b;
 }
 

@@ -108,6 +108,12 @@ void Writer::checkBatch(const BatchView& batch) const {
     fail(Status::kBadData, "%s: a batch begins with vertex %llu, but %llu vertices have come",
          sink_->name().c_str(), static_cast<unsigned long long>(batch.first_vertex),
          static_cast<unsigned long long>(vertexCount()));
+  bool locks_face = false;
+  for (size_t i = 0; batch.face_locks && i < batch.face_count; ++i)
+    locks_face = locks_face || batch.face_locks[i];
+  if (batch.edge_count > 0 || locks_face)
+    fail(Status::kUnsupported, "%s: tets has no locked edges or faces: lock their vertices",
+         sink_->name().c_str());
   // Cells and finalizations are checked by the meter.
   const uint64_t known = batch.first_vertex + batch.vertex_count;
   for (size_t i = 0; i < 3 * batch.face_count; ++i)

@@ -38,6 +38,8 @@ void SpooledMesh::put(const BatchView& batch) {
   if (batch.face_count > 0)
     fail(Status::kUnsupported,
          "the stream has labelled boundary faces, which another order cannot keep yet");
+  if (batch.edge_count > 0)
+    fail(Status::kUnsupported, "the stream has locked edges, which another order cannot keep yet");
   if (batch.vertex_count > 0) {
     if (batch.locked) lock(batch);
     positions_.append(batch.positions, batch.vertex_count);

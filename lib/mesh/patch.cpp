@@ -195,7 +195,7 @@ void Patch<S>::merge(uint32_t u, uint32_t v, const Stars& stars) {
   star_of_[u] = {static_cast<uint32_t>(lists_end_), count};
   lists_end_ += count;
   flags_[v] |= kCollapsed;
-  flags_[u] |= flags_[v] & kBoundary;
+  flags_[u] |= flags_[v] & kOnSheet;
 }
 
 // Lists hold dead cells until somebody looks: no more.

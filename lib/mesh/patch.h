@@ -56,6 +56,14 @@ class Patch {
   double* cellMeans(uint32_t c) { return window_.cellMeans(global_cell_[c]); }
   uint32_t slotOf(uint32_t v) const { return global_vertex_[v]; }  // in the window
   uint32_t cellSlotOf(uint32_t c) const { return global_cell_[c]; }
+  const uint32_t* vertexSlots() const { return global_vertex_.data(); }
+  const uint32_t* cellSlots() const { return global_cell_.data(); }
+  // Of a corner, in the window; the last two of a negative cell are exchanged here.
+  uint32_t cornerSlot(uint32_t corner) const {
+    const uint32_t cell = global_cell_[corner / 4], j = corner % 4;
+    const bool exchanged = j >= 2 && (window_.mesh.cellFlags(cell) & kNegative);
+    return 4 * cell + (exchanged ? 5 - j : j);
+  }
 
   // As those of Topology; for owned vertices.
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring);

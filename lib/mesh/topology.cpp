@@ -103,7 +103,7 @@ void Topology::merge(uint32_t u, uint32_t v, const Stars& stars) {
     link(s.corner, u);
   }
   vertex_flags_[v] |= kCollapsed;
-  vertex_flags_[u] |= vertex_flags_[v] & kBoundary;
+  vertex_flags_[u] |= vertex_flags_[v] & kOnSheet;
 }
 
 }  // namespace tetstream

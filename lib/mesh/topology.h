@@ -21,8 +21,12 @@ enum VertexFlag : uint8_t {
   kBoundary = 2,  // on the boundary of the domain (known once it or a neighbour there is final)
   kLocked = 4,    // never moved: non-manifold boundary, interface, flat cell, or the caller's wish
   kWritten = 8,   // a cell that uses it has left: it is frozen
-  kCollapsed = 16,  // merged into another vertex
+  kCollapsed = 16,   // merged into another vertex
+  kInterface = 128,  // cells of different regions meet there (known as kBoundary is)
 };
+
+// On a sheet: the boundary of the domain or an interface of regions.
+constexpr uint8_t kOnSheet = kBoundary | kInterface;
 
 constexpr bool isFreeVertex(uint8_t flags) {
   return (flags & (kFinal | kLocked | kWritten | kCollapsed)) == kFinal;

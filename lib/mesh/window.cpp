@@ -86,8 +86,11 @@ uint64_t Window<S>::pack(Front& front) {
   const uint32_t kept = chooseVertices(&unused);
   moveVertices();
   front.remap(remap_.data());
+  curves.remap(remap_.data());
+  faces.remapVertices(remap_.data());
   mesh.pack(remap_.data(), kept, [this](uint32_t from, uint32_t to) {
     if (from == to) return;
+    if (faces.anyPlaced()) faces.moveCell(from, to);
     moveRow(cell_means_.data(), static_cast<size_t>(meansStride()), from, to);
     moveRow(cell_picks_.data(), static_cast<size_t>(shape_.cell_picks), from, to);
     if (shape_.points) first_points_[to] = first_points_[from];

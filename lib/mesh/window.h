@@ -7,7 +7,9 @@
 
 #include <cstring>
 
+#include "embedded.h"
 #include "front.h"
+#include "labelled_faces.h"
 #include "topology.h"
 
 namespace tetstream {
@@ -36,6 +38,8 @@ class Window {
   using Scalar = S;
   Window(Account& account, const WindowShape& shape, size_t cells, size_t vertices, bool linked)
       : mesh(account, cells, vertices, linked),
+        curves(account),
+        faces(account),
         shape_(shape),
         values_(account),
         quadrics_(account),
@@ -51,6 +55,8 @@ class Window {
   }
 
   Topology mesh;
+  Curves curves;
+  LabelledFaces faces;
 
   const WindowShape& shape() const { return shape_; }
   S* values(uint32_t v) { return &values_[size_t{v} * shape_.values]; }
@@ -76,12 +82,16 @@ class Window {
   int64_t liveCells() const { return mesh.liveCells(); }
   bool isFree(uint32_t v) const { return mesh.isFree(v); }
   bool isBoundary(uint32_t v) const { return mesh.vertexFlags(v) & kBoundary; }
+  const int64_t* allCellPicks() const { return cell_picks_.data(); }
   const S* allValues() const { return values_.data(); }
   const S* allQuadrics() const { return quadrics_.data(); }
   const uint8_t* allFlags() const { return mesh.allVertexFlags(); }
   int valueStride() const { return shape_.values; }
   uint32_t slotOf(uint32_t v) const { return v; }
   uint32_t cellSlotOf(uint32_t c) const { return c; }
+  const uint32_t* vertexSlots() const { return nullptr; }
+  const uint32_t* cellSlots() const { return nullptr; }
+  uint32_t cornerSlot(uint32_t corner) const { return corner; }
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
     mesh.gather(v, other, star, ring);
   }

@@ -4,6 +4,12 @@
 
 namespace tetstream {
 
+// A place that keeps the volumes of regions and has more than this times the error of the best one
+// has its price: where curves and sheets are tightly curved, the step to it may be large.
+constexpr float kDearGrowth = 1.5f;
+// Of an edge's length: nearer to it than this is on it.
+constexpr double kOnEdge = 1e-3;
+
 template <class Mesh>
 Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
     : core_(core),
@@ -11,7 +17,8 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
       refusals_(account),
       link_(account),
       stars_(account),
-      merged_(static_cast<size_t>(core.plan.values)) {}
+      merged_(static_cast<size_t>(core.plan.values)),
+      z_(static_cast<size_t>(core.plan.dimension)) {}
 
 template <class Mesh>
 void Collapser<Mesh>::endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
@@ -110,9 +117,90 @@ bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
   return !shapeFrom(merged_.data(), &cell, 1, core_.thin).positive;
 }
 
+template <class Mesh>
+Embedded Collapser<Mesh>::embedded() const {
+  Embedded e{{}, &core_.window.curves, mesh_.vertexSlots()};
+  if (core_.interfaces) e.labels = core_.cellLabels();
+  e.labels.slots = mesh_.cellSlots();
+  return e;
+}
+
+template <class Mesh>
+StrataCondition::End Collapser<Mesh>::endOf(uint32_t v, const Embedded& embedded) const {
+  return {v, embedded.stratumOf(v, mesh_.allFlags()[v] & kOnSheet), mesh_.isBoundary(v)};
+}
+
+// Moves the place, by as much as it takes, to where no region of the stars grows or shrinks;
+// returns the error there.
+template <class Mesh>
+auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels) -> S {
+  const uint32_t ends[2] = {u, v};
+  const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
+                       static_cast<double>(merged_[2])};
+  volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
+                   labels);
+  double step[3];
+  volumes_.step(step);
+  for (size_t i = 0; i < 3; ++i) z_[i] += static_cast<S>(step[i]) * core_.scale[i];
+  placeAt(u, v, z_.data());
+  return errorHere(u, v);
+}
+
+template <class Mesh>
+auto Collapser<Mesh>::errorHere(uint32_t u, uint32_t v) const -> S {
+  return core_.kernels.errorAt(mesh_.quadric(u), mesh_.values(u), mesh_.quadric(v), mesh_.values(v),
+                               core_.scale.data(), core_.plan.dimension, z_.data());
+}
+
+// With features, curves stay where they are: what is merged with a vertex of one goes there, and
+// between two of them a place off their edge by rounding goes onto it. False, and nothing is done,
+// for other places between two.
+template <class Mesh>
+bool Collapser<Mesh>::putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it) {
+  double along[3], square = 0, dot = 0, off = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>((mesh_.values(v)[i] - mesh_.values(u)[i]) * core_.scale[i]);
+    square += along[i] * along[i];
+    dot += along[i] * static_cast<double>(z_[i]);
+  }
+  double t = v_on_it ? 0.5 : -0.5;
+  if (u_on_it == v_on_it) {
+    t = std::clamp(dot / square, -0.5, 0.5);
+    for (size_t i = 0; i < 3; ++i) {
+      const double d = static_cast<double>(z_[i]) - t * along[i];
+      off += d * d;
+    }
+    if (!(off <= kOnEdge * kOnEdge * square)) return false;
+  }
+  for (size_t i = 0; i < 3; ++i) z_[i] = static_cast<S>(t * along[i]);
+  placeAt(u, v, z_.data());
+  if (u_on_it != v_on_it) std::copy_n(mesh_.values(v_on_it ? v : u), 3, merged_.data());
+  return true;
+}
+
+// The place that sheets and curves want; returns the error there.
+template <class Mesh>
+auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Embedded& embedded) -> S {
+  const bool u_on_it = endOf(u, embedded).stratum == Stratum::kCurve;
+  const bool v_on_it = endOf(v, embedded).stratum == Stratum::kCurve;
+  const bool kept =
+      core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it);
+  if (!kept && embedded.labels.count > 0) return keepVolumes(u, v, embedded.labels);
+  return errorHere(u, v);
+}
+
+// Of the stars as gathered.
+template <class Mesh>
+bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded) {
+  const uint8_t* flags = mesh_.allFlags();
+  if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, flags)) return false;
+  return !embedded.any() ||
+         strata_.holds(endOf(u, embedded), endOf(v, embedded), stars_, flags, embedded);
+}
+
 // Half of all edges fail, most of them by the cells of the end that moves most.
 template <class Mesh>
-Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool spares) {
+Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares) {
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
@@ -125,9 +213,20 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool 
       mesh_.gather(v, u, stars_.v, stars_.ring_from_v);
   };
   gather(u_first);
-  const auto dying = static_cast<int64_t>((u_first ? stars_.ring : stars_.ring_from_v).size());
+  const Star& ring = u_first ? stars_.ring : stars_.ring_from_v;
+  const auto dying = static_cast<int64_t>(ring.size());
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
+  Embedded embedded;
+  if (core_.interfaces || !core_.window.curves.empty()) embedded = this->embedded();
+  if (embedded.any() && !strata_.mayHold(endOf(u, embedded), endOf(v, embedded), ring, embedded))
+    return Outcome::kTopology;
+  if (embedded.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
+    gather(!u_first);
+    const S moved = adjust(u, v, embedded);
+    if (spares && moved > kDearGrowth * *error) return Outcome::kDear;
+    *error = std::max(*error, moved);
+  }
   spares = spares && !core_.dear.empty();
   const ThinAngle& angle = spares ? core_.dear.front() : core_.thin;
   const Star& farther = u_first ? stars_.u : stars_.v;
@@ -139,9 +238,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, int64_t least_cells, bool 
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
   if (a.thin + b.thin > 0)
     if (const Outcome o = thins(u, v, spares, a.thin + b.thin); o != Outcome::kDone) return o;
-  return link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, mesh_.allFlags())
-             ? Outcome::kDone
-             : Outcome::kTopology;
+  return keepsTopology(u, v, embedded) ? Outcome::kDone : Outcome::kTopology;
 }
 
 // What merging two vertices adds to the error of the whole.
@@ -155,12 +252,13 @@ double Collapser<Mesh>::growth(uint32_t u, uint32_t v, S error) {
 template <class Mesh>
 Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                                   bool spares) {
+  std::copy_n(z, z_.size(), z_.data());
   placeAt(u, v, z);
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               merged_.data() + core_.plan.dimension);
   Outcome outcome = Outcome::kNotFinite;
   if (std::isfinite(error)) {
-    outcome = test(u, v, least_cells, spares);
+    outcome = test(u, v, &error, least_cells, spares);
     if (outcome == Outcome::kDone && core_.error + growth(u, v, error) > core_.error_limit) {
       core_.error_reached = true;
       outcome = Outcome::kTooFar;
@@ -197,9 +295,11 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   if (core_.plan.values > core_.plan.dimension) interpolateCarried(u, v);
   if (core_.plan.picks > 0) pickNearest(u, v);
   if (core_.plan.cell_means > 0) handOverCellData(v);
+  if (core_.window.faces.anyPlaced()) handOverFaces(u, v);
   const double in_users_terms = static_cast<double>(error) * core_.error_unit;
   if (core_.tracer) trace(u, v, in_users_terms);
   mesh_.merge(u, v, stars_);
+  core_.window.curves.merge(mesh_.slotOf(u), mesh_.slotOf(v));
   std::copy(merged_.begin(), merged_.end(), mesh_.values(u));
   S *a = mesh_.quadric(u), *b = mesh_.quadric(v);
   const int last = core_.window.shape().quadric - 1;
@@ -317,6 +417,33 @@ void Collapser<Mesh>::handOverCellData(uint32_t v) {
       for (int i = 1; i <= n && sum > 0; ++i) to[i] += (from[i] - to[i]) * (share / sum);
       to[0] = sum;
     }
+  }
+}
+
+template <class Mesh>
+uint32_t Collapser<Mesh>::cornerOf(uint32_t cell, uint32_t v) const {
+  uint32_t j = 0;
+  while (mesh_.vertexOf(cell, j) != v) ++j;
+  return 4 * cell + j;
+}
+
+// The faces uab and vab of a dying cell u v a b become one, of the cell across that of them which
+// has no label: where both are on a sheet the edge is not collapsed.
+template <class Mesh>
+void Collapser<Mesh>::handOverFaces(uint32_t u, uint32_t v) {
+  LabelledFaces& faces = core_.window.faces;
+  for (const StarCell& dying : stars_.ring) {
+    for (const Star* star : {&stars_.u, &stars_.v}) {
+      // Across the face at u lies a cell of u's star; the face at v is opposite u.
+      const uint32_t from = mesh_.cornerSlot(cornerOf(dying.cell(), star == &stars_.u ? u : v));
+      if (!faces.labelOf(from)) continue;
+      for (const StarCell& s : *star) {
+        uint32_t beyond = kNone, shared = 0;
+        for (uint32_t t : s.t) dying.has(t) ? void(++shared) : void(beyond = t);
+        if (shared == 2) faces.hand(from, mesh_.cornerSlot(cornerOf(s.cell(), beyond)));
+      }
+    }
+    faces.forgetCell(mesh_.cornerSlot(dying.corner) / 4);
   }
 }
 

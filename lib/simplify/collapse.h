@@ -5,7 +5,9 @@
 #include "core.h"
 #include "link.h"
 #include "patch.h"
+#include "region_volumes.h"
 #include "star_kernels.h"
+#include "strata.h"
 
 namespace tetstream {
 
@@ -33,7 +35,8 @@ class Collapser {
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
   // before, decided exactly on the values as they will be written, and the share of thin ones no
   // larger; the whole error within its limit; no fewer than `least_cells` cells left in the window.
-  // Where it spares, the share of those below the dear angles may not grow either: kDear otherwise.
+  // Where it spares, the share of those below the dear angles may not grow either, and keeping the
+  // volumes of regions may not cost much: kDear otherwise.
   // Counts what happened in the report.
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                    bool spares = false);
@@ -45,7 +48,14 @@ class Collapser {
   const Stars& stars() const { return stars_; }
 
  private:
-  Outcome test(uint32_t u, uint32_t v, int64_t least_cells, bool spares);
+  Embedded embedded() const;
+  StrataCondition::End endOf(uint32_t v, const Embedded& embedded) const;
+  bool keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded);
+  Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares);
+  S adjust(uint32_t u, uint32_t v, const Embedded& embedded);
+  bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
+  S errorHere(uint32_t u, uint32_t v) const;
+  S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
@@ -64,6 +74,8 @@ class Collapser {
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
+  uint32_t cornerOf(uint32_t cell, uint32_t v) const;
+  void handOverFaces(uint32_t u, uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
   void trace(uint32_t u, uint32_t v, double error);
 
@@ -78,8 +90,11 @@ class Collapser {
   Mesh& mesh_;
   Array<Refusal> refusals_;
   LinkCondition link_;
+  StrataCondition strata_;
+  RegionVolumes volumes_;
   Stars stars_;
-  std::vector<S> merged_;                // values of the merged vertex
+  std::vector<S> merged_;  // values of the merged vertex
+  std::vector<S> z_;       // its place, normalised and relative to the edge's midpoint
   std::vector<uint32_t> traced_before_;  // in slots of the window
   std::vector<PlacedCell> traced_after_;
 };

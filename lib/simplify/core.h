@@ -22,12 +22,10 @@ namespace tetstream {
 constexpr uint8_t kResolved = 32;
 // Locked by the stream itself, which the output says again.
 constexpr uint8_t kCallerLocked = 64;
-// While a vertex is resolved: cells of different regions meet there.
-constexpr uint8_t kInterface = 128;
 
 // Vertices that never move, by reason: what a missed target is explained with.
 struct LockedVertices {
-  int64_t interfaces = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
+  int64_t corners = 0, inner_faces = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
 };
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
@@ -87,7 +85,8 @@ struct Core {
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
         inverse_scale(scale),
-        thin(0) {}
+        thin(0),
+        exact_curves(the_options.feature_angle > 0) {}
 
   static WindowShape shapeOf(const Plan& plan) {
     return {plan.values,       quadricSize(plan.layout, plan.dimension),
@@ -127,6 +126,14 @@ struct Core {
     return kTileVertexBytes + static_cast<int64_t>(sizeof(S)) * (5 * quadric / 4 + 4 * values);
   }
 
+  CellLabels cellLabels() const {
+    return {window.allCellPicks(), static_cast<size_t>(plan.cell_picks), region_picks.data(),
+            static_cast<int>(region_picks.size()), nullptr};
+  }
+
+  // Whether some collapses have more than the price of their error.
+  bool spares() const { return !dear.empty() || interfaces || exact_curves; }
+
   const Plan& plan;
   const SimplifyOptions& options;
   const QuadricKernels<S>& kernels;
@@ -141,8 +148,11 @@ struct Core {
   // the extent of the mesh; the error that may be made.
   double volume = 0, error = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();
-  bool error_reached = false;  // a collapse was refused for it
-  double rescaled = 1;         // what errors of the last window count in today's units
+  bool error_reached = false;     // a collapse was refused for it
+  double rescaled = 1;            // what errors of the last window count in today's units
+  bool exact_curves;              // there are curves that the user wants to stay where they are
+  bool interfaces = false;        // met any: labels that are all the same cost nothing
+  std::vector<int> region_picks;  // columns of the cell picks that label regions
   Report report;
   LockedVertices locked;
   Tracer<S>* tracer = nullptr;  // told of all collapses, and of what leaves

@@ -44,6 +44,54 @@ void Intake<S>::startBatch(const BatchView& batch) {
          static_cast<unsigned long long>(declared_));
   batch_ = batch;
   declared_ += batch.vertex_count;
+  if (batch.face_count > 0) takeFaces();
+  if (batch.edge_count > 0) takeLocks();
+}
+
+// Of a vertex of a labelled face or locked edge, which has to be known before the vertex is final.
+template <class S>
+uint32_t Intake<S>::earlySlot(const char* what, size_t row, int64_t vertex) {
+  if (vertex < 0 || static_cast<uint64_t>(vertex) >= declared_)
+    fail(Status::kBadData, "%s %zu: vertex %lld is not declared before it", what, row,
+         static_cast<long long>(vertex));
+  introduceUpTo(static_cast<uint64_t>(vertex));
+  const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
+  if (slot == kNoSlot)
+    fail(Status::kBadData,
+         "%s %zu: vertex %lld was finalized in a batch before: it must come with the batch of the "
+         "last cell of its vertices, or earlier",
+         what, row, static_cast<long long>(vertex));
+  return slot;
+}
+
+// They wait for their cells to be looked at: when the first of their vertices is resolved.
+template <class S>
+void Intake<S>::takeFaces() {
+  for (size_t row = 0; row < batch_.face_count; ++row, ++faces_read_) {
+    uint32_t slots[3];
+    for (size_t j = 0; j < 3; ++j) {
+      slots[j] = earlySlot("labelled face", faces_read_, batch_.faces[3 * row + j]);
+      core_.window.mesh.flagVertex(slots[j], kInterface);
+      if (batch_.face_locks && batch_.face_locks[row]) lock(slots[j]);
+    }
+    core_.window.faces.expect(slots[0], slots[1], slots[2], batch_.face_labels[row]);
+  }
+  core_.exact_curves = true;
+}
+
+// note: locked ends are enough: an edge stays as it is while neither is merged or moved.
+template <class S>
+void Intake<S>::takeLocks() {
+  for (size_t row = 0; row < batch_.edge_count; ++row, ++edges_read_)
+    for (size_t j = 0; j < 2; ++j)
+      lock(earlySlot("locked edge", edges_read_, batch_.locked_edges[2 * row + j]));
+}
+
+template <class S>
+void Intake<S>::lock(uint32_t slot) {
+  Topology& mesh = core_.window.mesh;
+  core_.locked.by_caller += !(mesh.vertexFlags(slot) & kCallerLocked);
+  mesh.flagVertex(slot, kLocked | kCallerLocked);
 }
 
 template <class S>

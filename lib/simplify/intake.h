@@ -25,6 +25,10 @@ class Intake {
   void clearFinalized() { finalized_count_ = 0; }
 
  private:
+  void takeFaces();
+  void takeLocks();
+  void lock(uint32_t slot);
+  uint32_t earlySlot(const char* what, size_t row, int64_t vertex);
   void introduceUpTo(uint64_t vertex);
   void growVertices();
   void takeVertex(size_t row);
@@ -36,7 +40,7 @@ class Intake {
 
   Core<S>& core_;
   BatchView batch_;
-  uint64_t declared_ = 0, cells_read_ = 0;
+  uint64_t declared_ = 0, cells_read_ = 0, faces_read_ = 0, edges_read_ = 0;
   Array<uint32_t> finalized_;
   size_t finalized_count_ = 0;
 };

@@ -25,6 +25,10 @@ constexpr double kDear[] = {10, 1.01};
 constexpr double kShareToSpare = 0.002;
 constexpr int64_t kCellsPerSample = 16;
 
+// Of a boundary face, where fields are measured: they would pay with the shape of interfaces, at
+// which they have their kinks. Without fields there is only the boundary to pay for interfaces.
+constexpr double kInterfaceShare = 50;
+
 // Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
 constexpr double kRescaleStep = 1.25;
 
@@ -285,12 +289,58 @@ void Metric<S>::addCells(uint32_t first, uint32_t end) {
 }
 
 template <class S>
-void Metric<S>::addBoundaryFace(uint32_t a, uint32_t b, uint32_t c) {
+double Metric<S>::faceWeight(bool interface) const {
+  const double share = interface && core_.plan.dimension > 3 ? kInterfaceShare : 1;
+  return share * core_.options.boundary_weight * extent() / length_unit_;
+}
+
+template <class S>
+void Metric<S>::addFace(uint32_t a, uint32_t b, uint32_t c, bool interface) {
   Window<S>& window = core_.window;
   const S* x[3] = {window.values(a), window.values(b), window.values(c)};
   S* q[3] = {window.quadric(a), window.quadric(b), window.quadric(c)};
-  core_.kernels.addFace(x, core_.scale.data(), core_.plan.dimension,
-                        core_.options.boundary_weight * extent() / length_unit_, q);
+  core_.kernels.addFace(x, core_.scale.data(), core_.plan.dimension, faceWeight(interface), q);
+}
+
+// The squared distance to the line of the edge, with the weight of two faces that are squares on
+// it: their planes meet there at a right angle.
+template <class S>
+void Metric<S>::addCurve(uint32_t a, uint32_t b) {
+  Window<S>& window = core_.window;
+  double along[3], square = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>(window.values(b)[i]) - static_cast<double>(window.values(a)[i]);
+    square += along[i] * along[i];
+  }
+  if (!(square > 0)) return;
+  // Across the edge and the axis that it is farthest from.
+  size_t axis = 0;
+  for (size_t i = 1; i < 3; ++i)
+    if (std::fabs(along[i]) < std::fabs(along[axis])) axis = i;
+  const double length = std::sqrt(square);
+  double across[2][3];
+  const auto cross = [](const double* p, const double* q, double* out) {
+    for (size_t i = 0; i < 3; ++i)
+      out[i] = p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3];
+  };
+  double unit[3] = {0, 0, 0};
+  unit[axis] = 1;
+  cross(along, unit, across[0]);
+  cross(along, across[0], across[1]);
+  std::vector<S> tip(window.values(b), window.values(b) + core_.plan.dimension);
+  std::vector<S> nowhere(static_cast<size_t>(window.shape().quadric), S(0));
+  // note: of a full quadric the part in space comes first, too.
+  const auto& plane = quadricKernels<S>(QuadricLayout::kFields, core_.plan.dimension);
+  for (const double* direction : {across[0], across[1]}) {
+    const double norm = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] +
+                                  direction[2] * direction[2]);
+    for (size_t i = 0; i < 3; ++i)
+      tip[i] =
+          static_cast<S>(static_cast<double>(window.values(b)[i]) + direction[i] * (length / norm));
+    const S* x[3] = {window.values(a), window.values(b), tip.data()};
+    S* q[3] = {window.quadric(a), window.quadric(b), nowhere.data()};
+    plane.addFace(x, core_.scale.data(), core_.plan.dimension, faceWeight(false), q);
+  }
 }
 
 template class Metric<float>;

@@ -19,8 +19,10 @@ class Metric {
   // Cells [first, end) of the window are new: their orientation is settled, their quadrics are
   // added; flat ones are marked and their vertices locked.
   void addCells(uint32_t first, uint32_t end);
-  // A boundary face adds its quadric to its three vertices.
-  void addBoundaryFace(uint32_t a, uint32_t b, uint32_t c);
+  // A face of the boundary or of an interface adds its quadric to its three vertices.
+  void addFace(uint32_t a, uint32_t b, uint32_t c, bool interface);
+  // An edge of a curve adds one to its two ends.
+  void addCurve(uint32_t a, uint32_t b);
 
  private:
   void growBox(uint32_t first, uint32_t end);
@@ -31,6 +33,7 @@ class Metric {
   void rescaleQuadrics(const std::vector<S>& factor);
   double shapeWeight() const;
   void addCell(uint32_t cell);
+  double faceWeight(bool interface) const;
   bool addLanes(uint32_t first);
   void countVolume(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);

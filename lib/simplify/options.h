@@ -30,6 +30,7 @@ struct SimplifyOptions {
   std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
   double boundary_weight = 10;
   std::string regions = "auto";
+  double feature_angle = 0;  // degrees by which a sheet bends at least to make a curve; 0: none
   Mode mode = Mode::kSweep;
   QuadricForm quadric = QuadricForm::kDeterminant;
   PilotUse pilot = PilotUse::kAuto;

@@ -52,18 +52,10 @@ void Regions<S>::decide() {
     const bool is_id = core_.options.regions == "auto" && looksLikeIds(offset, c.components);
     std::string& list = is_id ? ids : taken;
     list += (list.empty() ? "" : ", ") + c.name;
-    for (int i = 0; !is_id && i < c.components; ++i) picks_.push_back(offset + i);
+    for (int i = 0; !is_id && i < c.components; ++i) core_.region_picks.push_back(offset + i);
   }
   core_.report.regions = taken.empty() ? "none" : "by " + taken;
   if (!ids.empty()) core_.report.regions += " (" + ids + ": nearly all different, taken as ids)";
-}
-
-template <class S>
-bool Regions<S>::differ(uint32_t a, uint32_t b) const {
-  const int64_t *row = core_.window.cellPicks(a), *other = core_.window.cellPicks(b);
-  for (int pick : picks_)
-    if (row[pick] != other[pick]) return true;
-  return false;
 }
 
 template class Regions<float>;

@@ -110,9 +110,24 @@ void Release<S>::writeCell(uint32_t cell) {
     if (--core_.window.scratch()[v[j]] == 0) batch_.lastUses(row) |= static_cast<uint8_t>(1 << j);
   }
   writeCellData(cell, row);
+  if (core_.window.faces.anyPlaced()) writeFaces(cell);
   mesh.kill(cell);
   ++cells_;
   if (batch_.cellCount() == kBatchCells) flush();
+}
+
+template <class S>
+void Release<S>::writeFaces(uint32_t cell) {
+  const uint32_t* v = core_.window.mesh.corners(cell);
+  for (uint32_t j = 0; j < 4; ++j) {
+    const int64_t* label = core_.window.faces.labelOf(4 * cell + j);
+    if (!label) continue;
+    int64_t corners[3];
+    for (int k = 0; k < 3; ++k)
+      corners[k] = static_cast<int64_t>(core_.window.outRank(v[kOpposite[j][k]]));
+    batch_.addFace(corners, *label);
+  }
+  core_.window.faces.forgetCell(cell);
 }
 
 template <class S>

@@ -34,6 +34,7 @@ class Release {
   float errorOf(uint32_t cell) const;
   void writeCell(uint32_t cell);
   void writeVertex(uint32_t v);
+  void writeFaces(uint32_t cell);
   void writeCellData(uint32_t cell, size_t row);
 
   Core<S>& core_;

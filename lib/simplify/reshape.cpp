@@ -12,10 +12,9 @@ namespace tetstream {
 constexpr double kMostChange = 10;
 
 template <class S>
-Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, const Regions<S>& regions, Account& account)
+Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, Account& account)
     : core_(core),
       patch_(patch),
-      regions_(regions),
       reconnector_(patch, account),
       changed_(account),
       means_(static_cast<size_t>(core.plan.cell_means)) {}
@@ -48,14 +47,32 @@ bool Reshaper<S>::flipAt(uint32_t c) {
   const auto offer = [&] {
     if (r.improves() && r.before - r.after > best.before - best.after && isLegal(r)) best = r;
   };
+  // Faces and edges between vertices that the caller locked stay: they may be locked themselves.
+  bool locked[4];
+  for (uint32_t j = 0; j < 4; ++j) locked[j] = isLockedByCaller(c, j);
   for (uint32_t j = 0; j < 4; ++j)
-    if (reconnector_.removeFace(c, j, r)) offer();
+    if (!(locked[(j + 1) % 4] && locked[(j + 2) % 4] && locked[(j + 3) % 4]) &&
+        reconnector_.removeFace(c, j, r))
+      offer();
   for (uint32_t i = 0; i < 4; ++i)
     for (uint32_t j = 0; j < i; ++j)
-      if (reconnector_.removeEdge(c, i, j, r)) offer();
+      if (!(locked[i] && locked[j]) && reconnector_.removeEdge(c, i, j, r)) offer();
   if (!best.improves()) return false;
   apply(best);
   return true;
+}
+
+template <class S>
+bool Reshaper<S>::isLockedByCaller(uint32_t c, uint32_t j) const {
+  return core_.window.mesh.vertexFlags(patch_.slotOf(patch_.vertexOf(c, j))) & kCallerLocked;
+}
+
+// Such a face is known by its cell, which stays.
+template <class S>
+bool Reshaper<S>::hasLabelledFace(uint32_t slot) const {
+  for (uint32_t j = 0; j < 4; ++j)
+    if (core_.window.faces.labelOf(4 * slot + j)) return true;
+  return false;
 }
 
 template <class S>
@@ -67,11 +84,13 @@ bool Reshaper<S>::isLegal(const Reconnection& r) const {
   for (uint32_t m = 0; m < r.made_count; ++m)
     for (uint32_t v : r.made[m])
       if (patch_.isFreeElsewhere(v)) return false;
+  const CellLabels labels = core_.cellLabels();
   const uint32_t first = patch_.cellSlotOf(r.gone[0]);
   for (uint32_t g = 0; g < r.gone_count; ++g) {
     const uint32_t slot = patch_.cellSlotOf(r.gone[g]);
     if (core_.window.mesh.cellFlags(slot) & (kFlat | kFolded)) return false;
-    if (!regions_.none() && regions_.differ(first, slot)) return false;
+    if (labels.count > 0 && labels.differ(first, slot)) return false;
+    if (core_.window.faces.anyPlaced() && hasLabelledFace(slot)) return false;
   }
   return change(r) <= allowed_change_;
 }

@@ -1,11 +1,10 @@
 // simplify: better shapes for the cells of a patch, by flips. Depends on core.h, collapse.h,
-// regions.h, mesh.
+// mesh.
 #pragma once
 
 #include "collapse.h"
 #include "flip_observer.h"
 #include "reconnect.h"
-#include "regions.h"
 
 namespace tetstream {
 
@@ -15,7 +14,7 @@ namespace tetstream {
 template <class S>
 class Reshaper {
  public:
-  Reshaper(Core<S>& core, Patch<S>& patch, const Regions<S>& regions, Account& account);
+  Reshaper(Core<S>& core, Patch<S>& patch, Account& account);
 
   void observe(FlipObserver* observer) { observer_ = observer; }
 
@@ -28,6 +27,8 @@ class Reshaper {
 
  private:
   bool flipAt(uint32_t c);
+  bool isLockedByCaller(uint32_t c, uint32_t j) const;
+  bool hasLabelledFace(uint32_t slot) const;
   bool isLegal(const Reconnection& r) const;
   double change(const Reconnection& r) const;
   void positionsOf(const uint32_t corners[4], double p[4][3]) const;
@@ -38,7 +39,6 @@ class Reshaper {
 
   Core<S>& core_;
   Patch<S>& patch_;
-  const Regions<S>& regions_;
   Reconnector<S> reconnector_;
   Array<uint8_t> changed_;     // per vertex of the patch: its cells were replaced
   std::vector<double> means_;  // of float cell data

@@ -34,16 +34,17 @@ void Resolver<S>::addToLinks(uint32_t cell) {
   const uint32_t* v = mesh.corners(cell);
   const Numbers n[4] = {numbersOf(v[0]), numbersOf(v[1]), numbersOf(v[2]), numbersOf(v[3])};
   const bool negative = mesh.cellFlags(cell) & kNegative;
+  const CellLabels labels = core_.cellLabels();
   for (int j = 0; j < 4; ++j) {
     if (!isNew(mesh.vertexFlags(v[j]))) continue;
     const uint8_t* t = kOpposite[j];
     const uint64_t sum = area(n[t[0]], n[t[1]], n[t[2]]);
     core_.window.outRank(v[j]) += negative ? -sum : sum;
-    if (regions_.none()) continue;
+    if (labels.count == 0) continue;
     uint32_t& first = core_.window.scratch()[v[j]];
     if (first == kNone)
       first = cell;
-    else if (regions_.differ(first, cell))
+    else if (labels.differ(first, cell))
       core_.window.mesh.flagVertex(v[j], kInterface);
   }
 }
@@ -64,8 +65,8 @@ int64_t Resolver<S>::sumLinks() {
   return front;
 }
 
-// Stars are listed for as many vertices as fit this many corners: bounds the memory where all
-// vertices are on the boundary.
+// Stars are listed for as many vertices as fit this many corners, or a share of the window's where
+// there are interfaces: bounds the memory where all vertices are on the boundary.
 constexpr size_t kCornersAtOnce = 1 << 16;
 
 // Lists the corners of the first vertices, as many as fit; scratch holds a vertex's place in the
@@ -80,9 +81,10 @@ size_t Resolver<S>::listStars(size_t count) {
     if (mesh.isLive(c))
       for (int j = 0; j < 4; ++j)
         if (const uint32_t p = place[mesh.corners(c)[j]]) ++begins_[p];
+  const size_t most =
+      std::max<size_t>(kCornersAtOnce, core_.region_picks.empty() ? 0 : mesh.cellEnd() / 4);
   size_t fitting = 0;
-  while (fitting < count &&
-         (fitting == 0 || begins_[fitting] + begins_[fitting + 1] <= kCornersAtOnce)) {
+  while (fitting < count && (fitting == 0 || begins_[fitting] + begins_[fitting + 1] <= most)) {
     begins_[fitting + 1] += begins_[fitting];
     ++fitting;
   }
@@ -112,13 +114,10 @@ int64_t Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
   size_t open = 0;
   for (size_t i = 0; i < count; ++i) {
     const uint32_t v = vertices[i];
-    if (window.outRank(v) != 0) open_[open++] = v;
-    if (mesh.vertexFlags(v) & kInterface) {
-      mesh.unflagVertex(v, kInterface);
-      mesh.flagVertex(v, kLocked);
-      ++core_.locked.interfaces;
-    }
-    if (window.outRank(v) == 0) mesh.flagVertex(v, kResolved);
+    if (window.outRank(v) != 0 || (mesh.vertexFlags(v) & kInterface))
+      open_[open++] = v;
+    else
+      mesh.flagVertex(v, kResolved);
     unsettle(window, v);
   }
   std::fill_n(window.scratch(), mesh.vertexEnd(), 0u);
@@ -140,7 +139,7 @@ void Resolver<S>::resolveOpen(uint32_t v, const uint32_t* corners, size_t count)
   Topology& mesh = core_.window.mesh;
   star_.clear();
   for (size_t i = 0; i < count; ++i) star_.add() = mesh.starCell(corners[i]);
-  resolveBoundary(v);
+  resolveFaces(v);
   mesh.flagVertex(v, kResolved);
 }
 
@@ -161,7 +160,27 @@ void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
 }
 
 template <class S>
-void Resolver<S>::resolveBoundary(uint32_t v) {
+void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label) {
+  Topology& mesh = core_.window.mesh;
+  for (uint32_t x : {v, a, b}) mesh.flagVertex(x, sheet);
+  sheets_.add(a, b, label);
+  core_.interfaces |= sheet == kInterface;
+  const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
+  if (!counted) metric_.addFace(v, a, b, sheet == kInterface);
+}
+
+// Of the face vab of a cell; null if it has none.
+template <class S>
+const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t v, uint32_t a, uint32_t b) {
+  if (core_.window.faces.empty()) return nullptr;
+  const uint32_t* corners = core_.window.mesh.corners(cell);
+  uint32_t j = 0;
+  while (corners[j] == v || corners[j] == a || corners[j] == b) ++j;
+  return core_.window.faces.labelOf(4 * cell + j, v, a, b);
+}
+
+template <class S>
+void Resolver<S>::resolveFaces(uint32_t v) {
   Topology& mesh = core_.window.mesh;
   // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
   // 2^31. The lowest bit is the direction.
@@ -170,29 +189,44 @@ void Resolver<S>::resolveBoundary(uint32_t v) {
   for (const StarCell& s : star_)
     for (int i = 0; i < 3; ++i) {
       const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
-      edges_[count++] = a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1;
+      edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell()};
     }
-  std::sort(edges_.data(), edges_.data() + count);
+  std::sort(edges_.data(), edges_.data() + count,
+            [](const LinkEdge& a, const LinkEdge& b) { return a.key < b.key; });
+  const CellLabels labels = core_.cellLabels();
   boundary_.clear();
+  sheets_.clear();
   for (size_t i = 0, j; i < count; i = j) {
-    const uint64_t pair = edges_[i] >> 1;
-    for (j = i + 1; j < count && edges_[j] >> 1 == pair;) ++j;
+    const uint64_t pair = edges_[i].key >> 1;
+    for (j = i + 1; j < count && edges_[j].key >> 1 == pair;) ++j;
     const uint32_t a = static_cast<uint32_t>(pair >> 32), b = static_cast<uint32_t>(pair);
     if (j - i == 1) {
       boundary_.push_back(uint64_t{a} << 32 | b);
-      mesh.flagVertex(a, kBoundary);
-      mesh.flagVertex(b, kBoundary);
-      const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
-      if (!counted) metric_.addBoundaryFace(v, a, b);
+      addFace(v, a, b, kBoundary, labelOf(edges_[i].cell, v, a, b));
     } else if (j - i == 2) {
-      if ((edges_[i] & 1) == (edges_[i + 1] & 1)) lockFold(a, b);
+      if ((edges_[i].key & 1) == (edges_[i + 1].key & 1)) lockFold(a, b);
+      const int64_t* label = labelOf(edges_[i].cell, v, a, b);
+      if (!label) label = labelOf(edges_[i + 1].cell, v, a, b);
+      if (labels.differ(edges_[i].cell, edges_[i + 1].cell))
+        addFace(v, a, b, kInterface, label);
+      else if (label)
+        lockInnerFace(v);
     } else {
       lockNonManifold(v);  // a face of three cells or more
     }
   }
-  if (boundary_.empty()) return;
-  mesh.flagVertex(v, kBoundary);
-  if (!isDisk(boundary_)) lockNonManifold(v);
+  if (!boundary_.empty() && !isDisk(boundary_)) lockNonManifold(v);
+  if (sheets_.wanted() && !sheets_.classify(v)) {
+    mesh.flagVertex(v, kLocked);
+    ++core_.locked.corners;
+  }
+}
+
+// A labelled face with cells of one region on both sides is no part of a sheet.
+template <class S>
+void Resolver<S>::lockInnerFace(uint32_t v) {
+  core_.locked.inner_faces += !(core_.window.mesh.vertexFlags(v) & kLocked);
+  core_.window.mesh.flagVertex(v, kLocked);
 }
 
 template <class S>

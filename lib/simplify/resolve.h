@@ -1,25 +1,25 @@
 // simplify: what becomes known when a vertex is final: boundary, folds, non-manifold places,
-// interfaces. Depends on metric.h, regions.h.
+// interfaces. Depends on metric.h, sheets.h.
 #pragma once
 
 #include "link.h"
 #include "metric.h"
-#include "regions.h"
+#include "sheets.h"
 
 namespace tetstream {
 
 // A final vertex has its whole star in the window (paper, section 4: only then is it off the
 // stream boundary). Whether its link is closed, so that it lies inside the domain, is told by a sum
-// over its cells in one pass over the window; only the stars of the others are looked at. Their
-// boundary faces are found and counted once, by the first of their vertices that becomes final;
-// what must not move is locked.
+// over its cells in one pass over the window; only the stars of the others, and of those with cells
+// of several regions, are looked at. Their faces on the boundary and on interfaces are found and
+// counted once, by the first of their vertices that becomes final; what must not move is locked.
 template <class S>
 class Resolver {
  public:
-  Resolver(Core<S>& core, Metric<S>& metric, Regions<S>& regions, Account& account)
+  Resolver(Core<S>& core, Metric<S>& metric, Account& account)
       : core_(core),
         metric_(metric),
-        regions_(regions),
+        sheets_(core, metric),
         star_(account),
         corners_(account, 256),
         open_(account),
@@ -35,19 +35,26 @@ class Resolver {
   void addToLinks(uint32_t cell);
   size_t listStars(size_t count);
   void resolveOpen(uint32_t v, const uint32_t* corners, size_t count);
-  void resolveBoundary(uint32_t v);
+  void resolveFaces(uint32_t v);
+  void addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label);
+  const int64_t* labelOf(uint32_t cell, uint32_t v, uint32_t a, uint32_t b);
   bool isDisk(const std::vector<uint64_t>& boundary);
   void lockFold(uint32_t a, uint32_t b);
+  void lockInnerFace(uint32_t v);
   void lockNonManifold(uint32_t v);
 
   Core<S>& core_;
   Metric<S>& metric_;
-  Regions<S>& regions_;
+  Sheets<S> sheets_;
   Star star_;
   Array<uint32_t> corners_;  // of the stars that are looked at
-  Array<uint32_t> open_;     // vertices whose link is not closed
+  Array<uint32_t> open_;     // vertices whose link is not closed, or of several labels
   Array<uint32_t> begins_;   // of each star among the corners
-  Array<uint64_t> edges_;    // of the link, directed, as (low, high, direction)
+  struct LinkEdge {
+    uint64_t key;  // directed, as (low, high, direction)
+    uint32_t cell;
+  };
+  Array<LinkEdge> edges_;
   std::vector<uint64_t> boundary_, ends_;
 };
 

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "collapse.h"
-#include "regions.h"
 
 namespace tetstream {
 
@@ -49,8 +48,7 @@ std::unique_ptr<Selector> makeQueueSelector(Core<S>& core, Collapser<Window<S>>&
 // The default: patches of the window are swept at rising bounds, every vertex offering its best
 // edges.
 template <class S>
-std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, const Regions<S>& regions,
-                                            Account& account);
+std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, Account& account);
 
 // Every edge in order of its error, with the ends and the midpoint as further positions: slow, and
 // finds whatever legal collapse there is.

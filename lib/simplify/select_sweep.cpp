@@ -26,13 +26,13 @@ constexpr int64_t kSlackShare = 50;  // one part in these of a goal is no reason
 template <class S>
 class SweepSelector final : public Selector {
  public:
-  SweepSelector(Core<S>& core, const Regions<S>& regions, Account& account)
+  SweepSelector(Core<S>& core, Account& account)
       : core_(core),
         tiling_(core, account),
         bounds_(core),
         patch_(account, core.window),
         collapser_(core, patch_, account),
-        reshaper_(core, patch_, regions, account),
+        reshaper_(core, patch_, account),
         exhaustive_(makeExhaustiveSelector(core, collapser_)),
         choices_(account),
         solutions_(core, account),
@@ -424,7 +424,7 @@ bool SweepSelector<S>::sweepPatch(float bound) {
   float level = bound * kFirstLevel, least;
   for (;;) {
     choices_.reconsider();
-    if (!core_.dear.empty()) sweepSpared(level / kThinPrice);
+    if (core_.spares()) sweepSpared(level / kThinPrice);
     do least = sweepLevel(level, true);
     while (least <= level);
     if (level >= bound || mustStop(patch_.liveCells())) break;
@@ -487,13 +487,11 @@ void SweepSelector<S>::settleAll() {
 }  // namespace
 
 template <class S>
-std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, const Regions<S>& regions,
-                                            Account& account) {
-  return std::make_unique<SweepSelector<S>>(core, regions, account);
+std::unique_ptr<Selector> makeSweepSelector(Core<S>& core, Account& account) {
+  return std::make_unique<SweepSelector<S>>(core, account);
 }
 
-template std::unique_ptr<Selector> makeSweepSelector(Core<float>&, const Regions<float>&, Account&);
-template std::unique_ptr<Selector> makeSweepSelector(Core<double>&, const Regions<double>&,
-                                                     Account&);
+template std::unique_ptr<Selector> makeSweepSelector(Core<float>&, Account&);
+template std::unique_ptr<Selector> makeSweepSelector(Core<double>&, Account&);
 
 }  // namespace tetstream

@@ -6,6 +6,7 @@
 
 #include "budget.h"
 #include "intake.h"
+#include "regions.h"
 #include "release.h"
 #include "resolve.h"
 #include "select.h"
@@ -119,7 +120,7 @@ class WindowedEngine final : public Simplifier::Engine {
         intake_(core_, account_),
         regions_(core_),
         metric_(core_),
-        resolver_(core_, metric_, regions_, account_),
+        resolver_(core_, metric_, account_),
         collapser_(core_, core_.window, account_),
         selector_(makeSelector()),
         release_(core_, out, account_) {
@@ -129,9 +130,6 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   void put(const BatchView& batch) override {
-    if (batch.face_count > 0)
-      fail(Status::kUnsupported,
-           "the stream has labelled boundary faces, which a simplification cannot keep yet");
     intake_.startBatch(batch);
     for (size_t row = 0; row < batch.cell_count; ++row) {
       if (mesh().cellEnd() == turn_at_) turn();
@@ -145,6 +143,8 @@ class WindowedEngine final : public Simplifier::Engine {
     checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
     intake_.finalizeAll();
     resolveNew();
+    if (const size_t strange = core_.window.faces.coming())
+      fail(Status::kBadData, "%zu labelled faces are faces of no cell, or came twice", strange);
     Ledger now = ledger();
     decimate(budget_->lastGoal(now));
     if (now.written == 0) survey(now.read);
@@ -169,7 +169,7 @@ class WindowedEngine final : public Simplifier::Engine {
       case Mode::kSweep:
         break;
     }
-    return makeSweepSelector(core_, regions_, account_);
+    return makeSweepSelector(core_, account_);
   }
 
   static void checkCount(const char* what, int64_t announced, uint64_t came) {
@@ -336,7 +336,8 @@ class WindowedEngine final : public Simplifier::Engine {
       if (count > 0)
         kept += textOf("%s%lld %s", kept.empty() ? "" : ", ", static_cast<long long>(count), what);
     };
-    name(core_.locked.interfaces, "vertices on interfaces of regions");
+    name(core_.locked.corners, "vertices where interfaces end, branch or touch");
+    name(core_.locked.inner_faces, "vertices of labelled faces inside a region");
     name(core_.locked.non_manifold, "vertices at non-manifold places of the boundary");
     name(core_.locked.bad_cells, "flat or folded cells of the input");
     name(core_.locked.by_caller, "vertices locked by the stream");

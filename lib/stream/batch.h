@@ -34,6 +34,9 @@ struct BatchView {
   const int64_t* faces = nullptr;        // [face_count][3] labelled boundary faces of cells
                                          // so far; their vertices may be final already
   const int64_t* face_labels = nullptr;  // [face_count]
+  const uint8_t* face_locks = nullptr;   // [face_count], non-zero: its vertices are never moved
+  size_t edge_count = 0;
+  const int64_t* locked_edges = nullptr;  // [edge_count][2], of cells so far: never moved
 };
 
 // An owned batch, filled row by row or column by column. Capacity is kept from fill to fill, so

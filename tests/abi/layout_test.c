@@ -35,7 +35,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_stream_info, front_cells, 72);
   MEMBER(tetstream_stream_info, box_min, 80);
   MEMBER(tetstream_stream_info, box_max, 88);
-  CHECK_EQUAL(sizeof(tetstream_batch), 88);
+  CHECK_EQUAL(sizeof(tetstream_batch), 136);
   MEMBER(tetstream_batch, struct_size, 0);
   MEMBER(tetstream_batch, vertex_count, 8);
   MEMBER(tetstream_batch, positions, 16);
@@ -47,6 +47,12 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_batch, cell_data, 64);
   MEMBER(tetstream_batch, finalized_count, 72);
   MEMBER(tetstream_batch, finalized, 80);
+  MEMBER(tetstream_batch, face_count, 88);
+  MEMBER(tetstream_batch, faces, 96);
+  MEMBER(tetstream_batch, face_labels, 104);
+  MEMBER(tetstream_batch, locked_faces, 112);
+  MEMBER(tetstream_batch, locked_edge_count, 120);
+  MEMBER(tetstream_batch, locked_edges, 128);
   CHECK_EQUAL(sizeof(tetstream_reader_callbacks), 40);
   MEMBER(tetstream_reader_callbacks, struct_size, 0);
   MEMBER(tetstream_reader_callbacks, user, 8);
@@ -192,6 +198,7 @@ static void numbers_keep_their_values(void) {
   CHECK_EQUAL(TETSTREAM_OPTION_CELLS, 101);
   CHECK_EQUAL(TETSTREAM_OPTION_ERROR, 102);
   CHECK_EQUAL(TETSTREAM_OPTION_BOUNDARY_WEIGHT, 110);
+  CHECK_EQUAL(TETSTREAM_OPTION_FEATURE_ANGLE, 121);
   CHECK_EQUAL(TETSTREAM_OPTION_REGIONS, 120);
   CHECK_EQUAL(TETSTREAM_OPTION_MODE, 130);
   CHECK_EQUAL(TETSTREAM_OPTION_SEED, 131);

@@ -280,7 +280,7 @@ bool Gatherer<S>::addVertex(uint32_t v, End& end, EdgeCase<S>& edge) const {
       q[j] = cell[j] == v ? end.form : others[j];
       if (q[j] != end.form) std::fill_n(others[j], kPacked + 1, S(0));
     }
-    quadricKernels<S>(kN).addCellField(x, set_.scale, kN, 0, q);
+    quadricKernels<S>(QuadricLayout::kFields, kN).addCell(x, set_.scale, kN, 0, q);
   }
   return true;
 }

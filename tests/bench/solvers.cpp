@@ -35,7 +35,7 @@ struct ByGradients {
   static constexpr const char* kName = "CG";
   static constexpr const char* kForm = "A p e";
   static void solve(const CaseSet<S>& set, std::vector<Answer<S>>& out) {
-    const QuadricKernels<S>& kernels = quadricKernels<S>(kN);
+    const QuadricKernels<S>& kernels = quadricKernels<S>(QuadricLayout::kFields, kN);
     for (size_t k = 0; k < set.edges.size(); ++k) {
       const EdgeCase<S>& e = set.edges[k];
       out[k].error = kernels.minimizeEdge(e.q1, e.x1, e.q2, e.x2, set.scale, kN, out[k].z);
@@ -48,7 +48,7 @@ struct ByElimination {
   static constexpr const char* kName = "LDLt, ridge";
   static constexpr const char* kForm = "A p e";
   static void solve(const CaseSet<S>& set, std::vector<Answer<S>>& out) {
-    const QuadricKernels<S>& kernels = quadricKernels<S>(kN);
+    const QuadricKernels<S>& kernels = quadricKernels<S>(QuadricLayout::kFields, kN);
     for (size_t k = 0; k < set.edges.size(); ++k) {
       const EdgeCase<S>& e = set.edges[k];
       out[k].error = kernels.solveEdge(e.q1, e.x1, e.q2, e.x2, set.scale, kN, out[k].z);
@@ -80,8 +80,8 @@ struct ByEight {
       uint32_t ends[2 * kLanes];
       S z[kLanes * kN], errors[kLanes];
       for (size_t k = 0; k < 2 * count; ++k) ends[k] = static_cast<uint32_t>(2 * first + k);
-      quadricKernels<S>(kN).solveEdges(table, ends, static_cast<int>(count), set.scale, kN, z,
-                                       errors);
+      quadricKernels<S>(QuadricLayout::kFields, kN)
+          .solveEdges(table, ends, static_cast<int>(count), set.scale, kN, z, errors);
       for (size_t k = 0; k < count; ++k) {
         std::copy_n(z + k * kN, kN, out[first + k].z);
         out[first + k].error = errors[k];

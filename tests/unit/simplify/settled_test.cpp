@@ -43,8 +43,7 @@ TestMesh wavyGrid() {
 
 // Sweeps at a bound that leaves most edges; it is not exceeded, since nothing is asked for.
 struct Swept : WholeWindow<double> {
-  Swept()
-      : WholeWindow<double>(wavyGrid(), {}), selector(makeSweepSelector(core, regions, account)) {
+  Swept() : WholeWindow<double>(wavyGrid(), {}), selector(makeSweepSelector(core, account)) {
     std::vector<double> errors;
     for (auto [u, v] : freeEdges(core.window)) errors.push_back(errorOfEdge(core, u, v));
     std::nth_element(errors.begin(), errors.begin() + errors.size() / 4, errors.end());

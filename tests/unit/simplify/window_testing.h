@@ -3,6 +3,7 @@
 
 #include "collapse.h"
 #include "intake.h"
+#include "regions.h"
 #include "resolve.h"
 #include "select.h"
 #include "simplify_testing.h"
@@ -26,7 +27,7 @@ struct WholeWindow {
         intake(core, account),
         regions(core),
         metric(core),
-        resolver(core, metric, regions, account) {
+        resolver(core, metric, account) {
     MeshStream stream(mesh, {});
     BatchView batch;
     while (stream.next(batch)) {

@@ -1,0 +1,43 @@
+// mesh: the edges of the window that are parts of curves: where sheets meet, or along a ridge.
+// Depends on base.
+#pragma once
+
+#include <cstdint>
+
+#include "memory.h"
+
+namespace tetstream {
+
+// A set of edges, asked for by their ends: a hash of (vertex, neighbour), each edge twice. Curves
+// are thin: it stays small beside the window, and takes nothing where the mesh has none.
+class Curves {
+ public:
+  explicit Curves(Account& account) : account_(&account), places_(account) {}
+
+  bool empty() const { return count_ == 0; }
+  void add(uint32_t u, uint32_t v);  // no effect if it is there
+  bool has(uint32_t u, uint32_t v) const;
+  // Whether there is an edge at v.
+  bool passes(uint32_t v) const { return count_ > 0 && firstOf(v) != kEmpty; }
+  // v becomes u, and an edge uv nothing.
+  void merge(uint32_t u, uint32_t v);
+  // Vertex v becomes keep[v]; edges of vertices that become 0xffffffff are forgotten.
+  void remap(const uint32_t* keep);
+
+ private:
+  // Vertices are below 2^31: neither is an entry.
+  static constexpr uint64_t kEmpty = ~uint64_t{0}, kRemoved = kEmpty - 1;
+  static uint64_t entryOf(uint32_t u, uint32_t v) { return uint64_t{u} << 32 | v; }
+
+  size_t placeOf(uint32_t v) const;
+  uint64_t firstOf(uint32_t v) const;
+  void insert(uint64_t entry);
+  void remove(uint64_t entry);
+  void rebuild(size_t entries, const uint32_t* keep);
+
+  Account* account_;
+  Array<uint64_t> places_;       // a power of two of them, at most half in use
+  size_t count_ = 0, used_ = 0;  // entries; places that are in use or were
+};
+
+}  // namespace tetstream

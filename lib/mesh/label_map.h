@@ -1,0 +1,90 @@
+// mesh: labels of few of many things, by their place in the window. Depends on base.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "memory.h"
+#include "mix.h"
+
+namespace tetstream {
+
+// A hash from keys of 64-bit numbers (equality and `hash()`) to labels.
+template <class Key>
+class LabelMap {
+ public:
+  explicit LabelMap(Account& account) : account_(&account), places_(account) {}
+
+  bool empty() const { return count_ == 0; }
+  size_t size() const { return count_; }
+  // Null if there is none; until the next change.
+  const int64_t* find(const Key& key) const {
+    if (count_ == 0) return nullptr;
+    const size_t i = placeOf(key);
+    return places_[i].state == kUsed ? &places_[i].label : nullptr;
+  }
+  void put(const Key& key, int64_t label) {
+    if (2 * (used_ + 1) > places_.size())
+      rebuild(count_ + 1, [](const Key& k, Key* kept) {
+        *kept = k;
+        return true;
+      });
+    Entry& entry = places_[placeOf(key)];
+    if (entry.state != kUsed) {
+      ++count_;
+      ++used_;
+    }
+    entry = {key, label, kUsed};
+  }
+  void remove(const Key& key) {
+    if (count_ == 0) return;
+    Entry& entry = places_[placeOf(key)];
+    if (entry.state != kUsed) return;
+    entry.state = kRemoved;
+    --count_;
+  }
+  // moved(key, &kept): the new key, or false where it is to be forgotten.
+  template <class Moved>
+  void remap(Moved moved) {
+    if (count_ > 0) rebuild(count_, moved);
+  }
+
+ private:
+  enum State : uint64_t { kEmpty, kUsed, kRemoved };
+  struct Entry {
+    Key key;
+    int64_t label;
+    State state;
+  };
+
+  // Of the key, or the empty place where it would be.
+  size_t placeOf(const Key& key) const {
+    const size_t mask = places_.size() - 1;
+    size_t i = static_cast<size_t>(key.hash()) & mask;
+    while (places_[i].state != kEmpty && !(places_[i].state == kUsed && places_[i].key == key))
+      i = (i + 1) & mask;
+    return i;
+  }
+  template <class Moved>
+  void rebuild(size_t entries, Moved moved) {
+    size_t size = 64;
+    while (size < 4 * entries) size *= 2;
+    Array<Entry> before(*account_, size);
+    std::fill_n(before.data(), size, Entry{{}, 0, kEmpty});
+    before.swap(places_);
+    count_ = used_ = 0;
+    for (size_t i = 0; i < before.size(); ++i) {
+      Key key;
+      if (before[i].state != kUsed || !moved(before[i].key, &key)) continue;
+      places_[placeOf(key)] = {key, before[i].label, kUsed};
+      ++count_;
+      ++used_;
+    }
+  }
+
+  Account* account_;
+  Array<Entry> places_;          // a power of two of them, at most half in use
+  size_t count_ = 0, used_ = 0;  // entries; places that are in use or were
+};
+
+}  // namespace tetstream

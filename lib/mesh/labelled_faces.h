@@ -1,0 +1,79 @@
+// mesh: the labelled faces of the window. Depends on label_map.h.
+//
+// A face comes as three vertices, and is then known by a corner: that of a cell, opposite the face.
+// A corner keeps its number while its cell lives, whatever is merged.
+#pragma once
+
+#include "label_map.h"
+#include "topology.h"
+
+namespace tetstream {
+
+class LabelledFaces {
+ public:
+  explicit LabelledFaces(Account& account) : coming_(account), of_corner_(account) {}
+
+  bool empty() const { return coming_.empty() && of_corner_.empty(); }
+
+  // Three vertices, whose cell is not looked for yet.
+  void expect(uint32_t a, uint32_t b, uint32_t c, int64_t label) {
+    coming_.put(Face::of(a, b, c), label);
+  }
+  // The label of the face opposite a corner, which has these vertices: that it came with, if so.
+  // Null if it has none.
+  const int64_t* labelOf(uint32_t corner, uint32_t a, uint32_t b, uint32_t c) {
+    if (const int64_t* label = coming_.find(Face::of(a, b, c))) {
+      of_corner_.put({corner}, *label);
+      coming_.remove(Face::of(a, b, c));
+    }
+    return of_corner_.find({corner});
+  }
+  const int64_t* labelOf(uint32_t corner) const { return of_corner_.find({corner}); }
+  bool anyPlaced() const { return !of_corner_.empty(); }
+  // What the face opposite `from` is labelled with, the one opposite `to` is from now on.
+  void hand(uint32_t from, uint32_t to) {
+    const int64_t* label = of_corner_.find({from});
+    if (!label) return;
+    const int64_t value = *label;
+    of_corner_.remove({from});
+    of_corner_.put({to}, value);
+  }
+  void forgetCell(uint32_t cell) {
+    for (uint32_t j = 0; j < 4; ++j) of_corner_.remove({4 * uint64_t{cell} + j});
+  }
+
+  size_t coming() const { return coming_.size(); }
+
+  // The window is packed: keep[v] is the new slot of vertex v; cells move to lower ones, in order.
+  void remapVertices(const uint32_t* keep) {
+    coming_.remap([keep](const Face& f, Face* kept) {
+      *kept = Face::of(keep[f.v[0]], keep[f.v[1]], keep[f.v[2]]);
+      return kept->v[2] != kNone;
+    });
+  }
+  void moveCell(uint32_t from, uint32_t to) {
+    for (uint32_t j = 0; j < 4 && !of_corner_.empty(); ++j) hand(4 * from + j, 4 * to + j);
+  }
+
+ private:
+  struct Face {
+    uint32_t v[3];  // rising
+    static Face of(uint32_t a, uint32_t b, uint32_t c) {
+      Face f{{a, b, c}};
+      std::sort(f.v, f.v + 3);
+      return f;
+    }
+    bool operator==(const Face& o) const = default;
+    uint64_t hash() const { return mix(mix(uint64_t{v[0]} << 32 | v[1]) + v[2]); }
+  };
+  struct Corner {
+    uint64_t number;
+    bool operator==(const Corner& o) const = default;
+    uint64_t hash() const { return mix(number); }
+  };
+
+  LabelMap<Face> coming_;
+  LabelMap<Corner> of_corner_;
+};
+
+}  // namespace tetstream

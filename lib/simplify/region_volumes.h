@@ -1,0 +1,39 @@
+// simplify: places that keep the volumes of regions. Depends on mesh.
+#pragma once
+
+#include <vector>
+
+#include "embedded.h"
+#include "topology.h"
+
+namespace tetstream {
+
+// Quadrics let closed surfaces shrink. The volume of each region round a merged vertex is a linear
+// function of its position x: of a cell (x, t0, t1, t2) the gradient is -(t1 - t0) x (t2 - t0) / 6,
+// and where cells of one region meet these cancel, so that what is left is normal to the sheets.
+// The least step that keeps all of them, or comes close to where there are more than three, is
+// added to the place that the quadrics want (after Lindstrom and Turk 1998, for surfaces).
+class RegionVolumes {
+ public:
+  // Of one region: its volume's change, if the vertex were at the origin, and the gradient of that.
+  struct Change {
+    uint32_t cell;  // of the region
+    double volume, gradient[3];
+  };
+
+  // The cells round u and v, with coordinates relative to x, of which three numbers of `stride` to
+  // a vertex are in `values`; lists the regions.
+  template <class S>
+  void measure(const Stars& stars, const uint32_t ends[2], const S* values, size_t stride,
+               const double x[3], const CellLabels& labels);
+  const std::vector<Change>& changes() const { return changes_; }
+  // From x to where the volumes are as they were.
+  void step(double out[3]) const;
+
+ private:
+  Change& of(uint32_t cell, const CellLabels& labels);
+
+  std::vector<Change> changes_;
+};
+
+}  // namespace tetstream

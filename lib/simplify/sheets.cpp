@@ -1,0 +1,124 @@
+#include "sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tetstream {
+
+template <class S>
+const typename Sheets<S>::Use* Sheets<S>::usesOf(uint32_t vertex) const {
+  return &*std::lower_bound(uses_.begin(), uses_.end(), vertex,
+                            [](const Use& use, uint32_t x) { return use.vertex < x; });
+}
+
+// In a plane sheet the faces at an edge lead in opposite directions.
+template <class S>
+Sheets<S>::Sheets(Core<S>& core, Metric<S>& metric)
+    : core_(core),
+      metric_(metric),
+      least_cosine_(core.options.feature_angle > 0
+                        ? -std::cos(core.options.feature_angle * std::numbers::pi / 180)
+                        : 2) {}
+
+// Whether the faces vab and vac bend at va.
+template <class S>
+bool Sheets<S>::isRidge(uint32_t v, uint32_t a, uint32_t b, uint32_t c) const {
+  if (least_cosine_ > 1) return false;
+  double along[3], square = 0, into[2][3], dot[2] = {0, 0}, product[3] = {0, 0, 0};
+  const S *x = core_.window.values(v), *y = core_.window.values(a);
+  for (int i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>(y[i]) - static_cast<double>(x[i]);
+    square += along[i] * along[i];
+  }
+  for (int k = 0; k < 2; ++k) {
+    const S* z = core_.window.values(k == 0 ? b : c);
+    for (int i = 0; i < 3; ++i) {
+      into[k][i] = static_cast<double>(z[i]) - static_cast<double>(x[i]);
+      dot[k] += into[k][i] * along[i];
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 2; ++k) into[k][i] -= dot[k] / square * along[i];
+    product[0] += into[0][i] * into[1][i];
+    product[1] += into[0][i] * into[0][i];
+    product[2] += into[1][i] * into[1][i];
+  }
+  return product[0] > least_cosine_ * std::sqrt(product[1] * product[2]);
+}
+
+// An end that was resolved before has told of its curves; it may have moved since.
+template <class S>
+bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree) const {
+  if (core_.window.mesh.vertexFlags(a) & kResolved) return core_.window.curves.has(v, a);
+  if (degree != 2) return true;
+  const Face &one = faces_[uses[0].face], &other = faces_[uses[1].face];
+  return one.labelled != other.labelled || one.label != other.label ||
+         isRidge(v, a, one.other(a), other.other(a));
+}
+
+// Along faces of the link from one of its vertices to the next node, or once round to the start;
+// returns how many.
+template <class S>
+size_t Sheets<S>::walk(uint32_t from, uint32_t face, uint32_t* end) const {
+  const auto is_node = [this](uint32_t x) {
+    return std::find(nodes_.begin(), nodes_.end(), x) != nodes_.end();
+  };
+  uint32_t at = faces_[face].other(from);
+  size_t walked = 1;
+  for (; at != from && !is_node(at) && walked <= faces_.size(); ++walked) {
+    const Use* uses = usesOf(at);
+    face = uses[0].face != face ? uses[0].face : uses[1].face;
+    at = faces_[face].other(at);
+  }
+  *end = at;
+  return walked;
+}
+
+// Whether the sheets cut the link along one circle, or along arcs from one node to the other. All
+// vertices but the nodes are on two faces.
+template <class S>
+bool Sheets<S>::isWhole(const std::vector<uint32_t>& nodes) const {
+  const uint32_t from = nodes.empty() ? faces_[0].a : nodes[0];
+  const uint32_t to = nodes.empty() ? from : nodes[1];
+  size_t walked = 0;
+  const Use* const end = uses_.data() + uses_.size();
+  for (const Use* use = usesOf(from); use != end && use->vertex == from; ++use) {
+    uint32_t reached;
+    walked += walk(from, use->face, &reached);
+    if (reached != to) return false;
+    if (nodes.empty()) break;
+  }
+  return walked == faces_.size();
+}
+
+template <class S>
+bool Sheets<S>::classify(uint32_t v) {
+  uses_.clear();
+  nodes_.clear();
+  for (uint32_t f = 0; f < faces_.size(); ++f) {
+    uses_.push_back({faces_[f].a, f});
+    uses_.push_back({faces_[f].b, f});
+  }
+  std::sort(uses_.begin(), uses_.end(),
+            [](const Use& a, const Use& b) { return a.vertex < b.vertex; });
+  bool simple = true;
+  for (size_t i = 0, j; i < uses_.size(); i = j) {
+    const uint32_t a = uses_[i].vertex;
+    for (j = i + 1; j < uses_.size() && uses_[j].vertex == a;) ++j;
+    if (!isCurve(v, a, &uses_[i], j - i)) {
+      simple = simple && j - i == 2;
+      continue;
+    }
+    nodes_.push_back(a);
+    if (core_.window.curves.has(v, a)) continue;
+    core_.window.curves.add(v, a);
+    metric_.addCurve(v, a);
+  }
+  return simple && (nodes_.empty() || nodes_.size() == 2) && isWhole(nodes_);
+}
+
+template class Sheets<float>;
+template class Sheets<double>;
+
+}  // namespace tetstream
