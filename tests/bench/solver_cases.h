@@ -19,7 +19,7 @@ typedef long double Wide;
 #endif
 
 constexpr int kN = 4;  // position and one field
-constexpr int kPacked = kN * (kN + 1) / 2;
+constexpr int kPacked = kN * (kN + 1) / 2;  // in either layout
 using WideVector = std::array<Wide, kN>;
 
 struct Mesh {
