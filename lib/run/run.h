@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "compare_options.h"
 #include "layout_diagram.h"
 #include "options.h"
 #include "source.h"
@@ -20,6 +21,7 @@ struct RunOptions {
   enum class Auto { kKeeps, kSweeps, kNarrows } automatic = Auto::kSweeps;
   std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
+  CompareOptions compare;
 };
 
 // One simplification. Pull: run. Push: begin, put as often as wanted, finish; an indexed mesh that
