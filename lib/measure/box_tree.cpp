@@ -40,14 +40,4 @@ void BoxTree::build(const Box* boxes, size_t begin, size_t end) {
   nodes_[at].next = static_cast<uint32_t>(used_);
 }
 
-double BoxTree::distanceTo(uint32_t node, const double place[3]) const {
-  const Box& box = nodes_[node].box;
-  double sum = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double out = std::max({box.low[k] - place[k], place[k] - box.high[k], 0.0});
-    sum += out * out;
-  }
-  return sum;
-}
-
 }  // namespace tetstream

@@ -4,6 +4,8 @@
 // in depth-first order (Wald, Boulos, Shirley, ACM TOG 26(1), 2007, section 3).
 #pragma once
 
+#include <algorithm>
+
 #include "simplex_rows.h"
 
 namespace tetstream {
@@ -69,7 +71,15 @@ class BoxTree {
     uint32_t next, first, count;
   };
   void build(const Box* boxes, size_t begin, size_t end);
-  double distanceTo(uint32_t node, const double place[3]) const;
+  double distanceTo(uint32_t node, const double place[3]) const {
+    const Box& box = nodes_[node].box;
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double out = std::max({box.low[k] - place[k], place[k] - box.high[k], 0.0});
+      sum += out * out;
+    }
+    return sum;
+  }
 
   Array<Node> nodes_;
   Array<uint32_t> items_;

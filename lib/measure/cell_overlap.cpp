@@ -42,21 +42,12 @@ bool CellMap::set(const double* corners) {
   return true;
 }
 
-void CellMap::coordinates(const double place[3], double out[4]) const {
-  const double x = place[0] - origin_[0], y = place[1] - origin_[1], z = place[2] - origin_[2];
-  for (int i = 0; i < 3; ++i) out[i + 1] = rows_[i][0] * x + rows_[i][1] * y + rows_[i][2] * z;
-  out[0] = 1 - out[1] - out[2] - out[3];
-}
-
 static const double kWhole[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
 
 bool CellOverlap::set(const double planes[4][4]) {
   volume = 0;
   pieces = 0;
   std::fill_n(moments, 10, 0.0);
-  for (int k = 0; k < 4; ++k)
-    if (planes[k][0] <= 0 && planes[k][1] <= 0 && planes[k][2] <= 0 && planes[k][3] <= 0)
-      return false;
   cut(kWhole, planes, 0);
   return pieces > 0;
 }

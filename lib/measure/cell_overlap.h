@@ -23,7 +23,35 @@ class CellMap {
   // False if the cell is too flat to have any: its volume is below kFlat of a regular one's of its
   // longest edge.
   bool set(const double* corners);  // [4][3]
-  void coordinates(const double place[3], double out[4]) const;
+  void coordinates(const double place[3], double out[4]) const {
+    const double x = place[0] - origin_[0], y = place[1] - origin_[1], z = place[2] - origin_[2];
+    for (int i = 0; i < 3; ++i) out[i + 1] = rows_[i][0] * x + rows_[i][1] * y + rows_[i][2] * z;
+    out[0] = 1 - out[1] - out[2] - out[3];
+  }
+  // planes[k][j]: coordinate k of corner j of another cell. False, and not all is told, if the cell
+  // lies beyond one of the faces.
+  bool planesOf(const double* corners, double planes[4][4]) const {
+    double d[3][4];
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 3; ++k) d[k][j] = corners[3 * j + k] - origin_[k];
+    double rest[4] = {1, 1, 1, 1};
+    for (int k = 0; k < 3; ++k) {
+      bool any = false;
+      for (int j = 0; j < 4; ++j) {
+        const double at = rows_[k][0] * d[0][j] + rows_[k][1] * d[1][j] + rows_[k][2] * d[2][j];
+        planes[k + 1][j] = at;
+        rest[j] -= at;
+        any |= at > 0;
+      }
+      if (!any) return false;
+    }
+    bool any = false;
+    for (int j = 0; j < 4; ++j) {
+      planes[0][j] = rest[j];
+      any |= rest[j] > 0;
+    }
+    return any;
+  }
 
   static constexpr double kFlat = 1e-12;
 
@@ -39,7 +67,8 @@ struct CellOverlap {
   int pieces;
   double piece[kMostPieces][4][4];
 
-  // `planes[k][i]`: the k-th coordinate in b of a's corner i. False if there is nothing in common.
+  // `planes[k][i]`: the k-th coordinate in b of a's corner i, for each k somewhere positive. False
+  // if there is nothing in common.
   bool set(const double planes[4][4]);
   // Integral of the square of the linear function, as a share of a's volume.
   double integralOfSquare(const double d[4]) const;

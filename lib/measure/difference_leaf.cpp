@@ -93,12 +93,7 @@ void FieldDifference::Leaf::integrate(const MappedCells& others) {
     const double* p = cell(i);
     others.forEachNear(shape_.boxOf(p), [&](const double* other, const CellMap& map) {
       double planes[4][4];
-      for (int j = 0; j < 4; ++j) {
-        double at[4];
-        map.coordinates(p + 3 * j, at);
-        for (int k = 0; k < 4; ++k) planes[k][j] = at[k];
-      }
-      if (!overlap_.set(planes)) return;
+      if (!map.planesOf(p, planes) || !overlap_.set(planes)) return;
       covered_[i] += overlap_.volume;
       integratePair(i, other, planes);
     });

@@ -26,12 +26,6 @@ void Box::add(const Box& other) {
   add(other.high);
 }
 
-bool Box::meets(const Box& other) const {
-  for (int k = 0; k < 3; ++k)
-    if (low[k] > other.high[k] || high[k] < other.low[k]) return false;
-  return true;
-}
-
 Box RowShape::boxOf(const double* row) const {
   Box box;
   for (size_t c = 0; c < corners; ++c) box.add(place(row, c));

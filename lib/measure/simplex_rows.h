@@ -15,7 +15,10 @@ struct Box {
   Box();  // of nothing
   void add(const double place[3]);
   void add(const Box& other);
-  bool meets(const Box& other) const;
+  bool meets(const Box& other) const {
+    return low[0] <= other.high[0] && high[0] >= other.low[0] && low[1] <= other.high[1] &&
+           high[1] >= other.low[1] && low[2] <= other.high[2] && high[2] >= other.low[2];
+  }
 };
 
 // What a row is: `corners` places, then the values of each corner.
