@@ -3,10 +3,12 @@
 
 Simplifies a real mesh and compares the result with its original, by the command and by the
 independent judge, which samples and shares no code with it. Every one of these must hold:
-  RMS          of the field within 2 % of the judge's, or both below 1e-4 % of the range
+  RMS          of the field within 2 % of the judge's, or 1e-4 % of the range, or what samples of
+               as many points differ by: four times their standard deviation
   largest      error not below the judge's, which looks at points only, by more than 2 %
   outside      share of the volume as the judge's, within its sampling error
-  Hausdorff    within 3 % of the judge's or 1e-4 % of the diagonal
+  Hausdorff    at most 3 % below the judge's and 15 % above, which looks at half as many points, or
+               within 1e-4 % of the diagonal
   volume       and topology, orientation and dihedral angles the same
   memory       a small one gives the same figures, to 1e-9
 """
@@ -14,6 +16,7 @@ import argparse
 import json
 import math
 import os
+import statistics
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
@@ -77,17 +80,25 @@ def figures(report, verdict):
                                boundary["rms"])}
 
 
-def check(report, verdict, samples):
+def sampling_error(tetstream, words, samples):
+    """Standard deviation of the RMS by so many points, in percent of the range."""
+    found = [compared(tetstream, *words, "--samples", samples, "--seed", seed)["fields"][0]
+             for seed in range(1, 6)]
+    return statistics.stdev(field["rms_percent"] for field in found)
+
+
+def check(report, verdict, samples, deviation):
     wrong = []
     expect = lambda holds, what: holds or wrong.append(what)
     told = figures(report, verdict)
-    expect(close(*told["RMS %"], 0.02, 1e-4), "RMS")
+    expect(close(*told["RMS %"], 0.02, max(1e-4, 4 * deviation)), "RMS")
     expect(told["largest %"][0] >= 0.98 * told["largest %"][1], "largest error")
     share = told["outside %"][0] / 100
     error = 100 * 4 * math.sqrt(share * (1 - share) / samples)
     # The judge counts as outside what is farther than 1e-6 of the diagonal.
     expect(told["outside %"][1] <= told["outside %"][0] + error + 1e-4, "share outside")
-    expect(close(*told["Hausdorff %"], 0.03, 1e-4), "Hausdorff distance")
+    ours, theirs = told["Hausdorff %"]
+    expect(0.97 * theirs - 1e-4 <= ours <= 1.15 * theirs + 1e-4, "Hausdorff distance")
     expect(close(*told["boundary RMS %"], 0.05, 1e-5), "RMS distance of the boundaries")
     expect(report["topology_kept"] == verdict["reduction"]["topology_kept"], "topology kept")
     for mesh in ("original", "simplified"):
@@ -95,7 +106,9 @@ def check(report, verdict, samples):
         for mine, judged in COUNTS.items():
             expect(ours[mine] == theirs[judged], f"{mesh}: {mine}")
         for mine, judged in SHAPES.items():
-            expect(close(ours[mine], theirs[judged], 0.012, 1e-5), f"{mesh}: {mine}")
+            # A percentile of few cells lies anywhere between two of them.
+            share = 0.012 + (20 / ours["cells"] if "p99" in mine else 0)
+            expect(close(ours[mine], theirs[judged], share, 1e-5), f"{mesh}: {mine}")
         expect(close(ours["volume"], theirs["volume"], 1e-9), f"{mesh}: volume")
         below = 100 * ours["share_below_10"]
         expect(close(below, theirs["percent_min_dihedral_below_10"], 0, 1e-3), f"{mesh}: angles")
@@ -122,7 +135,10 @@ def main():
     for name, (ours, theirs) in figures(report, verdict).items():
         print(f"  {name:16} {ours:12.6g} judge {theirs:12.6g}")
     print(f"  {report['original']['cells'] / report['seconds']:.0f} cells/s")
-    wrong = check(report, verdict, args.samples) + same_with_little_memory(tetstream, words, report)
+    deviation = sampling_error(tetstream, words, args.samples)
+    print(f"  {'sampling error':16} {deviation:12.6g}")
+    wrong = check(report, verdict, args.samples, deviation)
+    wrong += same_with_little_memory(tetstream, words, report)
     for what in wrong:
         print("  FAILED:", what)
     sys.exit(1 if wrong else 0)
