@@ -74,6 +74,7 @@ class ComparisonPage {
         field_(comparison.fields().empty() ? nullptr : &comparison.fields().front()),
         layout_(layoutOf(cut_.plane)),
         range_(field_ ? field_->range : 1),
+        values_(fieldScale(cut_)),
         errors_(errorScale(cut_, range_)) {}
   void draw(const std::string& title);
 
@@ -94,7 +95,7 @@ class ComparisonPage {
   const FieldComparison* field_;
   Layout layout_;
   double range_;
-  Scale errors_;
+  Scale values_, errors_;
 };
 
 void ComparisonPage::drawHead(const std::string& title) {
@@ -119,13 +120,12 @@ void ComparisonPage::drawPanel(int index, const Image& image, const std::string&
 }
 
 void ComparisonPage::drawPanels() {
-  const Scale scale = fieldScale(cut_);
   const auto cells = [](const MeshFigures& mesh) {
     return grouped(mesh.topology.cells) + " cells";
   };
-  drawPanel(0, fieldPanel(cut_, *cut_.original, scale), "a  Original",
+  drawPanel(0, fieldPanel(cut_, *cut_.original, values_), "a  Original",
             cells(comparison_.original()));
-  drawPanel(1, fieldPanel(cut_, *cut_.simplified, scale), "b  Simplified",
+  drawPanel(1, fieldPanel(cut_, *cut_.simplified, values_), "b  Simplified",
             cells(comparison_.simplified()));
   drawPanel(2, errorPanel(cut_, range_, errors_), "c  Error",
             field_ ? "|a \xe2\x88\x92 b| in percent of the range" : "there is no common field");
@@ -133,13 +133,15 @@ void ComparisonPage::drawPanels() {
 
 void ComparisonPage::drawBar(const Frame& bar, const Scale& scale, Colour (*colour)(double),
                              const std::string& words, bool is_open) {
-  constexpr size_t kSteps = 512;
+  constexpr size_t kSteps = 256;
   const bool upright = bar.height > bar.width;
-  Image image(upright ? 1 : kSteps, upright ? kSteps : 1);
-  for (size_t i = 0; i < kSteps; ++i)
-    image.set(upright ? 0 : i, upright ? kSteps - 1 - i : 0,
-              colour((static_cast<double>(i) + 0.5) / kSteps));
-  canvas_.image(bar, image);
+  // Each to the end, the next one upon it: no gap is left between two.
+  for (size_t i = 0; i < kSteps; ++i) {
+    const double done = static_cast<double>(i) / kSteps;
+    const double left = upright ? 0 : done * bar.width, top = upright ? done * bar.height : 0;
+    canvas_.fill(Frame{bar.left + left, bar.top + top, bar.width - left, bar.height - top},
+                 colour(upright ? 1 - done : done));
+  }
   canvas_.line({{bar.left, bar.top},
                 {bar.right(), bar.top},
                 {bar.right(), bar.bottom()},
@@ -178,13 +180,13 @@ void ComparisonPage::drawBars() {
   const std::string error = "error, percent of the range";
   if (layout_.stacked) {
     const double left = a.right() + 16;
-    drawBar({left, a.top, kBar, b.bottom() - a.top}, fieldScale(cut_), fieldColour, name, false);
+    drawBar({left, a.top, kBar, b.bottom() - a.top}, values_, fieldColour, name, false);
     drawBar({left, c.top, kBar, c.height}, errors_, errorColour, "error, %", true);
     return;
   }
   const double top = a.bottom() + 16;
   drawBar({a.left + a.width / 2, top, b.right() - a.left - a.width / 2 - b.width / 2, kBar},
-          fieldScale(cut_), fieldColour, name, false);
+          values_, fieldColour, name, false);
   drawBar({c.left + 10, top, c.width - 20, kBar}, errors_, errorColour, error, true);
 }
 
@@ -202,10 +204,13 @@ void ComparisonPage::drawHistogram(const Frame& f) {
     most = std::max(most, volume[s]);
   }
   if (!(all > 0)) return;
-  constexpr double kSeen = 1e-5;  // of the volume: less is not shown at the ends
+  // What is below is not shown, but for the largest error.
+  constexpr double kSeen = 2e-3;
   int first = 0, last = kSteps - 1;
-  while (first < last && volume[first] < kSeen * all) ++first;
-  while (last > first && volume[last] < kSeen * all) --last;
+  double below = 0;
+  while (first < last && (below += volume[first]) < kSeen * all) ++first;
+  const double largest = field_->largest / (range_ > 0 ? range_ : 1);
+  while (last > first && largest < ErrorHistogram::lowerEnd(last)) --last;
   first -= first % kPerDecade;
   last += kPerDecade - last % kPerDecade;
   const double width = f.width / (last - first);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "colour_map.h"
 #include "look.h"
@@ -28,7 +29,17 @@ static double valueOf(const CutComparison& cut, const float* values) {
 }
 
 Scale fieldScale(const CutComparison& cut) {
-  return {cut.low, cut.high};
+  Scale scale = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  if (cut.field.empty()) return {0, 1};
+  for (const CutImage* image : {cut.original.get(), cut.simplified.get()})
+    for (size_t y = 0; y < image->height(); ++y)
+      for (size_t x = 0; x < image->width(); ++x) {
+        if (!image->cell(x, y)) continue;
+        const double value = valueOf(cut, image->values(x, y));
+        scale.low = std::min(scale.low, value);
+        scale.high = std::max(scale.high, value);
+      }
+  return scale.low <= scale.high ? scale : Scale{0, 1};
 }
 
 // In percent of the range, at each place that both meshes have.
@@ -77,8 +88,11 @@ static bool isEdge(const CutImage& image, size_t x, size_t y) {
   return right || (y + 1 < image.height() && image.cell(x, y + 1) != cell);
 }
 
+// Dark on light colours, light on dark ones.
 static Colour withEdge(const CutImage& image, size_t x, size_t y, Colour colour, double tone) {
-  return isEdge(image, x, y) ? mixed(colour, kInk, tone) : colour;
+  if (!isEdge(image, x, y)) return colour;
+  const double lightness = 0.3 * colour.red + 0.6 * colour.green + 0.1 * colour.blue;
+  return mixed(colour, lightness < 0.42 ? kWhite : kInk, lightness < 0.42 ? 0.6 * tone : tone);
 }
 
 Image fieldPanel(const CutComparison& cut, const CutImage& mesh, const Scale& scale) {

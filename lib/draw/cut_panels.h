@@ -15,6 +15,7 @@ struct Scale {
 constexpr Colour kLeftOut{0.74, 0.76, 0.79};  // the original where the simplified mesh is not
 constexpr Colour kAdded{0.72, 0.80, 0.92};    // the other way round
 
+// Of the values on the cut, of both meshes; of several components, of their norm.
 Scale fieldScale(const CutComparison& cut);
 // From 0 to what all but one in two hundred of the places on the cut keep below, in percent of the
 // range, rounded up to one digit.

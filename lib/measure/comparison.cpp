@@ -212,20 +212,17 @@ void Comparison::compareRegions() {
 void Comparison::drawCut() {
   CutComparison cut;
   cut.plane = cutPlaneOf(plan_.options.cut, box_);
+  Box seen = cutBoxOf(original_->cells(), cut.plane);
+  seen.add(cutBoxOf(simplified_->cells(), cut.plane));
+  showBox(seen, cut.plane);
   CutImage::Shown shown = {0, 0, nullptr};
   if (!fields_.empty()) {
     const FieldComparison& field = fields_.front();
     cut.field = field.name;
     cut.components = field.components;
-    cut.low = original_->lowest()[0];
-    cut.high = original_->highest()[0];
     for (size_t c = 0; c < field.components; ++c) {
-      const double low = original_->lowest()[c], high = original_->highest()[c];
+      const double low = original_->lowest()[c];
       cut.zero.push_back(field.components == 1 && std::isfinite(low) ? low : 0);
-      if (field.components == 1) continue;
-      const double most = std::max(std::fabs(low), std::fabs(high));
-      cut.high = c == 0 ? most : std::hypot(cut.high, most);
-      cut.low = 0;
     }
     shown = {0, field.components, cut.zero.data()};
   }

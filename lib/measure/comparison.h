@@ -64,7 +64,6 @@ struct CutComparison {
   std::string field;  // empty: there is none
   size_t components = 1;
   std::vector<double> zero;
-  double low = 0, high = 0;  // of the values or, for several components, of their norm
   std::unique_ptr<CutImage> original, simplified;
 };
 

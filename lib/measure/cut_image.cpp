@@ -53,14 +53,36 @@ CutPlane cutPlaneOf(const std::string& word, const Box& box) {
   plane.at = cut.has_place ? cut.place : box.low[axis] / 2 + box.high[axis] / 2;
   plane.across = axis == 0 ? 1 : 0;
   plane.up = axis == 2 ? 1 : 2;
-  // Tall ones lie on their side.
+  showBox(box, plane);
+  return plane;
+}
+
+void showBox(const Box& box, CutPlane& plane) {
   const auto size = [&](int k) { return box.high[k] - box.low[k]; };
+  if (!(size(plane.across) > 0 && size(plane.up) > 0)) return;
   if (size(plane.up) > 1.5 * size(plane.across)) std::swap(plane.across, plane.up);
   for (int k = 0; k < 2; ++k) {
     plane.low[k] = box.low[k == 0 ? plane.across : plane.up];
     plane.high[k] = box.high[k == 0 ? plane.across : plane.up];
   }
-  return plane;
+}
+
+// From the places where the plane meets the cells' edges.
+Box cutBoxOf(SimplexRows& cells, const CutPlane& plane) {
+  Box box;
+  for (uint64_t i = 0; i < cells.count(); ++i) {
+    const double* p = cells.row(i);
+    for (int a = 0; a < 4; ++a)
+      for (int b = a + 1; b < 4; ++b) {
+        const double from = p[3 * a + plane.axis] - plane.at, to = p[3 * b + plane.axis] - plane.at;
+        if ((from < 0) == (to < 0)) continue;
+        double place[3];
+        for (int k = 0; k < 3; ++k)
+          place[k] = p[3 * a + k] + from / (from - to) * (p[3 * b + k] - p[3 * a + k]);
+        box.add(place);
+      }
+  }
+  return box;
 }
 
 CutImage::CutImage(Account& account, const CutPlane& plane, size_t width, size_t height,

@@ -16,6 +16,10 @@ struct CutPlane {
 // The plane of a word: "auto" is the middle of the box across its shortest axis; "x=0.3" is told by
 // the coordinate, "x" is the middle. Throws kBadArgument for others.
 CutPlane cutPlaneOf(const std::string& word, const Box& box);
+// The box of what the plane cuts.
+Box cutBoxOf(SimplexRows& cells, const CutPlane& plane);
+// What is seen becomes that box; an empty one changes nothing. Tall views are turned.
+void showBox(const Box& box, CutPlane& plane);
 void checkCut(const std::string& word);
 
 class CutImage {

@@ -15,6 +15,10 @@ void ErrorHistogram::add(double error, double more) {
   volume[std::clamp(step, 0, kSteps - 1)] += more;
 }
 
+double ErrorHistogram::lowerEnd(int step) {
+  return kLowest * std::pow(10, static_cast<double>(step) / kPerDecade);
+}
+
 void FieldSums::take(double norm, const double at[3]) {
   if (!(norm > largest)) return;
   largest = norm;

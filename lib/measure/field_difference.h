@@ -30,6 +30,7 @@ struct ErrorHistogram {
   static constexpr double kLowest = 1e-10;
   double volume[kSteps] = {};
   void add(double error, double more);
+  static double lowerEnd(int step);
 };
 
 struct FieldSums {

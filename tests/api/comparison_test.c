@@ -196,8 +196,7 @@ static void failures_of_a_reader_are_told_by_the_comparison(void) {
     hostile.spoil_batch = i == 0 ? 0 : 3;
     CHECK_EQUAL(tetstream_comparison_read(comparison, first, second, NULL, NULL),
                 i == 0 ? TETSTREAM_CALLBACK : TETSTREAM_BAD_DATA);
-    CHECK_SAYS(tetstream_comparison_message(comparison),
-               i == 0 ? "99" : "the simplified mesh: ");
+    CHECK_SAYS(tetstream_comparison_message(comparison), i == 0 ? "99" : "the simplified mesh: ");
     tetstream_comparison_info info = {0};
     info.struct_size = sizeof info;
     CHECK_EQUAL(tetstream_comparison_get_info(comparison, &info), TETSTREAM_BAD_STATE);

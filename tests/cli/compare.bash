@@ -29,7 +29,7 @@ for name in comparison_info mesh_figures field_comparison region_comparison; do
   while [[ $struct =~ (int32_t|int64_t|uint64_t|double|char)\ \*?([a-z_0-9,\ ]+)(\[3\])?\; ]]; do
     struct=${struct#*"${BASH_REMATCH[0]}"}
     for word in ${BASH_REMATCH[2]//,/ }; do
-      member "$json" "$word" >/dev/null
+      contains "$json" "\"$word\": "
       count=$((count + 1))
     done
   done

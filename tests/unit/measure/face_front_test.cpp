@@ -44,10 +44,10 @@ struct Known {
 TEST(FaceFront, KnowsHolesVoidsAndPinches) {
   const Known known[] = {
       {fullGrid(3, 3, 3), 1, 2, 1, 1, 0, 0},
-      {shellGrid(4), 2, 4, 1, 2, 0, 0},        // a void
-      {ringGrid(4), 0, 0, 1, 1, 0, 0},         // a hole
+      {shellGrid(4), 2, 4, 1, 2, 0, 0},  // a void
+      {ringGrid(4), 0, 0, 1, 1, 0, 0},   // a hole
       {apart(2), 2, 4, 2, 2, 0, 0},
-      {cubesAtVertex(2), 1, 3, 1, 1, 0, 1},    // pinched: two fans at the vertex
+      {cubesAtVertex(2), 1, 3, 1, 1, 0, 1},            // pinched: two fans at the vertex
       {cubesAtEdge(2), 1, 2 + 2 - 5 + 2, 1, 1, 2, 1},  // three vertices and two edges in common
   };
   for (const Known& k : known)
