@@ -191,7 +191,7 @@ void Parser::addSimplify() {
   addFormat(command);
   addReport(command);
   addProgress(command);
-  command->footer(std::string("One of --ratio and --cells has to be given. ") +
+  command->footer(std::string("One of --ratio, --cells and --error has to be given. ") +
                   "The report goes to standard output, or to\nstandard error if OUT is -.\n" +
                   kExitCodes);
 }
