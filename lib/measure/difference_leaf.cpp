@@ -156,7 +156,7 @@ void FieldDifference::Leaf::sumVolumes() {
     const double volume = volumeOf(i), covered = covered_[i];
     sums.original += volume;
     sums.covered += volume * covered;
-    sums.twice += volume * std::max(covered - 1, 0.0);
+    if (covered - 1 > kCoveredWhole) sums.twice += volume * (covered - 1);
     if (1 - covered > kCoveredWhole) {
       sums.outside += volume * (1 - covered);
       if (uncovered_count_ == uncovered_.size())
