@@ -93,13 +93,13 @@ std::string fieldLine(const tetstream_field_comparison& f, size_t width) {
 
 std::string fieldsText(const ComparisonFigures& f) {
   const std::string how =
-      f.info.is_exact ? "exact inside" : "by " + countText(f.info.samples) + " points";
+      f.info.is_exact ? "exact" : "by " + shortCount(static_cast<double>(f.info.samples));
   if (f.fields.empty()) return "fields\n  none that both meshes have\n";
-  size_t width = 12;
+  size_t width = 14;
   for (const auto& field : f.fields) width = std::max(width, oneLine(field.name).size() + 2);
-  std::string text = textOf("%-*s%12s%12s%10s%12s%12s%10s\n", static_cast<int>(width + 2),
-                            ("fields, " + how).substr(0, width + 2).c_str(), "RMS %", "largest %",
-                            "CPSNR", "RMS", "largest", "range");
+  std::string text =
+      textOf("%-*s%12s%12s%10s%12s%12s%10s\n", static_cast<int>(width + 2),
+             ("fields, " + how).c_str(), "RMS %", "largest %", "CPSNR", "RMS", "largest", "range");
   for (const auto& field : f.fields) text += fieldLine(field, width);
   for (const auto& field : f.fields)
     if (field.largest > 0)
