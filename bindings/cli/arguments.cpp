@@ -56,6 +56,9 @@ class Parser {
   void addLayout();
   void addGenerate();
   void addDiagram();
+  void addCompare();
+  void addTitle(CLI::App* command, const char* text);
+  void addFields(CLI::App* command, const char* text, const char* value);
   void addHelp();
   void addIn(CLI::App* command);
   void addOut(CLI::App* command);
@@ -93,6 +96,7 @@ Parser::Parser() {
   addLayout();
   addGenerate();
   addDiagram();
+  addCompare();
   addHelp();
 }
 
@@ -188,16 +192,14 @@ void Parser::addSimplify() {
   addIn(command);
   addOut(command);
   for (tetstream_option_info info : optionTable()) {
+    if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT) continue;
     // The defaults of the two targets do not hold here: one has to be given.
     if (info.id == TETSTREAM_OPTION_RATIO || info.id == TETSTREAM_OPTION_CELLS)
       info.default_text = nullptr;
     addTableOption(command, info);
   }
-  command
-      ->add_option("--field", arguments_.options.fields,
-                   "Measure this field, with that weight (default: all, with 1); may be repeated")
-      ->option_text("NAME[:WEIGHT]")
-      ->allow_extra_args(false);
+  addFields(command, "Measure this field, with that weight (default: all, with 1); may be repeated",
+            "NAME[:WEIGHT]");
   addTraces(command);
   addFormat(command);
   addReport(command);
@@ -281,8 +283,7 @@ void Parser::addDiagram() {
       ->option_text(" ");
   command->add_flag("--sweep", arguments_.sweep,
                     "Draw the mesh at four moments instead: written away, in core, to come");
-  command->add_option("--title", arguments_.title, "What stands above it (default: IN's name)")
-      ->option_text("TEXT");
+  addTitle(command, "What stands above it (default: IN's name)");
   const auto addPlaces = [&](const char* name, int32_t& places, const char* text) {
     command->add_option(name, places, text)
         ->option_text("N")
@@ -291,6 +292,55 @@ void Parser::addDiagram() {
   addPlaces("--columns", arguments_.columns, "Places of the raster across, 1 to 8192 (1200)");
   addPlaces("--rows", arguments_.rows, "Places of the raster down, 1 to 8192 (800)");
   addStreamOptions(command);
+  addProgress(command);
+}
+
+void Parser::addTitle(CLI::App* command, const char* text) {
+  command->add_option("--title", arguments_.title, text)->option_text("TEXT");
+}
+
+void Parser::addFields(CLI::App* command, const char* text, const char* value) {
+  command->add_option("--field", arguments_.options.fields, text)
+      ->option_text(value)
+      ->allow_extra_args(false);
+}
+
+void Parser::addCompare() {
+  CLI::App* command =
+      addCommand("compare", "Measure how well a simplified mesh follows its original",
+                 Arguments::Command::kCompare);
+  command
+      ->add_option("ORIGINAL", arguments_.in.path, "The original: a file, or - for standard input")
+      ->required()
+      ->option_text(" ");
+  command->add_option("SIMPLIFIED", arguments_.second.path, "The simplified mesh, likewise")
+      ->required()
+      ->option_text(" ");
+  command
+      ->add_option("--format-in", arguments_.in.format,
+                   "Format of ORIGINAL (its extension, tets for -)")
+      ->option_text("NAME");
+  command
+      ->add_option("--format", arguments_.second.format,
+                   "Format of SIMPLIFIED (its extension, tets for -)")
+      ->option_text("NAME");
+  addFields(command, "Compare this field (default: all that both have); may be repeated", "NAME");
+  command
+      ->add_option("--picture", arguments_.out.path,
+                   "Draw a cut through both, the error on it and its spread: FILE.png or FILE.svg")
+      ->option_text("FILE");
+  addTitle(command, "What stands above the picture (default: the files' names)");
+  for (tetstream_option_info info : optionTable()) {
+    if (info.id == TETSTREAM_OPTION_CUT) {
+      info.text = "plane of the picture: auto, across the shortest axis; x, y, z or x=0.3";
+      info.default_text = "auto";
+    }
+    if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
+        info.id == TETSTREAM_OPTION_SEED || info.id == TETSTREAM_OPTION_REGIONS ||
+        info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR)
+      addTableOption(command, info);
+  }
+  addReport(command);
   addProgress(command);
 }
 
@@ -345,8 +395,8 @@ Arguments Parser::parse(int argc, const char* const* argv) {
       settleFormats();
       return arguments_;
     }
-  throw usageFailure("which command? simplify, info, convert, layout, generate, diagram or help",
-                     "");
+  throw usageFailure(
+      "which command? simplify, info, convert, layout, generate, diagram, compare or help", "");
 }
 
 }  // namespace

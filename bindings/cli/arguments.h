@@ -10,18 +10,19 @@
 namespace tetstream::cli {
 
 struct Arguments {
-  enum class Command { kText, kSimplify, kInfo, kConvert, kLayout, kGenerate, kDiagram };
+  enum class Command { kText, kSimplify, kInfo, kConvert, kLayout, kGenerate, kDiagram, kCompare };
 
   Command command = Command::kText;
   std::string text;  // kText: what to print: help, version
   Place in, out;
+  Place second;                      // compare: the simplified mesh
   std::vector<Property> properties;  // of the output's format
   OptionWords options;
   std::string kind;                    // of generate
   std::string report;                  // "text", "json"; empty: not asked for
   Place map, log;                      // simplify; no path: not asked for
   bool json = false;                   // info
-  std::string title;                   // diagram; empty: IN's name
+  std::string title;                   // diagram, compare; empty: the names of the files
   int32_t columns = 1200, rows = 800;  // diagram: of the raster
   bool sweep = false;                  // diagram: that page
   bool quiet = false;                  // no bar, no notes, no report that was not asked for

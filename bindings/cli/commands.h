@@ -13,6 +13,7 @@ ExitCode convert(const Arguments& arguments);
 ExitCode layout(const Arguments& arguments);
 ExitCode generate(const Arguments& arguments);
 ExitCode diagram(const Arguments& arguments);
+ExitCode compare(const Arguments& arguments);
 
 // When a bar is shown, for all of them.
 ProgressBar::Show progressOf(const Arguments& arguments);

@@ -65,4 +65,8 @@ void check(tetstream_status status, const tetstream_diagram* diagram) {
   if (status < 0) fail(status, diagram ? tetstream_diagram_message(diagram) : nullptr);
 }
 
+void check(tetstream_status status, const tetstream_comparison* comparison) {
+  if (status < 0) fail(status, comparison ? tetstream_comparison_message(comparison) : nullptr);
+}
+
 }  // namespace tetstream::cli

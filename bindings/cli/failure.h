@@ -36,5 +36,6 @@ void check(tetstream_status status, const tetstream_reader* reader);
 void check(tetstream_status status, const tetstream_writer* writer);
 void check(tetstream_status status, const tetstream_simplifier* simplifier);
 void check(tetstream_status status, const tetstream_diagram* diagram);
+void check(tetstream_status status, const tetstream_comparison* comparison);
 
 }  // namespace tetstream::cli

@@ -54,6 +54,8 @@ static ExitCode run(const Arguments& arguments) {
       return generate(arguments);
     case Arguments::Command::kDiagram:
       return diagram(arguments);
+    case Arguments::Command::kCompare:
+      return compare(arguments);
   }
   return kInternal;
 }

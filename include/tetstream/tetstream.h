@@ -33,7 +33,7 @@
  *
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
- * and report, and destroyed; the same holds for the reader and the writer of a failed `run`,
+ * and report, and destroyed; the same holds for the readers and the writer of a failed `run`,
  * `convert`, `inspect` or `read`. A failure of any other function had no effect, nor has a call
  * that is refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too
  * small.
@@ -111,6 +111,8 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input twice; "none" */
 #define TETSTREAM_OPTION_RELEASE 136         /* text: what leaves the window first: "order", "error" */
 #define TETSTREAM_OPTION_SHAPE 140           /* text: "field", "solver": no thin cells */
+#define TETSTREAM_OPTION_SAMPLES 150         /* int64, points of a comparison; 0: exact integrals */
+#define TETSTREAM_OPTION_CUT 151             /* text: plane of its picture: "none", "auto", "x=0.3" */
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
@@ -667,6 +669,146 @@ TETSTREAM_API tetstream_status tetstream_diagram_check_path(const tetstream_diag
                                                             const char *path);
 /* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
 TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *diagram);
+
+/* --------------------------------------------------------------------------- comparing meshes */
+
+/* How well a simplified mesh stands for its original: the difference of their fields, the distance
+ * of their boundaries, volumes, topology, shapes and regions. Each mesh is read once, from any
+ * reader, in any order; memory is bounded by the option `memory` (0: 512 MB), and what does not fit
+ * is in temporary files in `tmpdir`.
+ *
+ *   tetstream_comparison_create(NULL, &comparison);
+ *   tetstream_comparison_read(comparison, original, simplified, NULL, NULL);
+ *   tetstream_comparison_get_field(comparison, 0, &field);    // field.rms, field.largest
+ *
+ * How the figures are made. Fields are linear on each cell. Every original cell is cut with every
+ * simplified one: on their common part the difference is linear, and its squared norm is integrated
+ * exactly and has its maximum at a corner. Where the original is outside the simplified mesh, that
+ * one's value is the one at the nearest point of its boundary: there the error is sampled, at up to
+ * eight places in each such cell and at the corners that are outside. With the option `samples` the
+ * fields are compared at that many points, uniform by volume, instead, and largest errors are those
+ * of the points. Distances between boundaries are sampled at 200 000 points, uniform by area, and
+ * at all vertices. Cells flatter than 1e-12 of the cube of their longest edge take no part in the
+ * fields' figures. The same meshes, options and seed give the same figures. */
+typedef struct tetstream_comparison tetstream_comparison;
+
+/* Which of the two meshes. */
+#define TETSTREAM_ORIGINAL 0
+#define TETSTREAM_SIMPLIFIED 1
+
+/* The figures of both meshes together. Members may be added at the end. Lengths and volumes are in
+ * the meshes' units; texts live as long as the comparison. */
+typedef struct tetstream_comparison_info {
+  size_t struct_size;
+  int32_t field_count, region_count;
+  int32_t topology_kept;       /* 1: components, Euler characteristics and counts of non-manifold
+                                  elements are the same */
+  int32_t is_exact;            /* 0: fields are sampled */
+  int64_t samples;             /* of the fields; 0: exact */
+  double diagonal;             /* of the original's box */
+  double outside_volume;       /* of the original, outside the simplified mesh */
+  double repeated_volume;      /* of the original, in more than one simplified cell; 0 if sampled */
+  double distance, rms_distance;   /* from the original's boundary to the simplified one: the
+                                      largest, and the root of the mean square */
+  double distance_back, rms_distance_back; /* from the simplified boundary to the original's */
+  double distance_place[3];        /* where `distance` is */
+  double distance_back_place[3];   /* where `distance_back` is */
+  const char *regions;         /* what was taken as region labels, in words */
+  double seconds;              /* that `read` took */
+  uint64_t peak_bytes;         /* of the arrays that the memory option bounds */
+} tetstream_comparison_info;
+
+/* The figures of one mesh. Members may be added at the end. */
+typedef struct tetstream_mesh_figures {
+  size_t struct_size;
+  int64_t cells, vertices, edges, faces;  /* vertices that cells use */
+  double volume;                /* sum of the cells' volumes without signs */
+  int64_t components;           /* sets of cells joined through vertices */
+  int64_t euler;                /* vertices - edges + faces - cells */
+  int64_t boundary_faces, boundary_vertices;
+  int64_t boundary_components;  /* joined through vertices */
+  int64_t boundary_euler;
+  double boundary_area;
+  int64_t nonmanifold_faces;    /* of more than two cells */
+  int64_t nonmanifold_edges;    /* of the boundary: not of two faces */
+  int64_t nonmanifold_vertices; /* of the boundary: of more than one fan of faces */
+  int64_t inverted_cells;       /* whose orientation is not that of most */
+  int64_t flat_cells;           /* of no volume, exactly */
+  int64_t folded_faces;         /* whose two cells lie on the same side, exactly */
+  double least_angle, largest_angle; /* between two faces of a cell, degrees */
+  double mean_least_angle;           /* mean of the cells' least ones */
+  double share_below_1, share_below_5, share_below_10; /* of cells whose least one is below */
+  double median_aspect, p99_aspect;  /* circumradius / (3 inradius): 1 is regular; within 1 % */
+  double largest_aspect;             /* infinite if there is a flat cell */
+} tetstream_mesh_figures;
+
+/* The error of one nodal field that both meshes have. Of several components it is the norm of the
+ * difference. Members may be added at the end. */
+typedef struct tetstream_field_comparison {
+  size_t struct_size;
+  const char *name;           /* lives as long as the comparison */
+  int32_t components;
+  double range;               /* of the original: norm of highest minus lowest values */
+  double largest;             /* largest error */
+  double largest_place[3];    /* where it is */
+  double largest_inside;      /* where the original is inside the simplified mesh */
+  double cmse;                /* mean of the squared error over the original's volume */
+  double rms;                 /* root of it */
+  double rms_inside;          /* over the volume inside the simplified mesh */
+  double cpsnr;               /* 20 log10(range / rms), decibels; infinite if there is no error */
+  double largest_percent, rms_percent; /* of the range; of a constant field the error times 100 */
+} tetstream_field_comparison;
+
+/* A region: the cells of one label. Members may be added at the end. */
+typedef struct tetstream_region_comparison {
+  size_t struct_size;
+  int64_t label;
+  int64_t original_cells, simplified_cells; /* 0: the label is not there */
+  double original_volume, simplified_volume;
+  int64_t original_parts, simplified_parts; /* sets of cells joined through faces */
+} tetstream_region_comparison;
+
+/* The options are copied; NULL: the defaults. Those count that count for `inspect`, and `samples`,
+ * `seed`, `cut`, `regions` and fields that were added: only these are compared, those of weight 0
+ * left out. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_comparison_create(const tetstream_options *options,
+                                                           tetstream_comparison **comparison);
+/* Since 0.1. */
+TETSTREAM_API void tetstream_comparison_destroy(tetstream_comparison *comparison);
+/* Reads both meshes to their ends and compares them. Fields are matched by name. BAD_ARGUMENT if
+ * an option names a field or cell array that is not in both; BAD_DATA, naming the vertex or the
+ * cell, for values that are not finite; NO_MEMORY where the front does not fit the memory. Once
+ * per comparison; after a failure it can only be asked for its message, and destroyed. Since 0.1.
+ */
+TETSTREAM_API tetstream_status tetstream_comparison_read(tetstream_comparison *comparison,
+                                                         tetstream_reader *original,
+                                                         tetstream_reader *simplified,
+                                                         tetstream_progress_callback progress,
+                                                         void *user);
+/* The figures, once both were read; BAD_STATE before. BAD_ARGUMENT for an index past the end or a
+ * `mesh` other than TETSTREAM_ORIGINAL and _SIMPLIFIED. Regions come by label, those that only the
+ * simplified mesh has last. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_comparison_get_info(
+    const tetstream_comparison *comparison, tetstream_comparison_info *info);
+TETSTREAM_API tetstream_status tetstream_comparison_get_mesh(
+    const tetstream_comparison *comparison, int32_t mesh, tetstream_mesh_figures *figures);
+TETSTREAM_API tetstream_status tetstream_comparison_get_field(
+    const tetstream_comparison *comparison, int32_t index, tetstream_field_comparison *field);
+TETSTREAM_API tetstream_status tetstream_comparison_get_region(
+    const tetstream_comparison *comparison, int32_t index, tetstream_region_comparison *region);
+/* Draws a page, once both were read with the option `cut`: a cut through both meshes, coloured by
+ * the first field that was compared, the error on it, how the error is spread over the volume, and
+ * the figures. SVG or PNG by the path's extension; the file takes its name when it is complete.
+ * `title` stands above it; NULL: none. BAD_STATE if the option `cut` was "none"; UNSUPPORTED for
+ * another extension and where cairo is not there. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_comparison_write(tetstream_comparison *comparison,
+                                                          const char *path, const char *title);
+/* Whether `write` could draw to that path, as far as its extension and this build go; allowed at
+ * any time. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_comparison_check_path(
+    const tetstream_comparison *comparison, const char *path);
+/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+TETSTREAM_API const char *tetstream_comparison_message(const tetstream_comparison *comparison);
 
 /* ------------------------------------------------------------------------------ file formats */
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "callbacks.h"
+#include "compare.h"
 #include "guard.h"
 #include "option_values.h"
 #include "output.h"
@@ -59,6 +60,13 @@ struct tetstream_diagram : tetstream::Handle {
   tetstream::DiagramSize size = {};
   tetstream::Diagram diagram;                   // once it was read
   std::vector<int64_t> widths, lowest, newest;  // per column
+};
+
+struct tetstream_comparison : tetstream::Handle {
+  static constexpr const char* kNoun = "comparison";
+  tetstream::RunOptions options;
+  std::unique_ptr<tetstream::Comparison> found;  // once both meshes were read
+  double seconds = 0;
 };
 
 namespace tetstream {

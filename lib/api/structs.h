@@ -29,6 +29,10 @@ TETSTREAM_FIRST_SIZE(tetstream_report, limited_by);
 TETSTREAM_FIRST_SIZE(tetstream_layout_report, seconds);
 TETSTREAM_FIRST_SIZE(tetstream_front_info, window_cells);
 TETSTREAM_FIRST_SIZE(tetstream_diagram_info, newest);
+TETSTREAM_FIRST_SIZE(tetstream_comparison_info, peak_bytes);
+TETSTREAM_FIRST_SIZE(tetstream_mesh_figures, largest_aspect);
+TETSTREAM_FIRST_SIZE(tetstream_field_comparison, rms_percent);
+TETSTREAM_FIRST_SIZE(tetstream_region_comparison, simplified_parts);
 #undef TETSTREAM_FIRST_SIZE
 
 [[noreturn]] void failStruct(const char* argument, size_t size, size_t needed);

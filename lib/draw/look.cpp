@@ -36,9 +36,9 @@ void drawTitle(Canvas& canvas, const Frame& page, double baseline, const std::st
   canvas.text({page.left, baseline}, shown, kTitleStyle);
 }
 
-// 1, 2 or 5 times a power of ten, not below 1: what is counted is whole.
+// 1, 2 or 5 times a power of ten.
 static double roundStep(double step) {
-  const double power = std::pow(10, std::floor(std::log10(std::max(step, 1.0))));
+  const double power = std::pow(10, std::floor(std::log10(step)));
   for (double factor : {1.0, 2.0, 5.0})
     if (factor * power >= step) return factor * power;
   return 10 * power;
@@ -55,9 +55,20 @@ static std::string tickLabel(double at) {
 }
 
 std::vector<Tick> ticksUpTo(double end, int wanted) {
-  const double step = roundStep(end / wanted);
+  const double step = roundStep(std::max(end / wanted, 1.0));  // what is counted is whole
   std::vector<Tick> ticks;
   for (double at = 0; at <= end; at += step) ticks.push_back({at, tickLabel(at)});
+  return ticks;
+}
+
+std::vector<Tick> ticksBetween(double low, double high, int wanted) {
+  std::vector<Tick> ticks;
+  if (!(high > low) || !std::isfinite(high - low)) return {{low, textOf("%.4g", low)}};
+  const double step = roundStep((high - low) / wanted);
+  const double largest = std::max(std::fabs(low), std::fabs(high));
+  const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(largest / step))) + 1, 1, 15);
+  for (double n = std::ceil(low / step); n * step <= high + 1e-9 * step; ++n)
+    ticks.push_back({n * step, textOf("%.*g", digits, n == 0 ? 0.0 : n * step)});
   return ticks;
 }
 

@@ -32,5 +32,7 @@ struct Tick {
   std::string label;
 };
 std::vector<Tick> ticksUpTo(double end, int wanted);
+// The same between two numbers of any size, with as many digits as tell them apart.
+std::vector<Tick> ticksBetween(double low, double high, int wanted);
 
 }  // namespace tetstream

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "compare_options.h"
 #include "layout_diagram.h"
 #include "options.h"
 #include "source.h"
@@ -22,6 +23,7 @@ struct RunOptions {
   std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
   bool origins = false;  // ordered vertices tell their ranks in the input
+  CompareOptions compare;
 };
 
 // One simplification. Pull: run. Push: begin, put as often as wanted, finish; an indexed mesh that

@@ -240,9 +240,9 @@ def main():
         mesh = fluid(build, folder)
         check_windows(build, mesh)
         check_compare(build, mesh)
-    check_errors_of_fields(build)
         check_paper(build, mesh)
         check_release(build, mesh)
+    check_errors_of_fields(build)
     return None
 
 

@@ -1,4 +1,4 @@
-// layout: rows of fixed width, written in one order and read in another. Depends on base.
+// base: rows of fixed width, written in one order and read in another. Depends on bytes.h.
 #pragma once
 
 #include <optional>

@@ -1,0 +1,59 @@
+// compare: how well a simplified mesh follows its original.
+#include "commands.h"
+#include "comparison_report.h"
+#include "text.h"
+
+namespace tetstream::cli {
+
+static std::string nameOf(const Place& place) {
+  if (place.isStandard()) return "standard input";
+  return place.path.substr(place.path.find_last_of('/') + 1);
+}
+
+static std::string titleOf(const Arguments& arguments) {
+  if (!arguments.title.empty()) return arguments.title;
+  return nameOf(arguments.in) + " and " + nameOf(arguments.second);
+}
+
+static Comparison createComparison(const Arguments& arguments) {
+  OptionWords words = arguments.options;
+  const bool draws = !arguments.out.path.empty();
+  if (words.has("cut") && !draws)
+    throw Failure{kUsage, "--cut is where a picture cuts, and needs --picture FILE"};
+  if (draws && !words.has("cut")) words.values.emplace_back("cut", "auto");
+  const Options options = makeOptions(words);
+  tetstream_comparison* handle = nullptr;
+  const tetstream_status status = tetstream_comparison_create(options.get(), &handle);
+  Comparison comparison(handle);
+  check(status, handle);
+  if (draws) check(tetstream_comparison_check_path(handle, arguments.out.path.c_str()), handle);
+  return comparison;
+}
+
+ExitCode compare(const Arguments& arguments) {
+  if (arguments.in.isStandard() && arguments.second.isStandard())
+    throw Failure{kUsage, "only one of the meshes can come from standard input"};
+  const Comparison comparison = createComparison(arguments);
+  if (!arguments.out.path.empty()) checkOutput(arguments.out);
+  const Options options = makeOptions(arguments.options);
+  const Reader original = openReader(arguments.in, options.get());
+  const Reader simplified = openReader(arguments.second, options.get());
+  ProgressBar bar(progressOf(arguments));
+  const tetstream_status status = tetstream_comparison_read(
+      comparison.get(), original.get(), simplified.get(), ProgressBar::callback, &bar);
+  bar.clear();
+  printNotes(arguments, original.get(), nullptr);
+  printNotes(arguments, simplified.get(), nullptr);
+  check(status, comparison.get());
+  if (!arguments.out.path.empty())
+    check(tetstream_comparison_write(comparison.get(), arguments.out.path.c_str(),
+                                     titleOf(arguments).c_str()),
+          comparison.get());
+  if (!arguments.quiet || !arguments.report.empty()) {
+    const ComparisonFigures figures = figuresOf(comparison.get());
+    printOut(arguments.report == "json" ? comparisonJson(figures) : comparisonText(figures));
+  }
+  return kOk;
+}
+
+}  // namespace tetstream::cli

@@ -1,0 +1,70 @@
+#include "boundary_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "id_hash.h"
+#include "random.h"
+#include "row_number.h"
+#include "triangle.h"
+
+namespace tetstream {
+
+// Uniform: with two random numbers a and b, coordinates 1 - sqrt a, sqrt a (1 - b), sqrt a b.
+static void addSample(const double* corners, Random& random, NearestPoints& places) {
+  const double root = std::sqrt(shareOf(random.next())), b = shareOf(random.next()), is_sample = 1;
+  double place[3];
+  for (int k = 0; k < 3; ++k)
+    place[k] =
+        (1 - root) * corners[k] + root * (1 - b) * corners[3 + k] + root * b * corners[6 + k];
+  places.add(place, &is_sample);
+}
+
+static void addPlaces(SimplexRows& from, const SurfaceSampling& s, Account& account,
+                      NearestPoints& places) {
+  IdHash taken(account);  // vertices, which many faces share
+  for (uint64_t i = 0; i < from.count(); ++i) {
+    const double* corners = from.row(i);
+    Random random(numberOf(corners, 9, s.seed));
+    const double share = s.area > 0 ? triangleArea(corners) / s.area : 0;
+    const double wanted = static_cast<double>(s.samples) * share + shareOf(random.next());
+    for (int64_t n = 0; n < static_cast<int64_t>(wanted); ++n) addSample(corners, random, places);
+    for (int j = 0; j < 3; ++j) {
+      const uint64_t number = numberOf(corners + 3 * j, 3, 0);
+      if (taken.find(number) != kNoSlot) continue;
+      taken.add(number, 0);
+      const double is_vertex = 0;
+      places.add(corners + 3 * j, &is_vertex);
+    }
+  }
+}
+
+DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
+                                 const SurfaceSampling& sampling, const SearchBudget& budget,
+                                 const std::function<void(double)>& share) {
+  DistanceFigures figures;
+  if (from.count() == 0 || to.count() == 0) return figures;
+  NearestPoints places(1, 0, budget.temp_dir);
+  addPlaces(from, sampling, budget.account, places);
+  double samples = 0, squares = 0, sum = 0;
+  places.search(
+      to, budget.bytes, budget.account,
+      [&](const NearestPoints::Found& found) {
+        if (found.distance > figures.largest) {
+          figures.largest = found.distance;
+          std::copy_n(found.place, 3, figures.place);
+        }
+        if (found.carried[0] == 0) return;
+        samples += 1;
+        squares += found.distance * found.distance;
+        sum += found.distance;
+      },
+      share);
+  if (samples > 0) {
+    figures.rms = std::sqrt(squares / samples);
+    figures.mean = sum / samples;
+  }
+  return figures;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,247 @@
+#include "comparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "status.h"
+
+namespace tetstream {
+
+// Each boundary is sampled so often; its vertices are looked at besides.
+constexpr int64_t kSurfaceSamples = 200000;
+// Shares of the memory: the original's cells, the simplified ones, each boundary, while they are
+// read; ordering has a quarter for itself, the front the rest.
+constexpr size_t kOriginalShare = 3, kSimplifiedShare = 1, kShares = 8, kBoundaryParts = 32;
+// Shares of the time after reading.
+constexpr double kFieldsEnd = 0.85, kOutsideEnd = 0.92, kCutPixels = 1.6e6;
+
+double FieldComparison::rms() const {
+  return std::sqrt(cmse);
+}
+
+double FieldComparison::rmsInside() const {
+  return std::sqrt(cmse_inside);
+}
+
+double FieldComparison::cpsnr() const {
+  if (cmse == 0) return std::numeric_limits<double>::infinity();
+  return 20 * std::log10(range / rms());
+}
+
+double FieldComparison::percent(double error) const {
+  return 100 * error / (range > 0 ? range : 1);
+}
+
+// ------------------------------------------------------------------------- what is in both
+
+static bool isWanted(const ComparePlan& plan, const std::string& name) {
+  if (plan.fields.empty()) return true;
+  for (const auto& [field, weight] : plan.fields)
+    if (field == name) return weight > 0;
+  return false;
+}
+
+void Comparison::matchFields(const Schema& original, const Schema& simplified, ScanPlan plans[2]) {
+  for (const auto& [name, weight] : plan_.fields)
+    for (const Schema* schema : {&original, &simplified})
+      if (findColumn(schema->fields, name) < 0)
+        fail(Status::kBadArgument, "there is no field \"%s\" in the %s", name.c_str(),
+             schema == &original ? "original" : "simplified mesh");
+  for (size_t i = 0; i < original.fields.size(); ++i) {
+    const Column& column = original.fields[i];
+    const int other = findColumn(simplified.fields, column.name);
+    if (other < 0 || !isWanted(plan_, column.name)) continue;
+    const int components = simplified.fields[static_cast<size_t>(other)].components;
+    if (components != column.components)
+      fail(Status::kBadArgument, "field \"%s\" has %d components in the original, %d after",
+           column.name.c_str(), column.components, components);
+    FieldComparison field;
+    field.name = column.name;
+    field.first = values_;
+    field.components = static_cast<size_t>(components);
+    values_ += field.components;
+    fields_.push_back(std::move(field));
+    plans[0].fields.push_back(i);
+    plans[1].fields.push_back(static_cast<size_t>(other));
+  }
+}
+
+// Integer arrays of one component; of "auto" all that both have are followed, and the first one
+// that labels regions is told.
+void Comparison::matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]) {
+  const std::string& wish = plan_.regions;
+  if (wish == "none") return;
+  const auto labels = [](const Schema& schema, const std::string& name) {
+    const int at = findColumn(schema.cell_data, name);
+    if (at < 0) return -1;
+    const Column& column = schema.cell_data[static_cast<size_t>(at)];
+    return isFloat(column.type) || column.components != 1 ? -1 : at;
+  };
+  for (const Column& column : original.cell_data) {
+    if (wish != "auto" && column.name != wish) continue;
+    const int ours = labels(original, column.name), theirs = labels(simplified, column.name);
+    if (ours >= 0 && theirs < 0) region_words_ = "the simplified mesh has no " + column.name;
+    if (ours < 0 || theirs < 0) continue;
+    region_arrays_.push_back(column.name);
+    plans[0].cell_arrays.push_back(static_cast<size_t>(ours));
+    plans[1].cell_arrays.push_back(static_cast<size_t>(theirs));
+  }
+  if (wish != "auto" && region_arrays_.empty())
+    fail(Status::kBadArgument, "\"%s\" is no integer cell array of both meshes", wish.c_str());
+}
+
+Comparison::Comparison(const Schema& original, const Schema& simplified, const ComparePlan& plan)
+    : plan_(plan),
+      memory_(plan.memory_bytes > 0 ? plan.memory_bytes : kDefaultCompareMemory),
+      account_(memory_ / 4 * 3),
+      schemas_{original, simplified} {
+  if (plan.options.cut != "none") checkCut(plan.options.cut);
+  ScanPlan plans[2];
+  plans[0].mesh = "the original";
+  plans[1].mesh = "the simplified mesh";
+  matchFields(original, simplified, plans);
+  matchRegions(original, simplified, plans);
+  const auto scan = [&](int which, size_t share) {
+    const MeshScan::Budgets budgets = {{account_, plan.temp_dir, memory_ / kShares * share},
+                                       {account_, plan.temp_dir, memory_ / kBoundaryParts}};
+    return std::make_unique<MeshScan>(schemas_[which], plans[which], budgets, account_);
+  };
+  original_ = scan(0, kOriginalShare);
+  simplified_ = scan(1, kSimplifiedShare);
+}
+
+// ---------------------------------------------------------------------------------- measuring
+
+double Comparison::diagonal() const {
+  double square = 0;
+  for (int k = 0; k < 3; ++k) square += (box_.high[k] - box_.low[k]) * (box_.high[k] - box_.low[k]);
+  return std::isfinite(square) ? std::sqrt(square) : 0;
+}
+
+bool Comparison::topologyKept() const {
+  const TopologyFigures &a = figures_[0].topology, &b = figures_[1].topology;
+  return a.euler() == b.euler() && a.boundaryEuler() == b.boundaryEuler() &&
+         a.components == b.components && a.boundary_components == b.boundary_components &&
+         a.nonmanifold_faces == b.nonmanifold_faces && a.nonmanifold_edges == b.nonmanifold_edges &&
+         a.nonmanifold_vertices == b.nonmanifold_vertices;
+}
+
+void Comparison::measure(const Done& done) {
+  MeshScan* scans[2] = {original_.get(), simplified_.get()};
+  for (int i = 0; i < 2; ++i) {
+    figures_[i].topology = scans[i]->topology();
+    figures_[i].shapes = scans[i]->shapes();
+    figures_[i].boundary_area = scans[i]->boundaryArea();
+  }
+  box_ = original_->cells().box();
+  for (FieldComparison& field : fields_) {
+    double square = 0;
+    for (size_t c = field.first; c < field.first + field.components; ++c) {
+      const double width = original_->highest()[c] - original_->lowest()[c];
+      square += width > 0 ? width * width : 0;  // of no vertices: none
+    }
+    field.range = std::sqrt(square);
+  }
+  compareRegions();
+  if (plan_.options.cut != "none") drawCut();
+  measureFields([&](double share) { done(kOutsideEnd * share); });
+  measureDistances([&](double share) { done(kOutsideEnd + (1 - kOutsideEnd) * share); });
+  original_.reset();
+  simplified_.reset();
+}
+
+void Comparison::measureFields(const Done& done) {
+  std::vector<ComparedField> compared;
+  for (const FieldComparison& f : fields_) compared.push_back({f.first, f.components, f.range});
+  FieldDifference difference(compared, values_,
+                             {plan_.options.samples, plan_.seed, figures_[0].shapes.volume},
+                             {account_, plan_.temp_dir, memory_ / 2});
+  constexpr double kShare = kFieldsEnd / kOutsideEnd;
+  difference.measure(original_->cells(), simplified_->cells(),
+                     [&](double share) { done(kShare * share); });
+  difference.measureOutside(simplified_->boundary(),
+                            [&](double share) { done(kShare + (1 - kShare) * share); });
+  volumes_ = difference.volumes();
+  const double volume = volumes_.covered + volumes_.outside;
+  for (size_t f = 0; f < fields_.size(); ++f) {
+    const FieldSums &in = difference.inside(f), &out = difference.outside(f);
+    FieldComparison& field = fields_[f];
+    const FieldSums& larger = out.largest > in.largest ? out : in;
+    field.largest_inside = in.largest;
+    field.largest = larger.largest;
+    std::copy_n(larger.place, 3, field.largest_place);
+    field.cmse = volume > 0 ? (in.squares + out.squares) / volume : 0;
+    field.cmse_inside = volumes_.covered > 0 ? in.squares / volumes_.covered : 0;
+    for (int s = 0; s < ErrorHistogram::kSteps; ++s)
+      field.histogram.volume[s] = in.histogram.volume[s] + out.histogram.volume[s];
+  }
+}
+
+void Comparison::measureDistances(const Done& done) {
+  MeshScan* scans[2] = {original_.get(), simplified_.get()};
+  for (int i = 0; i < 2; ++i)
+    distances_[i] = boundaryDistance(scans[i]->boundary(), scans[1 - i]->boundary(),
+                                     {kSurfaceSamples, plan_.seed, scans[i]->boundaryArea()},
+                                     {account_, plan_.temp_dir, memory_ / 4},
+                                     [&](double share) { done((i + share) / 2); });
+}
+
+void Comparison::compareRegions() {
+  for (size_t i = 0; i < region_arrays_.size(); ++i) {
+    const RegionParts &ours = original_->regions(i), &theirs = simplified_->regions(i);
+    const bool is_wished = plan_.regions != "auto";
+    if (ours.dropped() || (!is_wished && ours.regions().size() < 2)) continue;
+    region_array_ = region_arrays_[i];
+    for (const auto& [label, figures] : ours.regions()) {
+      const auto found = theirs.regions().find(label);
+      regions_.push_back(
+          {label, figures, found == theirs.regions().end() ? RegionFigures() : found->second});
+    }
+    for (const auto& [label, figures] : theirs.regions())
+      if (!ours.regions().count(label)) regions_.push_back({label, RegionFigures(), figures});
+    break;
+  }
+  if (!region_array_.empty())
+    region_words_ = "by " + region_array_;
+  else if (region_words_.empty())
+    region_words_ = "none";
+}
+
+// The first field, on a raster that takes an eighth of the memory at most.
+void Comparison::drawCut() {
+  CutComparison cut;
+  cut.plane = cutPlaneOf(plan_.options.cut, box_);
+  Box seen = cutBoxOf(original_->cells(), cut.plane);
+  seen.add(cutBoxOf(simplified_->cells(), cut.plane));
+  showBox(seen, cut.plane);
+  CutImage::Shown shown = {0, 0, nullptr};
+  if (!fields_.empty()) {
+    const FieldComparison& field = fields_.front();
+    cut.field = field.name;
+    cut.components = field.components;
+    for (size_t c = 0; c < field.components; ++c) {
+      const double low = original_->lowest()[c];
+      cut.zero.push_back(field.components == 1 && std::isfinite(low) ? low : 0);
+    }
+    shown = {0, field.components, cut.zero.data()};
+  }
+  const double wide = cut.plane.high[0] - cut.plane.low[0];
+  const double tall = cut.plane.high[1] - cut.plane.low[1];
+  if (!(wide > 0 && tall > 0)) return;
+  const double bytes = 2.0 * (4 + 4 * static_cast<double>(shown.components));
+  const double pixels = std::min(kCutPixels, static_cast<double>(memory_) / 8 / bytes);
+  const double ratio = std::clamp(wide / tall, 0.05, 20.0);
+  const auto width = static_cast<size_t>(std::max(std::sqrt(pixels * ratio), 1.0));
+  const auto height = static_cast<size_t>(std::max(std::sqrt(pixels / ratio), 1.0));
+  const auto draw = [&](MeshScan& scan) {
+    auto image = std::make_unique<CutImage>(account_, cut.plane, width, height, shown);
+    image->add(scan.cells());
+    return image;
+  };
+  cut.original = draw(*original_);
+  cut.simplified = draw(*simplified_);
+  cut_ = std::move(cut);
+}
+
+}  // namespace tetstream

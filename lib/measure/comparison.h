@@ -1,0 +1,122 @@
+// measure: two meshes side by side: how well one stands for the other. Depends on mesh_scan.h,
+// field_difference.h, boundary_distance.h, cut_image.h.
+//
+// Each mesh is read once; then their cells and boundaries are compared, in core or, what is larger,
+// piece by piece from temporary files.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "boundary_distance.h"
+#include "compare_options.h"
+#include "cut_image.h"
+#include "field_difference.h"
+#include "mesh_scan.h"
+
+namespace tetstream {
+
+// What every comparison needs of the caller's options.
+struct ComparePlan {
+  CompareOptions options;
+  std::vector<std::pair<std::string, double>> fields;  // empty: all; weight 0: not compared
+  std::string regions = "auto";
+  uint64_t seed = 1;
+  size_t memory_bytes = 0;
+  std::string temp_dir;
+};
+
+constexpr size_t kDefaultCompareMemory = size_t{512} << 20;
+
+struct FieldComparison {
+  std::string name;
+  size_t first = 0, components = 1;
+  double range = 0;  // norm of the original's ranges of the components
+  double largest = 0, largest_place[3] = {0, 0, 0};
+  double largest_inside = 0;  // where the original is inside the simplified mesh
+  double cmse = 0;            // mean of the squared error over the original's volume
+  double cmse_inside = 0;
+  double rms() const;
+  double rmsInside() const;
+  double cpsnr() const;                // decibels; infinite where there is no error
+  double percent(double error) const;  // of the range; of a constant field: the error times 100
+  ErrorHistogram histogram;            // volumes
+};
+
+struct MeshFigures {
+  TopologyFigures topology;
+  ShapeFigures shapes;
+  double boundary_area = 0;
+  uint64_t temporary_bytes = 0;
+};
+
+struct RegionComparison {
+  int64_t label;
+  RegionFigures original, simplified;
+};
+
+// What the picture shows of one field.
+struct CutComparison {
+  CutPlane plane;
+  std::string field;  // empty: there is none
+  size_t components = 1;
+  std::vector<double> zero;
+  std::unique_ptr<CutImage> original, simplified;
+};
+
+class Comparison {
+ public:
+  // Throws kBadArgument for fields and regions that are not in both meshes.
+  Comparison(const Schema& original, const Schema& simplified, const ComparePlan& plan);
+
+  void readOriginal(Source& source, const Done& done) { original_->read(source, done); }
+  void readSimplified(Source& source, const Done& done) { simplified_->read(source, done); }
+  void measure(const Done& done);  // once both were read
+
+  // Then:
+  const MeshFigures& original() const { return figures_[0]; }
+  const MeshFigures& simplified() const { return figures_[1]; }
+  const Box& box() const { return box_; }  // of the original
+  double diagonal() const;
+  bool topologyKept() const;
+  const std::vector<FieldComparison>& fields() const { return fields_; }
+  const VolumeSums& volumes() const { return volumes_; }
+  const DistanceFigures& toSimplified() const { return distances_[0]; }
+  const DistanceFigures& toOriginal() const { return distances_[1]; }
+  const std::vector<RegionComparison>& regions() const { return regions_; }
+  const std::string& regionArray() const { return region_array_; }  // empty: none
+  const std::string& regionWords() const { return region_words_; }
+  const CutComparison* cut() const { return cut_ ? &*cut_ : nullptr; }
+  bool isExact() const { return plan_.options.samples == 0; }
+  int64_t samples() const { return plan_.options.samples; }
+  size_t peakBytes() const { return account_.peak(); }
+
+ private:
+  void matchFields(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
+  void matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
+  void measureFields(const Done& done);
+  void measureDistances(const Done& done);
+  void compareRegions();
+  void drawCut();
+
+  ComparePlan plan_;
+  size_t memory_;
+  Account account_;
+  Schema schemas_[2];
+  std::vector<FieldComparison> fields_;
+  size_t values_ = 0;                       // of a corner
+  std::vector<std::string> region_arrays_;  // candidates
+  std::unique_ptr<MeshScan> original_, simplified_;
+  MeshFigures figures_[2];
+  Box box_;
+  VolumeSums volumes_;
+  DistanceFigures distances_[2];
+  std::vector<RegionComparison> regions_;
+  std::string region_array_, region_words_;
+  std::optional<CutComparison> cut_;
+};
+
+}  // namespace tetstream

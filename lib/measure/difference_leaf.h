@@ -1,0 +1,82 @@
+// measure: the field difference over cells that are in core. Depends on field_difference.h.
+#pragma once
+
+#include "field_difference.h"
+
+namespace tetstream {
+
+// Simplified cells with their barycentric coordinates; those that are too flat have none.
+class MappedCells {
+ public:
+  MappedCells(const RowChunk& chunk, Account& account);
+  // visit(cell's row, map) for those whose boxes are near.
+  template <class Visit>
+  void forEachNear(const Box& box, Visit&& visit) const {
+    chunk_.tree().forEachNear(box, [&](uint32_t i) {
+      if (has_map_[i]) visit(chunk_.row(i), maps_[i]);
+    });
+  }
+
+ private:
+  const RowChunk& chunk_;
+  Array<CellMap> maps_;
+  Array<uint8_t> has_map_;
+};
+
+class FieldDifference::Leaf {
+ public:
+  Leaf(FieldDifference& whole, SimplexRows& cells);
+
+  // Exactly: with each chunk of simplified cells; then, for what they leave over, once more.
+  void integrate(const MappedCells& others);
+  void sumVolumes();
+  void markCovered(const MappedCells& others);
+  void keepOutside();
+
+  // By points.
+  void spreadSamples();
+  void locateSamples(const MappedCells& others);
+  void takeSamples();
+
+ private:
+  // Of a cell that is not covered whole: its corners, then places spread in it; a bit for each
+  // that is in a simplified cell.
+  static constexpr int kTrials = 64, kCorners = 4;
+  static constexpr int kKept = 8;  // places of a cell, at most
+  struct Uncovered {
+    uint32_t cell;
+    uint64_t seen;
+  };
+  // A point of the sample, its values and those found: `depth` is its least coordinate.
+  struct Sample {
+    uint32_t cell;
+    double coordinates[4], depth;
+  };
+
+  const double* cell(size_t i) const { return rows_ + i * doubles_; }
+  double volumeOf(size_t i) const;
+  void spread(size_t cell, int index, double coordinates[4]) const;
+  void placeAt(size_t cell, const double coordinates[4], double place[3]) const;
+  void valuesAt(size_t cell, const double coordinates[4], double* values) const;
+  void integratePair(size_t cell, const double* other, const double planes[4][4]);
+  void searchMaximum(size_t cell, size_t field, const double* differences);
+  void keepCorners(const Uncovered& cell);
+  bool keepPlaces(const Uncovered& cell, double volume);
+
+  FieldDifference& whole_;
+  RowShape shape_;
+  size_t count_, doubles_;
+  Array<double> copy_;  // of the cells, unless they are in core anyway
+  const double* rows_;
+  Array<double> covered_;  // share of each cell
+  Array<Uncovered> uncovered_;
+  size_t uncovered_count_ = 0;
+  Array<Sample> samples_;
+  Array<double> found_;  // values at the samples
+  size_t sample_count_ = 0;
+  CellOverlap overlap_;
+  std::vector<double> differences_, values_;
+  double volume_ = 0;  // of the cell in hand
+};
+
+}  // namespace tetstream

@@ -1,0 +1,58 @@
+#include "joined_sets.h"
+
+#include <algorithm>
+
+#include "status.h"
+
+namespace tetstream {
+
+uint32_t JoinedSets::make() {
+  ++sets_;
+  if (free_ != kNone) {
+    const uint32_t node = free_;
+    free_ = nodes_[node].parent;
+    nodes_[node] = {node, 1};
+    return node;
+  }
+  if (used_ == kNone) fail(Status::kNoMemory, "more than 2^32 things at once hang together");
+  if (used_ == nodes_.size()) nodes_.resize(std::max<size_t>(256, 2 * nodes_.size()));
+  nodes_[used_] = {used_, 1};
+  return used_++;
+}
+
+void JoinedSets::release(uint32_t member) {
+  while (--nodes_[member].held == 0) {
+    const uint32_t parent = nodes_[member].parent;
+    nodes_[member].parent = free_;
+    free_ = member;
+    if (parent == member) return;
+    member = parent;
+  }
+}
+
+// Every node on the way moves up to its parent's parent, as long as that leaves the parent held.
+uint32_t JoinedSets::root(uint32_t member) {
+  while (nodes_[member].parent != member) {
+    const uint32_t parent = nodes_[member].parent, above = nodes_[parent].parent;
+    if (above != parent) {
+      nodes_[member].parent = above;
+      ++nodes_[above].held;
+      release(parent);
+    }
+    member = above;
+  }
+  return member;
+}
+
+bool JoinedSets::join(uint32_t a, uint32_t b) {
+  a = root(a);
+  b = root(b);
+  if (a == b) return false;
+  if (nodes_[a].held < nodes_[b].held) std::swap(a, b);
+  nodes_[b].parent = a;
+  ++nodes_[a].held;
+  --sets_;
+  return true;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,81 @@
+// measure: everything about one mesh that one reading of it tells, and its cells and its boundary
+// for what comes after. Depends on stream, mesh, face_front.h, cell_shapes.h, region_parts.h,
+// simplex_rows.h.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cell_shapes.h"
+#include "face_front.h"
+#include "front.h"
+#include "region_parts.h"
+#include "simplex_rows.h"
+#include "source.h"
+
+namespace tetstream {
+
+// A share of something that is done; may throw to stop.
+using Done = std::function<void(double)>;
+
+struct ScanPlan {
+  std::string mesh;                 // "the original", for messages
+  std::vector<size_t> fields;       // columns whose values are kept, all components
+  std::vector<size_t> cell_arrays;  // integer columns that may label regions
+};
+
+class MeshScan {
+ public:
+  struct Budgets {
+    RowBudget cells, boundary;
+  };
+  // `account` bounds what the front takes.
+  MeshScan(const Schema& schema, const ScanPlan& plan, const Budgets& budgets, Account& account);
+  // Reads everything. Throws kBadData, naming the vertex or the cell: what is not known, final,
+  // there twice or not finite.
+  void read(Source& source, const Done& done);
+
+  const TopologyFigures& topology() { return faces_.figures(); }
+  ShapeFigures shapes() const { return shapes_.figures(); }
+  const RegionParts& regions(size_t array) const { return *regions_[array]; }
+  // Of each component that is kept, over the vertices that cells use.
+  const std::vector<double>& lowest() const { return low_; }
+  const std::vector<double>& highest() const { return high_; }
+  SimplexRows& cells() { return cells_; }
+  SimplexRows& boundary() { return boundary_; }
+  double boundaryArea() const { return boundary_area_; }
+
+ private:
+  static constexpr uint32_t kNone = 0xffffffffu;
+  FaceFront::Events events();
+  void takeVertices(const BatchView& batch);
+  void takeCells(const BatchView& batch);
+  void addCell(const int64_t corners[4], size_t row);
+  void use(uint32_t vertex);
+  void finalize(int64_t vertex);
+  void addBoundary(const uint32_t vertices[3]);
+  uint32_t takeNumber(Array<uint32_t>& free, uint32_t& first_free, uint32_t& used);
+  const double* dataOf(uint32_t vertex) const { return data_.data() + vertex * stride_; }
+
+  const Schema& schema_;
+  ScanPlan plan_;
+  size_t values_, stride_;  // doubles of a vertex's values; of its place and values
+  Front front_;
+  FaceFront faces_;
+  CellShapes shapes_;
+  std::vector<std::unique_ptr<RegionParts>> regions_;
+  Array<double> data_;           // per vertex
+  Array<uint32_t> vertex_link_;  // kInUse, or the next free number
+  Array<uint32_t> cell_link_;
+  uint32_t vertex_free_ = kNone, vertices_used_ = 0, cell_free_ = kNone, cells_used_ = 0;
+  uint64_t cells_seen_ = 0;
+  SimplexRows cells_, boundary_;
+  double boundary_area_ = 0;
+  std::vector<double> low_, high_, row_, positions_;
+  std::vector<std::vector<double>> columns_;  // of one batch
+  std::vector<std::vector<int64_t>> labels_;  // of one batch
+};
+
+}  // namespace tetstream

@@ -1,0 +1,85 @@
+#include "nearest_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "triangle.h"
+
+namespace tetstream {
+
+constexpr SpoolShape kInSequence = {2, 64 << 10};
+constexpr uint64_t kTellEach = 4096;  // places
+
+// A row: place, carried numbers, the squared distance so far, the values there.
+NearestPoints::NearestPoints(size_t carried, size_t values, const std::string& temp_dir)
+    : carried_(carried),
+      values_(values),
+      doubles_(3 + carried + 1 + values),
+      temp_dir_(temp_dir),
+      places_(spool()),
+      row_(doubles_) {}
+
+std::unique_ptr<RowSpool> NearestPoints::spool() const {
+  return std::make_unique<RowSpool>(doubles_ * sizeof(double), temp_dir_, kInSequence);
+}
+
+void NearestPoints::add(const double place[3], const double* carried) {
+  std::copy_n(place, 3, row_.data());
+  std::copy_n(carried, carried_, row_.data() + 3);
+  row_[3 + carried_] = std::numeric_limits<double>::infinity();
+  std::fill_n(row_.data() + 4 + carried_, values_, 0.0);
+  places_->append(row_.data(), 1);
+}
+
+void NearestPoints::improve(const RowChunk& chunk, double* row) const {
+  double& least = row[3 + carried_];
+  double* values = row + 4 + carried_;
+  chunk.tree().forEachWithin(row, least, [&](uint32_t i) {
+    double at[3];
+    const double* triangle = chunk.row(i);
+    const double found = squaredDistance(triangle, row, at);
+    if (!(found < least)) return least;
+    least = found;
+    for (size_t k = 0; k < values_; ++k) {
+      values[k] = 0;
+      for (size_t j = 0; j < 3; ++j) values[k] += at[j] * chunk.shape().value(triangle, j)[k];
+    }
+    return least;
+  });
+}
+
+NearestPoints::Found NearestPoints::foundIn(const double* row) const {
+  return {row, row + 3, std::sqrt(row[3 + carried_]), row + 4 + carried_};
+}
+
+void NearestPoints::search(SimplexRows& surface, size_t bytes, Account& account, const Take& take,
+                           const std::function<void(double)>& share) {
+  places_->finish();
+  const auto work = static_cast<double>(std::max<uint64_t>(surface.count() * count(), 1));
+  uint64_t searched = 0;  // triangles
+  forEachChunk(surface, bytes, 0, account, [&](const RowChunk& chunk) {
+    const bool is_last = searched + chunk.count() == surface.count();
+    std::unique_ptr<RowSpool> next = is_last ? nullptr : spool();
+    for (uint64_t i = 0; i < count(); ++i) {
+      std::copy_n(static_cast<const double*>(places_->row(i)), doubles_, row_.data());
+      improve(chunk, row_.data());
+      if (is_last)
+        take(foundIn(row_.data()));
+      else
+        next->append(row_.data(), 1);
+      if (i % kTellEach == 0)
+        share((static_cast<double>(searched) * static_cast<double>(count()) +
+               static_cast<double>(chunk.count()) * static_cast<double>(i)) /
+              work);
+    }
+    if (is_last) return;
+    next->finish();
+    places_ = std::move(next);
+    searched += chunk.count();
+  });
+  if (surface.count() > 0) return;
+  for (uint64_t i = 0; i < count(); ++i) take(foundIn(static_cast<const double*>(places_->row(i))));
+}
+
+}  // namespace tetstream

@@ -1,0 +1,44 @@
+// measure: for many places the nearest point of a surface and the values there. Depends on
+// row_chunk.h.
+//
+// The places wait in a temporary file; as much of the surface as the memory holds is searched at a
+// time, each place with the distance that was found before as its bound.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "row_chunk.h"
+
+namespace tetstream {
+
+class NearestPoints {
+ public:
+  // Each place comes with `carried` numbers; the surface's corners have `values`.
+  NearestPoints(size_t carried, size_t values, const std::string& temp_dir);
+  void add(const double place[3], const double* carried);
+  uint64_t count() const { return places_->rows(); }
+
+  struct Found {
+    const double* place;
+    const double* carried;
+    double distance;       // infinite if the surface has no triangle
+    const double* values;  // at the nearest point
+  };
+  using Take = std::function<void(const Found&)>;
+  // Once: `take` gets them in the order in which they were added. `share` is told as it goes.
+  void search(SimplexRows& surface, size_t bytes, Account& account, const Take& take,
+              const std::function<void(double)>& share);
+
+ private:
+  void improve(const RowChunk& chunk, double* row) const;
+  Found foundIn(const double* row) const;
+  std::unique_ptr<RowSpool> spool() const;
+
+  size_t carried_, values_, doubles_;
+  std::string temp_dir_;
+  std::unique_ptr<RowSpool> places_;
+  std::vector<double> row_;
+};
+
+}  // namespace tetstream

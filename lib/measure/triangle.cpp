@@ -1,0 +1,69 @@
+#include "triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetstream {
+
+static double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void minus(const double a[3], const double b[3], double out[3]) {
+  for (int k = 0; k < 3; ++k) out[k] = a[k] - b[k];
+}
+
+double triangleArea(const double* corners) {
+  double u[3], v[3];
+  minus(corners + 3, corners, u);
+  minus(corners + 6, corners, v);
+  const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                       u[0] * v[1] - u[1] * v[0]};
+  return std::sqrt(dot(n, n)) / 2;
+}
+
+// To the segment from a to b; `share`: how far along it the nearest point lies.
+static double squaredToSegment(const double a[3], const double b[3], const double place[3],
+                               double& share) {
+  double along[3], to[3];
+  minus(b, a, along);
+  minus(place, a, to);
+  const double length = dot(along, along);
+  share = length > 0 ? std::clamp(dot(to, along) / length, 0.0, 1.0) : 0;
+  for (int k = 0; k < 3; ++k) to[k] -= share * along[k];
+  return dot(to, to);
+}
+
+// The foot of the perpendicular if it is inside, else the best of the three edges.
+double squaredDistance(const double* corners, const double place[3], double coordinates[3]) {
+  double u[3], v[3], w[3];
+  minus(corners + 3, corners, u);
+  minus(corners + 6, corners, v);
+  minus(place, corners, w);
+  const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
+  const double d = uu * vv - uv * uv;
+  if (d > 0) {
+    const double s = (vv * wu - uv * wv) / d, t = (uu * wv - uv * wu) / d;
+    if (s >= 0 && t >= 0 && s + t <= 1) {
+      for (int k = 0; k < 3; ++k) w[k] -= s * u[k] + t * v[k];
+      coordinates[0] = 1 - s - t;
+      coordinates[1] = s;
+      coordinates[2] = t;
+      return dot(w, w);
+    }
+  }
+  double least = -1;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    double share = 0;
+    const double found = squaredToSegment(corners + 3 * i, corners + 3 * j, place, share);
+    if (least >= 0 && found >= least) continue;
+    least = found;
+    coordinates[0] = coordinates[1] = coordinates[2] = 0;
+    coordinates[i] = 1 - share;
+    coordinates[j] = share;
+  }
+  return least;
+}
+
+}  // namespace tetstream

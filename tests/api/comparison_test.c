@@ -1,0 +1,333 @@
+/* Comparisons through the C interface: figures known in closed form, any order of cells, and every
+ * way in which one can be asked for too early, too late or for nothing. */
+#define _POSIX_C_SOURCE 200809L
+#include <math.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "rig.h"
+
+static hostile_mesh* mesh;
+
+static tetstream_reader* callbacks(hostile_reader* hostile, const hostile_mesh* of, int cut,
+                                   uint32_t flags) {
+  tetstream_reader* reader = NULL;
+  memset(hostile, 0, sizeof *hostile);
+  hostile->mesh = of;
+  hostile->cut = cut;
+  hostile->flags = flags;
+  const tetstream_reader_callbacks reads = hostile_reader_callbacks(hostile);
+  CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
+  return reader;
+}
+
+static tetstream_options* options_with(const char* name, const char* value) {
+  tetstream_options* options = NULL;
+  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  if (name) CHECK_EQUAL(tetstream_options_parse(options, name, value), TETSTREAM_OK);
+  return options;
+}
+
+static tetstream_comparison* comparison_with(const char* name, const char* value) {
+  tetstream_options* options = options_with(name, value);
+  tetstream_comparison* comparison = NULL;
+  CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
+  tetstream_options_destroy(options);
+  return comparison;
+}
+
+/* The status of a reading of both meshes, the second one as callbacks give it. */
+static tetstream_status compare(tetstream_comparison* comparison, const hostile_mesh* simplified,
+                                int cut, uint32_t flags) {
+  hostile_reader hostile;
+  tetstream_reader* first = arrays_of(mesh);
+  tetstream_reader* second = callbacks(&hostile, simplified, cut, flags);
+  const tetstream_status status = tetstream_comparison_read(comparison, first, second, NULL, NULL);
+  tetstream_reader_destroy(first);
+  tetstream_reader_destroy(second);
+  hostile_reader_free(&hostile);
+  return status;
+}
+
+static tetstream_comparison_info info_of(const tetstream_comparison* comparison) {
+  tetstream_comparison_info info = {0};
+  info.struct_size = sizeof info;
+  CHECK_EQUAL(tetstream_comparison_get_info(comparison, &info), TETSTREAM_OK);
+  return info;
+}
+
+static tetstream_mesh_figures figures_of(const tetstream_comparison* comparison, int32_t which) {
+  tetstream_mesh_figures figures = {0};
+  figures.struct_size = sizeof figures;
+  CHECK_EQUAL(tetstream_comparison_get_mesh(comparison, which, &figures), TETSTREAM_OK);
+  return figures;
+}
+
+static tetstream_field_comparison field_of(const tetstream_comparison* comparison, int32_t index) {
+  tetstream_field_comparison field = {0};
+  field.struct_size = sizeof field;
+  CHECK_EQUAL(tetstream_comparison_get_field(comparison, index, &field), TETSTREAM_OK);
+  return field;
+}
+
+static void a_mesh_is_itself_in_any_order(void) {
+  for (int cut = HOSTILE_WHOLE; cut <= HOSTILE_LISTS + 1; ++cut) {
+    tetstream_comparison* comparison = comparison_with(NULL, NULL);
+    const int indexed = cut > HOSTILE_LISTS;
+    CHECK_EQUAL(compare(comparison, mesh, indexed ? HOSTILE_ODD : cut,
+                        indexed ? TETSTREAM_STREAM_INDEXED : 0),
+                TETSTREAM_OK);
+    const tetstream_comparison_info info = info_of(comparison);
+    CHECK_EQUAL(info.field_count, 2);
+    CHECK_EQUAL(info.region_count, 2);
+    CHECK_EQUAL(info.topology_kept, 1);
+    CHECK_EQUAL(info.is_exact, 1);
+    CHECK(info.distance < 1e-14 && info.distance_back < 1e-14);
+    CHECK(info.outside_volume == 0 && info.repeated_volume < 1e-12);
+    const tetstream_mesh_figures a = figures_of(comparison, TETSTREAM_ORIGINAL);
+    const tetstream_mesh_figures b = figures_of(comparison, TETSTREAM_SIMPLIFIED);
+    CHECK_EQUAL(a.cells, mesh->cell_count);
+    CHECK_EQUAL(a.vertices, mesh->vertex_count);
+    CHECK_EQUAL(a.edges, b.edges);
+    CHECK_EQUAL(a.euler, 1);
+    CHECK_EQUAL(a.boundary_euler, 2);
+    CHECK_EQUAL(a.boundary_faces, 2 * 2 * (3 * 4 + 4 * 5 + 5 * 3));
+    CHECK_EQUAL(a.components, 1);
+    CHECK_EQUAL(b.folded_faces + b.flat_cells + b.inverted_cells, 0);
+    CHECK(fabs(a.volume - b.volume) < 1e-12);
+    for (int32_t i = 0; i < 2; ++i) {
+      const tetstream_field_comparison field = field_of(comparison, i);
+      CHECK_SAYS(field.name, i == 0 ? "density" : "velocity");
+      CHECK_EQUAL(field.components, i == 0 ? 1 : 3);
+      CHECK(field.largest < 1e-12 && field.rms < 1e-12);
+    }
+    for (int32_t i = 0; i < 2; ++i) {
+      tetstream_region_comparison region = {0};
+      region.struct_size = sizeof region;
+      CHECK_EQUAL(tetstream_comparison_get_region(comparison, i, &region), TETSTREAM_OK);
+      CHECK_EQUAL(region.label, i + 1);
+      CHECK_EQUAL(region.original_parts, 1);
+      CHECK_EQUAL(region.simplified_parts, 1);
+      CHECK_EQUAL(region.original_cells, region.simplified_cells);
+    }
+    tetstream_comparison_destroy(comparison);
+  }
+}
+
+/* density + 0.25 everywhere, on the same cells: that is the error at each place. */
+static void a_constant_shift_of_a_field_is_its_error(void) {
+  hostile_mesh* shifted = hostile_mesh_create(3, 4, 5);
+  for (int64_t v = 0; v < shifted->vertex_count; ++v) shifted->density[v] += 0.25;
+  for (int sampled = 0; sampled < 2; ++sampled) {
+    tetstream_comparison* comparison = comparison_with("samples", sampled ? "500" : "0");
+    CHECK_EQUAL(compare(comparison, shifted, HOSTILE_ODD, 0), TETSTREAM_OK);
+    const tetstream_field_comparison field = field_of(comparison, 0);
+    CHECK(fabs(field.rms - 0.25) < (sampled ? 1e-9 : 1e-12));
+    CHECK(fabs(field.largest - 0.25) < 1e-9);
+    CHECK(fabs(field.cmse - 0.0625) < 1e-9);
+    CHECK(fabs(field.cpsnr - 20 * log10(field.range / 0.25)) < 1e-6);
+    CHECK(fabs(field.rms_percent - 25 / field.range) < 1e-6);
+    CHECK_EQUAL(info_of(comparison).is_exact, !sampled);
+    tetstream_comparison_destroy(comparison);
+  }
+  hostile_mesh_destroy(shifted);
+}
+
+/* A layer of one fifth of the height is cut off: that share is outside, and as far away. */
+static void what_is_cut_off_is_outside(void) {
+  hostile_mesh* lower = hostile_mesh_create(3, 4, 4);
+  tetstream_comparison* comparison = comparison_with(NULL, NULL);
+  CHECK_EQUAL(compare(comparison, lower, HOSTILE_ODD, 0), TETSTREAM_OK);
+  const tetstream_comparison_info info = info_of(comparison);
+  const tetstream_mesh_figures a = figures_of(comparison, TETSTREAM_ORIGINAL);
+  const tetstream_mesh_figures b = figures_of(comparison, TETSTREAM_SIMPLIFIED);
+  CHECK(fabs(info.outside_volume - (a.volume - b.volume)) < 1e-9 * a.volume);
+  CHECK(info.outside_volume > 0.19 * a.volume && info.outside_volume < 0.21 * a.volume);
+  const double layer = info.outside_volume / (3 * 4); /* cubes of side 1, each so high */
+  CHECK(fabs(info.distance - layer) < 1e-9);
+  CHECK(info.distance_back <= info.distance + 1e-12);
+  CHECK_EQUAL(info.topology_kept, 1);
+  tetstream_comparison_destroy(comparison);
+  hostile_mesh_destroy(lower);
+}
+
+static int draws(void) {
+  return strstr(tetstream_version_text(), "no cairo") == NULL;
+}
+
+static void a_page_is_drawn_where_a_cut_was_asked_for(void) {
+  char folder[] = "/tmp/tetstream-comparison-XXXXXX";
+  char svg[64], png[64];
+  if (!CHECK(mkdtemp(folder) != NULL)) return;
+  snprintf(svg, sizeof svg, "%s/a.svg", folder);
+  snprintf(png, sizeof png, "%s/a.png", folder);
+  tetstream_comparison* comparison = comparison_with("cut", "x=1.25");
+  CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_comparison_check_path(comparison, "a.gif"), TETSTREAM_UNSUPPORTED);
+  if (draws()) {
+    CHECK_EQUAL(tetstream_comparison_check_path(comparison, svg), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_comparison_write(comparison, svg, "both"), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_comparison_write(comparison, png, NULL), TETSTREAM_OK);
+    CHECK_EQUAL(remove(svg), 0);
+    CHECK_EQUAL(remove(png), 0);
+  } else {
+    CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL), TETSTREAM_UNSUPPORTED);
+  }
+  tetstream_comparison_destroy(comparison);
+  comparison = comparison_with(NULL, NULL);
+  CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL), TETSTREAM_BAD_STATE);
+  CHECK_SAYS(tetstream_comparison_message(comparison), "without a cut");
+  tetstream_comparison_destroy(comparison);
+  CHECK_EQUAL(rmdir(folder), 0);
+}
+
+static void failures_of_a_reader_are_told_by_the_comparison(void) {
+  const int spoils[] = {0, HOSTILE_GARBAGE_ID, HOSTILE_NAN, HOSTILE_TWICE};
+  for (int i = 0; i < 4; ++i) {
+    hostile_reader hostile;
+    tetstream_comparison* comparison = comparison_with(NULL, NULL);
+    tetstream_reader* first = arrays_of(mesh);
+    tetstream_reader* second = callbacks(&hostile, mesh, HOSTILE_ODD, 0);
+    hostile.fail_call = i == 0 ? 4 : 0;
+    hostile.fail_value = 99;
+    hostile.spoil = spoils[i];
+    hostile.spoil_batch = i == 0 ? 0 : 3;
+    CHECK_EQUAL(tetstream_comparison_read(comparison, first, second, NULL, NULL),
+                i == 0 ? TETSTREAM_CALLBACK : TETSTREAM_BAD_DATA);
+    CHECK_SAYS(tetstream_comparison_message(comparison), i == 0 ? "99" : "the simplified mesh: ");
+    tetstream_comparison_info info = {0};
+    info.struct_size = sizeof info;
+    CHECK_EQUAL(tetstream_comparison_get_info(comparison, &info), TETSTREAM_BAD_STATE);
+    tetstream_comparison_destroy(comparison);
+    tetstream_reader_destroy(first);
+    tetstream_reader_destroy(second);
+    CHECK_EQUAL(hostile.closes, 1);
+    hostile_reader_free(&hostile);
+  }
+}
+
+struct stopper {
+  int calls, stop_at;
+  double last;
+};
+
+static int32_t stop(void* user, const tetstream_progress* progress) {
+  struct stopper* s = user;
+  CHECK(progress->phase && progress->phase[0]);
+  CHECK(progress->fraction >= s->last - 1e-9 && progress->fraction <= 1 + 1e-9);
+  s->last = progress->fraction;
+  return ++s->calls == s->stop_at ? 7 : 0;
+}
+
+static void progress_grows_and_cancels_at_any_call(void) {
+  struct stopper all = {0, 0, 0};
+  for (int at = 0; at <= all.calls; at += 1 + all.calls / 20) {
+    struct stopper s = {0, at, 0};
+    hostile_reader hostile;
+    tetstream_comparison* comparison = comparison_with(NULL, NULL);
+    tetstream_reader* first = arrays_of(mesh);
+    tetstream_reader* second = callbacks(&hostile, mesh, HOSTILE_ODD, 0);
+    CHECK_EQUAL(tetstream_comparison_read(comparison, first, second, stop, &s),
+                at == 0 ? TETSTREAM_OK : TETSTREAM_CANCELLED);
+    if (at == 0) all = s;
+    tetstream_comparison_destroy(comparison);
+    tetstream_reader_destroy(first);
+    tetstream_reader_destroy(second);
+    hostile_reader_free(&hostile);
+  }
+  CHECK(all.calls > 5);
+}
+
+static void misuse_is_refused_and_does_no_harm(void) {
+  tetstream_comparison* comparison = NULL;
+  tetstream_options* options = options_with("cut", "w");
+  CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_BAD_ARGUMENT);
+  CHECK_SAYS(tetstream_comparison_message(comparison), "x=0.3");
+  CHECK_EQUAL(tetstream_comparison_check_path(comparison, "a.svg"), TETSTREAM_BAD_STATE);
+  tetstream_comparison_destroy(comparison);
+  tetstream_options_destroy(options);
+  CHECK_EQUAL(tetstream_comparison_create(NULL, NULL), TETSTREAM_BAD_ARGUMENT);
+
+  const char* wrong[][2] = {{"regions", "density"}, {"regions", "nothing"}};
+  for (int i = 0; i < 2; ++i) {
+    comparison = comparison_with(wrong[i][0], wrong[i][1]);
+    CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_BAD_ARGUMENT);
+    CHECK_SAYS(tetstream_comparison_message(comparison), wrong[i][1]);
+    tetstream_comparison_destroy(comparison);
+  }
+  options = options_with(NULL, NULL);
+  CHECK_EQUAL(tetstream_options_add_field(options, "nothing", 1), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
+  tetstream_options_destroy(options);
+  CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_BAD_ARGUMENT);
+  CHECK_SAYS(tetstream_comparison_message(comparison), "nothing");
+  tetstream_comparison_destroy(comparison);
+
+  comparison = comparison_with(NULL, NULL);
+  tetstream_reader* reader = arrays_of(mesh);
+  tetstream_comparison_info info = {0};
+  tetstream_field_comparison field = {0};
+  tetstream_region_comparison region = {0};
+  tetstream_mesh_figures figures = {0};
+  info.struct_size = sizeof info;
+  field.struct_size = sizeof field;
+  region.struct_size = sizeof region;
+  figures.struct_size = sizeof figures;
+  CHECK_EQUAL(tetstream_comparison_get_info(comparison, &info), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_comparison_get_field(comparison, 0, &field), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_comparison_get_region(comparison, 0, &region), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_comparison_get_mesh(comparison, 0, &figures), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_comparison_read(comparison, reader, reader, NULL, NULL),
+              TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_comparison_read(comparison, reader, NULL, NULL, NULL),
+              TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_comparison_read(NULL, reader, reader, NULL, NULL), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_OK);
+  CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_comparison_get_field(comparison, 2, &field), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_comparison_get_field(comparison, -1, &field), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_comparison_get_region(comparison, 2, &region), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_comparison_get_mesh(comparison, 2, &figures), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_comparison_get_info(comparison, NULL), TETSTREAM_BAD_ARGUMENT);
+  info.struct_size = sizeof info - 1;
+  CHECK_EQUAL(tetstream_comparison_get_info(comparison, &info), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_comparison_write(comparison, NULL, NULL), TETSTREAM_BAD_ARGUMENT);
+  CHECK_SAYS(tetstream_comparison_message(NULL), "NULL");
+  tetstream_comparison_destroy(comparison);
+  tetstream_comparison_destroy(NULL);
+  tetstream_reader_destroy(reader);
+}
+
+static void a_mesh_of_nothing_can_be_compared(void) {
+  hostile_reader hostile;
+  tetstream_comparison* comparison = comparison_with(NULL, NULL);
+  tetstream_reader* first = arrays_of(mesh);
+  tetstream_reader* second = callbacks(&hostile, mesh, HOSTILE_ODD, 0);
+  hostile.empty = 1;
+  CHECK_EQUAL(tetstream_comparison_read(comparison, first, second, NULL, NULL), TETSTREAM_OK);
+  const tetstream_comparison_info info = info_of(comparison);
+  CHECK_EQUAL(info.topology_kept, 0);
+  CHECK_EQUAL(figures_of(comparison, TETSTREAM_SIMPLIFIED).cells, 0);
+  CHECK(fabs(info.outside_volume - figures_of(comparison, TETSTREAM_ORIGINAL).volume) < 1e-9);
+  tetstream_comparison_destroy(comparison);
+  tetstream_reader_destroy(first);
+  tetstream_reader_destroy(second);
+  hostile_reader_free(&hostile);
+}
+
+int main(void) {
+  mesh = hostile_mesh_create(3, 4, 5);
+  CHECK(mesh != NULL);
+  RUN_CASE(a_mesh_is_itself_in_any_order);
+  RUN_CASE(a_constant_shift_of_a_field_is_its_error);
+  RUN_CASE(what_is_cut_off_is_outside);
+  RUN_CASE(a_page_is_drawn_where_a_cut_was_asked_for);
+  RUN_CASE(failures_of_a_reader_are_told_by_the_comparison);
+  RUN_CASE(progress_grows_and_cancels_at_any_call);
+  RUN_CASE(misuse_is_refused_and_does_no_harm);
+  RUN_CASE(a_mesh_of_nothing_can_be_compared);
+  hostile_mesh_destroy(mesh);
+  return check_end();
+}

@@ -1,0 +1,91 @@
+# compare tells what it measured, for people and as JSON, whatever the memory; draws; refuses.
+source "${BASH_SOURCE%/*}/common.bash"
+
+tetstream generate ball --cells 20000 in.tets
+tetstream simplify in.tets out.vtu --ratio 0.2 --quiet
+
+# A mesh is itself.
+expect 0 compare in.tets in.tets --report json --quiet
+[[ $(member "$out" topology_kept) == true ]] || fail "a mesh has another topology than itself"
+[[ $(member "$out" outside_volume) == 0 ]] || fail "a mesh is outside itself: $out"
+expect 0 compare in.tets out.vtu
+for words in "topology: kept" "density" "velocity" "Euler characteristic" "simplified to original" \
+  "least dihedral angle" "outside the simplified mesh"; do
+  contains "$out" "$words"
+done
+[[ -z $err ]] || fail "a report is enough: $err"
+expect 0 compare in.tets out.vtu --quiet
+[[ -z $out$err ]] || fail "--quiet is not quiet: $out$err"
+
+# Every figure of the public structs is told, and little memory gives the same ones.
+expect 0 compare in.tets out.vtu --quiet --report json
+json=$out
+header=$(<"$TETSTREAM_SOURCE/include/tetstream/tetstream.h")
+count=0
+for name in comparison_info mesh_figures field_comparison region_comparison; do
+  [[ $name == region_comparison ]] && continue # there are none in this mesh
+  struct=${header#*typedef struct tetstream_$name \{}
+  struct=${struct%%\} tetstream_$name;*}
+  while [[ $struct =~ (int32_t|int64_t|uint64_t|double|char)\ \*?([a-z_0-9,\ ]+)(\[3\])?\; ]]; do
+    struct=${struct#*"${BASH_REMATCH[0]}"}
+    for word in ${BASH_REMATCH[2]//,/ }; do
+      contains "$json" "\"$word\": "
+      count=$((count + 1))
+    done
+  done
+done
+((count >= 50)) || fail "found only $count members in the header"
+expect 0 compare in.tets out.vtu --quiet --report json --memory 3M
+small=$out
+(($(member "$small" peak_bytes) < 3 << 20)) || fail "--memory is passed: $small"
+if [[ -n ${TETSTREAM_PYTHON:-} ]]; then
+  printf '%s' "$json" >large.json
+  printf '%s' "$small" >small.json
+  "$TETSTREAM_PYTHON" - <<'PYTHON' || fail "--memory changes the figures"
+import json, sys
+def numbers(value, path=""):
+    if isinstance(value, dict):
+        for key, inner in value.items():
+            if key not in ("seconds", "peak_bytes") and "place" not in key:
+                yield from numbers(inner, path + "." + key)
+    elif isinstance(value, list):
+        for i, inner in enumerate(value):
+            yield from numbers(inner, f"{path}[{i}]")
+    else:
+        yield path, value
+large, small = (dict(numbers(json.load(open(f"{name}.json")))) for name in ("large", "small"))
+bad = [(p, v, small[p]) for p, v in large.items()
+       if v != small[p] and abs(v - small[p]) > 1e-9 * max(abs(v), 1e-6)]
+print(bad, file=sys.stderr)
+sys.exit(bool(bad) or large.keys() != small.keys())
+PYTHON
+fi
+
+# By samples, about the same; one field alone; a pipe.
+expect 0 compare in.tets out.vtu --quiet --report json --samples 20k --field density
+[[ $(member "$out" is_exact) == false ]] || fail "samples are not exact"
+[[ $(member "$out" field_count) == 1 ]] || fail "one field was asked for"
+tetstream convert in.tets - | tetstream compare - out.vtu --quiet --report json >"$logs/piped" ||
+  fail "no comparison of a pipe"
+[[ $(member "$(<"$logs/piped")" distance) == "$(member "$json" distance)" ]] || fail "a pipe differs"
+
+# What cannot be.
+rm -f large.json small.json
+expect_error 1 "standard input" compare - -
+expect_error 1 "nothing" compare in.tets out.vtu --field nothing
+expect_error 1 "--cut" compare in.tets out.vtu --cut x
+expect_error 1 "x=0.3" compare in.tets out.vtu --picture a.svg --cut w=1
+expect_error 6 ".svg or .png" compare in.tets out.vtu --picture a.gif
+expect_error 3 "absent.tets" compare absent.tets out.vtu
+head -c 9000 in.tets >cut.tets
+expect_error 2 "cut.tets" compare in.tets cut.tets
+expect_error 2 "cut.tets" compare cut.tets in.tets
+expect_error 4 "" compare in.tets out.vtu --memory 100k
+only_files in.tets out.vtu cut.tets
+[[ $(tetstream --version) == *"no cairo"* ]] && exit 0
+for picture in a.svg a.png; do
+  expect 0 compare in.tets out.vtu --quiet --picture $picture --cut z=0.1 --title "Two balls"
+done
+[[ $(head -c 5 a.svg) == "<?xml" && $(tail -n 1 a.svg) == "</svg>" ]] || fail "a.svg is no SVG"
+[[ $(head -c 4 a.png | tr -d '\0') == $'\x89PNG' ]] || fail "a.png is no PNG"
+only_files in.tets out.vtu cut.tets a.svg a.png
