@@ -18,7 +18,7 @@ __extension__ typedef __float128 Wide;
 typedef long double Wide;
 #endif
 
-constexpr int kN = 4;  // position and one field
+constexpr int kN = 4;                       // position and one field
 constexpr int kPacked = kN * (kN + 1) / 2;  // in either layout
 using WideVector = std::array<Wide, kN>;
 
