@@ -223,11 +223,12 @@ class SvSink final : public Sink {
 
   void noteLosses(const BatchView& batch) {
     if (!note_) return;
-    if (batch.locked && !noted_locked_)
-      note_(std::string(format_) + " cannot mark vertices as locked; the marks are left out");
+    const bool locked = batch.locked || batch.face_locks || batch.edge_count > 0;
+    if (locked && !noted_locked_)
+      note_(std::string(format_) + " cannot mark anything as locked; the marks are left out");
     if (batch.face_count > 0 && !noted_faces_)
       note_(std::string(format_) + " has no labelled faces; they are left out");
-    noted_locked_ = noted_locked_ || batch.locked;
+    noted_locked_ = noted_locked_ || locked;
     noted_faces_ = noted_faces_ || batch.face_count > 0;
   }
 

@@ -1,5 +1,6 @@
 // Writes .vtu files (VTK XML unstructured grids), values appended raw. The counts and sizes that
 // stand in front are known only at the end, so the arrays go through temporary files.
+#include <algorithm>
 #include <bit>
 #include <memory>
 #include <vector>
@@ -126,11 +127,14 @@ class VtuWriter final : public Sink {
   }
 
   void noteDropped(const BatchView& batch) {
-    for (size_t i = 0; batch.locked && !noted_locked_ && i < batch.vertex_count; ++i)
-      if (batch.locked[i]) {
-        note("the locks of vertices are left out: .vtu has no place for them");
-        noted_locked_ = true;
-      }
+    const auto any = [](const uint8_t* locks, size_t count) {
+      return locks && std::any_of(locks, locks + count, [](uint8_t lock) { return lock != 0; });
+    };
+    if (!noted_locked_ && (batch.edge_count > 0 || any(batch.locked, batch.vertex_count) ||
+                           any(batch.face_locks, batch.face_count))) {
+      note("locks of vertices, edges and faces are left out: .vtu has no place for them");
+      noted_locked_ = true;
+    }
     if (batch.face_count > 0 && !noted_faces_) {
       note("the labels of boundary faces are left out: they are no tetrahedra");
       noted_faces_ = true;

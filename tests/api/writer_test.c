@@ -1,6 +1,7 @@
 /* Writers: callbacks that fail, files that appear only when complete, memory, properties. */
 #include <dirent.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "check.h"
@@ -270,6 +271,52 @@ static void what_a_format_cannot_hold_is_noted(void) {
   hostile_mesh_destroy(mesh);
 }
 
+/* One cell, whose first edge must stay. */
+static int32_t one_cell_open(void* user, tetstream_stream_info* info) {
+  (void)user;
+  info->position_type = TETSTREAM_TYPE_FLOAT32;
+  return 0;
+}
+static int32_t one_cell_next(void* user, tetstream_batch* batch) {
+  static const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  static const int64_t cell[4] = {0, 1, 2, 3}, edge[2] = {0, 1};
+  static const uint8_t all = 15;
+  int* at_end = user;
+  if (*at_end) return 0;
+  *at_end = 1;
+  batch->vertex_count = 4;
+  batch->positions = positions;
+  batch->cell_count = 1;
+  batch->cells = cell;
+  batch->last_uses = &all;
+  batch->locked_edge_count = 1;
+  batch->locked_edges = edge;
+  return 0;
+}
+
+static void locks_that_a_format_cannot_hold_are_noted(void) {
+  static const char* const formats[] = {"vtu", "sva", "svb"};
+  for (size_t i = 0; i < 3; ++i) {
+    int at_end = 0;
+    tetstream_reader_callbacks reads = {0};
+    tetstream_reader* reader = NULL;
+    tetstream_writer* writer = NULL;
+    reads.struct_size = sizeof reads;
+    reads.user = &at_end;
+    reads.open = one_cell_open;
+    reads.next = one_cell_next;
+    CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_writer_create_memory(formats[i], &writer), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+    int noted = 0;
+    for (int32_t k = 0; tetstream_writer_note(writer, k); ++k)
+      noted += strstr(tetstream_writer_note(writer, k), "lock") != NULL;
+    CHECK_EQUAL(noted, 1);
+    tetstream_reader_destroy(reader);
+    tetstream_writer_destroy(writer);
+  }
+}
+
 static void null_is_refused_everywhere(void) {
   hostile_writer hostile = {0};
   tetstream_writer_callbacks writes = hostile_writer_callbacks(&hostile);
@@ -324,6 +371,7 @@ int main(void) {
   RUN_CASE(a_pipe_can_be_written_and_read);
   RUN_CASE(properties_belong_to_formats);
   RUN_CASE(what_a_format_cannot_hold_is_noted);
+  RUN_CASE(locks_that_a_format_cannot_hold_are_noted);
   RUN_CASE(null_is_refused_everywhere);
   rmdir(folder);
   return check_end();
