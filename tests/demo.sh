@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # bash tests/demo.sh: from a bare Debian 12 to a simplified mesh. Installs what is needed (as root),
 # builds the release into build/demo, takes the example mesh to a tenth of its cells, prints the
-# report and draws in which order the mesh went by. The results are build/bracket-10.vtu,
-# build/bracket-layout.svg and build/bracket-sweep.png.
+# report, compares the two and draws in which order the mesh went by. The results are
+# build/bracket-10.vtu, build/bracket-compare.png, build/bracket-layout.svg, build/bracket-sweep.png.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,6 +18,11 @@ echo "== tetstream simplify tests/data/bracket/bracket.vtu build/bracket-10.vtu 
   "--field von_mises"
 build/demo/bindings/cli/tetstream simplify tests/data/bracket/bracket.vtu build/bracket-10.vtu \
   --ratio 0.1 --field von_mises
+
+echo "== tetstream compare tests/data/bracket/bracket.vtu build/bracket-10.vtu --field von_mises" \
+  "--picture build/bracket-compare.png"
+build/demo/bindings/cli/tetstream compare tests/data/bracket/bracket.vtu build/bracket-10.vtu \
+  --field von_mises --picture build/bracket-compare.png
 
 echo "== tetstream diagram tests/data/bracket/bracket.vtu build/bracket-layout.svg"
 build/demo/bindings/cli/tetstream diagram tests/data/bracket/bracket.vtu build/bracket-layout.svg
