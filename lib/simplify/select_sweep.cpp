@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "choices.h"
 #include "reshape.h"
@@ -32,7 +33,6 @@ class SweepSelector final : public Selector {
         bounds_(core),
         patch_(account, core.window),
         collapser_(core, patch_, account),
-        reshaper_(core, patch_, account),
         exhaustive_(makeExhaustiveSelector(core, collapser_)),
         choices_(account),
         solutions_(core, account),
@@ -41,20 +41,21 @@ class SweepSelector final : public Selector {
         seen_(account),
         looks_(account),
         spared_(account),
-        z_(static_cast<size_t>(core.plan.dimension)),
-        shapes_first_(core.options.shape == Shape::kSolver) {}
+        z_(static_cast<size_t>(core.plan.dimension)) {
+    if (core.options.shape == Shape::kSolver) reshaper_.emplace(core, patch_, account);
+  }
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
     goal_ = goal;
     int exponent;
     unit_ = std::frexp(core_.error_unit, &exponent);
     core_.error_reached = false;
-    reshaper_.observe(core_.tracer && core_.tracer->tracesPoints() ? core_.tracer : nullptr);
+    if (reshaper_ && core_.tracer && core_.tracer->tracesPoints()) reshaper_->observe(core_.tracer);
     sweep(tick);
     if (goal.last && core_.options.last_resort && !mustStop(core_.window.liveCells()))
       sweepOut(tick);
     // Twice, with seams that lie elsewhere.
-    for (int round = 0; shapes_first_ && round < 2; ++round) reshapeAll(tick);
+    for (int round = 0; reshaper_ && round < 2; ++round) reshapeAll(tick);
   }
 
   double bound() const override { return bound_ / unit_; }
@@ -110,7 +111,7 @@ class SweepSelector final : public Selector {
   SweepBounds<S> bounds_;
   Patch<S> patch_;
   Collapser<Patch<S>> collapser_;
-  Reshaper<S> reshaper_;
+  std::optional<Reshaper<S>> reshaper_;  // where shapes come first
   std::unique_ptr<Selector> exhaustive_;
   Choices choices_;
   Solutions<S> solutions_;
@@ -119,7 +120,6 @@ class SweepSelector final : public Selector {
   Array<uint8_t> looks_;               // of an owned vertex: at all its edges
   Array<float> spared_;                // and the least error of those that were spared
   std::vector<S> z_;
-  const bool shapes_first_;
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
   Goal goal_{};
@@ -171,10 +171,10 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   for (const TilePiece& tile : tiling_.tiles()) {
     onTile(tile, [&] {
       more = sweepPatch(bound) || more;
-      const bool reshaped = shapes_first_ && reshape();
+      const bool reshaped = reshaper_ && reshape();
       patch_.store();
       settleAll();
-      if (reshaped) reshaper_.unsettleChanged();
+      if (reshaped) reshaper_->unsettleChanged();
     });
     tick();
     if (mustStop(core_.window.liveCells())) return false;
@@ -218,10 +218,10 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
   tryEverything(tick);
   while (!mustStop(core_.window.liveCells())) {
     const double floor = core_.thin.degrees;
-    if (shapes_first_) reshapeAll(tick);
-    core_.thin = ThinAngle(shapes_first_ ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
+    if (reshaper_) reshapeAll(tick);
+    core_.thin = ThinAngle(reshaper_ ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
     tryEverything(tick);
-    if (!shapes_first_ || floor == kLeastFloor) return;
+    if (!reshaper_ || floor == kLeastFloor) return;
   }
 }
 
@@ -229,8 +229,8 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
 template <class S>
 bool SweepSelector<S>::reshape() {
   const bool is_reached = goal_.last && patch_.liveCells() <= goal_.cells;
-  return reshaper_.reshape(goal_.least_cells,
-                           is_reached ? goal_.cells : std::numeric_limits<int64_t>::max());
+  return reshaper_->reshape(goal_.least_cells,
+                            is_reached ? goal_.cells : std::numeric_limits<int64_t>::max());
 }
 
 template <class S>
@@ -240,7 +240,7 @@ void SweepSelector<S>::reshapeAll(const std::function<void()>& tick) {
     onTile(tile, [&] {
       if (!reshape()) return;
       patch_.store();
-      reshaper_.unsettleChanged();
+      reshaper_->unsettleChanged();
     });
     tick();
   }

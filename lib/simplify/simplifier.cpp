@@ -25,7 +25,7 @@ constexpr int64_t kMildReduction = 12, kStrongReduction = 4;  // cells in over c
 // A header that claims more is not believed: the window grows when such a front comes.
 constexpr int64_t kWidestFront = 1 << 23;
 // Of a memory budget, not for cells and vertices: stars, lists; a patch beside.
-constexpr int64_t kFixedBytes = 384 << 10;
+constexpr int64_t kFixedBytes = 376 << 10;
 constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two of 8 bytes
 
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.

@@ -212,7 +212,8 @@ void expectMoreSuffices(const TestMesh& mesh, Mode mode) {
     const auto [status, text] = thrownBy([&] { copyStream(stream, simplifier); });
     if (status == Status::kOk && sufficed == 0) sufficed = limit;
     if (sufficed > 0) {
-      EXPECT_EQ(status, Status::kOk) << limit << " fails, " << sufficed << " sufficed: " << text;
+      EXPECT_EQ(status, Status::kOk) << "mode " << static_cast<int>(mode) << ": " << limit
+                                     << " fails, " << sufficed << " sufficed: " << text;
     }
   }
   EXPECT_GT(sufficed, 0);
