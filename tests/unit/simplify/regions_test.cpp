@@ -104,7 +104,7 @@ TEST(SimplifierRegions, KeepTheirInterface) {
 
 // A plane interface costs nothing: it becomes as coarse as the rest, and stays a plane.
 TEST(SimplifierRegions, LetAPlaneInterfaceBecomeCoarse) {
-  const int n = slowRun() ? 4 : 6;
+  const int n = 6;
   TestMesh mesh = fullGrid(n, n, 2 * n);
   mesh.addIntegerCellData("material", [&](size_t c) {
     double z = 0;

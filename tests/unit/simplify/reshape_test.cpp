@@ -27,8 +27,7 @@ TestMesh squeezed(int n) {
 
 struct Squeezed : WholePatch<double> {
   explicit Squeezed(const std::string& region_names = "auto")
-      : WholePatch<double>(squeezed(slowRun() ? 4 : 8), options(region_names)),
-        reshaper(core, patch, account) {
+      : WholePatch<double>(squeezed(8), options(region_names)), reshaper(core, patch, account) {
     core.poor = thinnessOfAngle(25);
     core.error = core.volume;  // any change of the field is allowed
     mergeSome();
