@@ -5,58 +5,61 @@
 
 using namespace tetstream;
 
+// What `make` gives becomes the simplifier's map or log.
+template <class Sink, class Make>
+static tetstream_status setSink(const char* function, tetstream_simplifier* simplifier,
+                                std::unique_ptr<Sink> tetstream_simplifier::*place, Make make) {
+  return guard(function, simplifier, [&](tetstream_simplifier& s) {
+    needState(s, State::kReady);
+    s.*place = make();
+  });
+}
+
+template <class Shown, class Callbacks>
+static std::unique_ptr<Shown> sinkOf(const Callbacks* callbacks) {
+  return callbacks ? std::make_unique<Shown>(readStruct(callbacks, "callbacks")) : nullptr;
+}
+
 tetstream_status tetstream_simplifier_set_map(tetstream_simplifier* simplifier,
                                               const tetstream_map_callbacks* callbacks) {
-  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
-    needState(s, State::kReady);
-    std::unique_ptr<MapSink> map;
-    if (callbacks) map = std::make_unique<CallbackMap>(readStruct(callbacks, "callbacks"));
-    s.map = std::move(map);
-  });
+  return setSink(__func__, simplifier, &tetstream_simplifier::map,
+                 [&] { return sinkOf<CallbackMap>(callbacks); });
 }
 
 tetstream_status tetstream_simplifier_set_map_file(tetstream_simplifier* simplifier,
                                                    const char* path, const char* format) {
-  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
-    needState(s, State::kReady);
+  return setSink(__func__, simplifier, &tetstream_simplifier::map, [&] {
     needPlace(path, "path");
-    s.map = createMapFile(path, format ? format : "");
+    return createMapFile(path, format ? format : "");
   });
 }
 
 tetstream_status tetstream_simplifier_set_map_fd(tetstream_simplifier* simplifier, int32_t fd,
                                                  const char* format) {
-  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
-    needState(s, State::kReady);
+  return setSink(__func__, simplifier, &tetstream_simplifier::map, [&] {
     needPlace(format, "format");
-    s.map = createMapDescriptor(fd, format);
+    return createMapDescriptor(fd, format);
   });
 }
 
 tetstream_status tetstream_simplifier_set_log(tetstream_simplifier* simplifier,
                                               const tetstream_log_callbacks* callbacks) {
-  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
-    needState(s, State::kReady);
-    std::unique_ptr<LogSink> log;
-    if (callbacks) log = std::make_unique<CallbackLog>(readStruct(callbacks, "callbacks"));
-    s.log = std::move(log);
-  });
+  return setSink(__func__, simplifier, &tetstream_simplifier::log,
+                 [&] { return sinkOf<CallbackLog>(callbacks); });
 }
 
 tetstream_status tetstream_simplifier_set_log_file(tetstream_simplifier* simplifier,
                                                    const char* path, const char* format) {
-  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
-    needState(s, State::kReady);
+  return setSink(__func__, simplifier, &tetstream_simplifier::log, [&] {
     needPlace(path, "path");
-    s.log = createLogFile(path, format ? format : "");
+    return createLogFile(path, format ? format : "");
   });
 }
 
 tetstream_status tetstream_simplifier_set_log_fd(tetstream_simplifier* simplifier, int32_t fd,
                                                  const char* format) {
-  return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
-    needState(s, State::kReady);
+  return setSink(__func__, simplifier, &tetstream_simplifier::log, [&] {
     needPlace(format, "format");
-    s.log = createLogDescriptor(fd, format);
+    return createLogDescriptor(fd, format);
   });
 }

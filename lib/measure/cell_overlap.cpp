@@ -4,42 +4,21 @@
 #include <cmath>
 #include <cstring>
 
+#include "vector3.h"
+
 namespace tetstream {
 
-static double determinant(const double a[3], const double b[3], const double c[3]) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-double sixVolumes(const double a[3], const double b[3], const double c[3], const double d[3]) {
-  double u[3], v[3], w[3];
-  for (int k = 0; k < 3; ++k) {
-    u[k] = b[k] - a[k];
-    v[k] = c[k] - a[k];
-    w[k] = d[k] - a[k];
-  }
-  return determinant(u, v, w);
-}
-
 bool CellMap::set(const double* corners) {
-  double e[3][3], longest = 0;
-  for (int i = 0; i < 3; ++i) {
+  double longest = 0;
+  for (int i = 1; i < 4; ++i) {
     double length = 0;
     for (int k = 0; k < 3; ++k) {
-      e[i][k] = corners[3 * (i + 1) + k] - corners[k];
-      length += e[i][k] * e[i][k];
+      const double d = corners[3 * i + k] - corners[k];
+      length += d * d;
     }
     longest = std::max(longest, length);
   }
-  const double volumes = determinant(e[0], e[1], e[2]);
-  if (!(std::fabs(volumes) > kFlat * longest * std::sqrt(longest))) return false;
-  std::copy_n(corners, 3, origin_);
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) {
-      const double *u = e[(i + 1) % 3], *v = e[(i + 2) % 3];
-      rows_[i][k] = (u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3]) / volumes;
-    }
-  return true;
+  return std::fabs(frame_.set(corners)) > kFlat * longest * std::sqrt(longest);
 }
 
 static const double kWhole[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};

@@ -1,5 +1,5 @@
 // measure: what two cells have in common, and integrals over it: arithmetic only. Depends on
-// nothing.
+// barycentric.h.
 //
 // All is told in the barycentric coordinates l0..l3 of the first cell, a: each plane of the other
 // one, b, is a linear function of them, given by its values at a's corners. Cutting a by these
@@ -12,10 +12,9 @@
 
 #include <cstddef>
 
-namespace tetstream {
+#include "barycentric.h"
 
-// Six times the volume, with its sign.
-double sixVolumes(const double a[3], const double b[3], const double c[3], const double d[3]);
+namespace tetstream {
 
 // From places to the barycentric coordinates of a cell.
 class CellMap {
@@ -23,22 +22,19 @@ class CellMap {
   // False if the cell is too flat to have any: its volume is below kFlat of a regular one's of its
   // longest edge.
   bool set(const double* corners);  // [4][3]
-  void coordinates(const double place[3], double out[4]) const {
-    const double x = place[0] - origin_[0], y = place[1] - origin_[1], z = place[2] - origin_[2];
-    for (int i = 0; i < 3; ++i) out[i + 1] = rows_[i][0] * x + rows_[i][1] * y + rows_[i][2] * z;
-    out[0] = 1 - out[1] - out[2] - out[3];
-  }
+  void coordinates(const double place[3], double out[4]) const { frame_.weights(place, out); }
   // planes[k][j]: coordinate k of corner j of another cell. False, and not all is told, if the cell
   // lies beyond one of the faces.
   bool planesOf(const double* corners, double planes[4][4]) const {
     double d[3][4];
     for (int j = 0; j < 4; ++j)
-      for (int k = 0; k < 3; ++k) d[k][j] = corners[3 * j + k] - origin_[k];
+      for (int k = 0; k < 3; ++k) d[k][j] = corners[3 * j + k] - frame_.o[k];
     double rest[4] = {1, 1, 1, 1};
     for (int k = 0; k < 3; ++k) {
       bool any = false;
       for (int j = 0; j < 4; ++j) {
-        const double at = rows_[k][0] * d[0][j] + rows_[k][1] * d[1][j] + rows_[k][2] * d[2][j];
+        const double* row = frame_.row[k];
+        const double at = row[0] * d[0][j] + row[1] * d[1][j] + row[2] * d[2][j];
         planes[k + 1][j] = at;
         rest[j] -= at;
         any |= at > 0;
@@ -56,7 +52,7 @@ class CellMap {
   static constexpr double kFlat = 1e-12;
 
  private:
-  double origin_[3], rows_[3][3];
+  CellFrame frame_;
 };
 
 struct CellOverlap {

@@ -7,6 +7,7 @@
 #include "id_hash.h"
 #include "random.h"
 #include "row_number.h"
+#include "vector3.h"
 
 namespace tetstream {
 
@@ -45,7 +46,7 @@ FieldDifference::Leaf::Leaf(FieldDifference& whole, SimplexRows& cells)
 
 double FieldDifference::Leaf::volumeOf(size_t i) const {
   const double* p = cell(i);
-  return std::fabs(sixVolumes(p, p + 3, p + 6, p + 9)) / 6;
+  return std::fabs(sixVolume(p, p + 3, p + 6, p + 9)) / 6;
 }
 
 // Uniform in a cell: the gaps between three sorted numbers, as coordinates.

@@ -1,6 +1,8 @@
-// measure: the field difference over cells that are in core. Depends on field_difference.h.
+// measure: the field difference over cells that are in core. Depends on
+// field_difference.h, cell_overlap.h.
 #pragma once
 
+#include "cell_overlap.h"
 #include "field_difference.h"
 
 namespace tetstream {

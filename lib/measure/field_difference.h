@@ -1,5 +1,5 @@
 // measure: how far the fields of two meshes are from each other, over the cells of the first one.
-// Depends on row_chunk.h, cell_overlap.h, nearest_points.h.
+// Depends on row_chunk.h, nearest_points.h.
 //
 // The part that an original and a simplified cell have in common is convex, and on it the
 // difference of the two piecewise linear fields is linear: its square is integrated exactly, and
@@ -12,7 +12,6 @@
 
 #include <vector>
 
-#include "cell_overlap.h"
 #include "nearest_points.h"
 
 namespace tetstream {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vector3.h"
+
 namespace tetstream {
 
 namespace {
@@ -84,6 +86,20 @@ void barycentricWeights(const double p[4][3], const double x[3], double w[4]) {
   *largest = 1;
   for (int k = 0; k < 4; ++k)
     if (w + k != largest) *largest -= w[k];
+}
+
+// The rows of the inverse of (a b c) are b x c, c x a and a x b over det (a b c).
+double CellFrame::set(const double* corners) {
+  double e[3][3];
+  for (int i = 0; i < 3; ++i) o[i] = corners[i];
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) e[k][i] = corners[3 * (k + 1) + i] - o[i];
+  const double det = determinant(e[0], e[1], e[2]);
+  for (int k = 0; k < 3; ++k) {
+    cross(e[(k + 1) % 3], e[(k + 2) % 3], row[k]);
+    for (double& number : row[k]) number /= det;
+  }
+  return det;
 }
 
 }  // namespace tetstream

@@ -38,13 +38,4 @@ double thinness(const double p[4][3]) {
   return worst;
 }
 
-double sixVolume(const double p[4][3]) {
-  double e[3][3];
-  for (int k = 0; k < 3; ++k)
-    for (int i = 0; i < 3; ++i) e[k][i] = p[k + 1][i] - p[0][i];
-  return e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-         e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-         e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]);
-}
-
 }  // namespace tetstream

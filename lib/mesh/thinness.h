@@ -11,7 +11,4 @@ double thinness(const double p[4][3]);
 // Of a cell with this smallest angle, from 0 to 90.
 double thinnessOfAngle(double degrees);
 
-// 6 V, with its sign.
-double sixVolume(const double p[4][3]);
-
 }  // namespace tetstream

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "barycentric.h"
 #include "memory.h"
 #include "topology.h"
 
@@ -45,12 +46,6 @@ class TracedPoints {
   size_t count() const { return count_; }
 
  private:
-  // x = o + sum of w_k (p_k - o) over the corners other than o: w_k = row_k . (x - o).
-  struct Frame {
-    double o[3], row[3][3];
-    double leastWeight(const double x[3]) const;
-  };
-
   uint32_t freePoint();
   void buildFrames(const PlacedCell* after, size_t count);
   size_t locate(const S at[3], size_t guess) const;
@@ -61,8 +56,8 @@ class TracedPoints {
   uint32_t free_ = kNone;  // a list, as `new_` is
   uint32_t new_ = kNone;
   size_t count_ = 0;
-  std::vector<uint32_t> lists_;  // of the cells before
-  std::vector<Frame> frames_;    // of the cells after
+  std::vector<uint32_t> lists_;    // of the cells before
+  std::vector<CellFrame> frames_;  // of the cells after
 };
 
 template <class S>

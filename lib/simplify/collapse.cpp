@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vector3.h"
+
 namespace tetstream {
 
 // A place that keeps the volumes of regions and has more than this times the error of the best one
@@ -339,15 +341,11 @@ static void barycentric(const double p[4][3], const double x[3], double out[4]) 
     for (int k = 0; k < 3; ++k) e[k][i] = p[k + 1][i] - p[0][i];
     d[i] = x[i] - p[0][i];
   }
-  const auto det = [](const double* a, const double* b, const double* c) {
-    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-           a[2] * (b[0] * c[1] - b[1] * c[0]);
-  };
-  const double whole = det(e[0], e[1], e[2]);
+  const double whole = determinant(e[0], e[1], e[2]);
   if (whole == 0) return;
-  out[1] = det(d, e[1], e[2]) / whole;
-  out[2] = det(e[0], d, e[2]) / whole;
-  out[3] = det(e[0], e[1], d) / whole;
+  out[1] = determinant(d, e[1], e[2]) / whole;
+  out[2] = determinant(e[0], d, e[2]) / whole;
+  out[3] = determinant(e[0], e[1], d) / whole;
   out[0] = 1 - out[1] - out[2] - out[3];
   double sum = 0;
   for (int k = 0; k < 4; ++k) sum += out[k] = std::max(out[k], 0.0);

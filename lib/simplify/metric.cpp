@@ -6,6 +6,7 @@
 #include "orient.h"
 #include "settled.h"
 #include "thinness.h"
+#include "vector3.h"
 
 namespace tetstream {
 
@@ -319,10 +320,6 @@ void Metric<S>::addCurve(uint32_t a, uint32_t b) {
     if (std::fabs(along[i]) < std::fabs(along[axis])) axis = i;
   const double length = std::sqrt(square);
   double across[2][3];
-  const auto cross = [](const double* p, const double* q, double* out) {
-    for (size_t i = 0; i < 3; ++i)
-      out[i] = p[(i + 1) % 3] * q[(i + 2) % 3] - p[(i + 2) % 3] * q[(i + 1) % 3];
-  };
   double unit[3] = {0, 0, 0};
   unit[axis] = 1;
   cross(along, unit, across[0]);

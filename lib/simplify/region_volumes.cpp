@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "vector3.h"
+
 namespace tetstream {
 
 // Of the largest gradient, squared: what the sheets do not determine stays as it is.
@@ -12,11 +14,6 @@ RegionVolumes::Change& RegionVolumes::of(uint32_t cell, const CellLabels& labels
     if (!labels.differ(change.cell, cell)) return change;
   changes_.push_back({cell, 0, {0, 0, 0}});
   return changes_.back();
-}
-
-static double determinant(const double* a, const double* b, const double* c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 template <class S>

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "barycentric.h"
 #include "settled.h"
+#include "vector3.h"
 
 namespace tetstream {
 
@@ -106,39 +108,32 @@ void Reshaper<S>::cornersOf(uint32_t c, uint32_t corners[4]) const {
   for (uint32_t j = 0; j < 4; ++j) corners[j] = patch_.vertexOf(c, j);
 }
 
-// Barycentric coordinates of x; returns the least.
-static double weightsOf(const double p[4][3], const double x[3], double weights[4]) {
-  const double whole = sixVolume(p);
-  for (int k = 0; k < 4; ++k) {
-    double part[4][3];
-    std::copy_n(p[0], 12, part[0]);
-    std::copy_n(x, 3, part[k]);
-    weights[k] = sixVolume(part) / whole;
-  }
-  return *std::min_element(weights, weights + 4);
-}
-
 // Mean squared difference of the measured fields, normalised, taken at the centroids of the new
 // cells.
 template <class S>
 double Reshaper<S>::change(const Reconnection& r) const {
-  double sum = 0, volume = 0;
+  double sum = 0, volume = 0, p[4][3];
+  CellFrame frames[Reconnection::kMostRing];
+  uint32_t corners[Reconnection::kMostRing][4];
+  for (uint32_t g = 0; g < r.gone_count; ++g) {
+    cornersOf(r.gone[g], corners[g]);
+    positionsOf(corners[g], p);
+    frames[g].set(p[0]);
+  }
   for (uint32_t m = 0; m < r.made_count; ++m) {
-    double p[4][3], x[3], weights[4] = {}, least = -1e301;
+    double x[3], weights[4] = {}, least = -1e301;
     positionsOf(r.made[m], p);
     for (int i = 0; i < 3; ++i) x[i] = (p[0][i] + p[1][i] + p[2][i] + p[3][i]) / 4;
     const double part = sixVolume(p);
-    uint32_t old[4] = {};
+    const uint32_t* old = corners[0];
     for (uint32_t g = 0; g < r.gone_count; ++g) {
       double w[4];
-      uint32_t corners[4];
-      cornersOf(r.gone[g], corners);
-      positionsOf(corners, p);
-      const double l = weightsOf(p, x, w);
+      frames[g].weights(x, w);
+      const double l = *std::min_element(w, w + 4);
       if (!(l > least)) continue;
       least = l;
       std::copy_n(w, 4, weights);
-      std::copy_n(corners, 4, old);
+      old = corners[g];
     }
     for (size_t f = 3; f < core_.scale.size(); ++f) {
       double difference = 0;

@@ -1,5 +1,6 @@
 // The common part of two cells and integrals over it, where they are known.
 #include "cell_overlap.h"
+#include "vector3.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
@@ -15,7 +16,7 @@ using Cell = std::vector<double>;
 const Cell kCorner = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 double volumeOf(const Cell& c) {
-  return std::fabs(sixVolumes(&c[0], &c[3], &c[6], &c[9])) / 6;
+  return std::fabs(sixVolume(&c[0], &c[3], &c[6], &c[9])) / 6;
 }
 
 // The volume that both have, and into *overlap the rest.

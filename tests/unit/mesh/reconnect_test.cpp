@@ -10,6 +10,7 @@
 
 #include "random.h"
 #include "test_mesh.h"
+#include "vector3.h"
 
 namespace tetstream::test {
 namespace {

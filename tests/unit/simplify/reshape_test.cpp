@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "vector3.h"
 #include "window_testing.h"
 
 namespace tetstream::test {
