@@ -61,14 +61,10 @@ bool EncodedRun::endsAt(uint64_t size) {
   return base64_ && bytes_->readAt(begin_ + characters, &next, 1) == 1 && next == '=';
 }
 
-std::string placeOf(const ByteSource& bytes, const VtuArray& array) {
-  return bytes.name() + ": array \"" + array.name + "\"";
-}
-
 namespace {
 
 // A length word and the values. VTK encodes both as one base64 text, others each on its own.
-class PlainBytes final : public VtuBytes {
+class PlainBytes final : public ValueBytes {
  public:
   PlainBytes(const EncodedRun& run, const VtuFile& file, uint64_t size) : run_(run) {
     const uint64_t held = readVtuWord(run_, 0, file);
@@ -105,14 +101,23 @@ VtuArray trimmed(ByteSource& bytes, VtuArray array) {
 
 }  // namespace
 
-std::unique_ptr<VtuBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
+std::unique_ptr<ValueBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
                                        const VtuArray& array, uint64_t size) {
   const bool base64 = array.format != VtuFormat::kAppendedRaw;
   VtuArray place = array;
   if (array.format == VtuFormat::kInlineBase64) place = trimmed(bytes, array);
-  const EncodedRun run(bytes, placeOf(bytes, array), place.begin, place.end, base64);
+  const EncodedRun run(bytes, placeOf(bytes, array.name), place.begin, place.end, base64);
   if (file.zlib) return openZlibBlocks(run, file, size);
   return std::make_unique<PlainBytes>(run, file, size);
+}
+
+std::unique_ptr<Values> openVtuValues(ByteSource& bytes, const VtuFile& file, const VtuArray& array,
+                                      uint64_t count) {
+  const std::string what = placeOf(bytes, array.name);
+  if (array.format == VtuFormat::kAscii)
+    return openTextValues(bytes, what, array.type, {array.begin, array.end, count});
+  return openBinaryValues(openVtuBytes(bytes, file, array, count * sizeOf(array.type)), what,
+                          array.type, file.big_endian);
 }
 
 }  // namespace tetstream

@@ -36,18 +36,13 @@ class EncodedRun {
   bool base64_;
 };
 
-class VtuBytes {
- public:
-  virtual ~VtuBytes() = default;
-  // Bytes [offset, offset + size) of the values; sequential calls are the fast ones.
-  virtual void readAt(uint64_t offset, void* out, size_t size) = 0;
-};
-
 // Opens the values of a binary array, which must take exactly `size` bytes, at least one.
-std::unique_ptr<VtuBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
+std::unique_ptr<ValueBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
                                        const VtuArray& array, uint64_t size);
 
-// "FILE: array "NAME"", for messages.
-std::string placeOf(const ByteSource& bytes, const VtuArray& array);
+// Opens an array that must have exactly `count` values, at least one. Nothing is believed: sizes
+// that the file claims are compared with its length before anything is allocated.
+std::unique_ptr<Values> openVtuValues(ByteSource& bytes, const VtuFile& file, const VtuArray& array,
+                                      uint64_t count);
 
 }  // namespace tetstream

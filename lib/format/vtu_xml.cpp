@@ -19,12 +19,8 @@ namespace {
 constexpr size_t kFeedBytes = 1 << 16;
 constexpr uint64_t kMaxTagBytes = 1 << 20;  // of a tag or comment, which expat holds in memory
 // These bound what a hostile header costs in memory and, as arrays are compared by name, in time.
-constexpr size_t kMaxPieces = 1 << 16;
 constexpr size_t kMaxArrays = 1 << 18;  // of all pieces
 constexpr size_t kMaxPieceArrays = 1 << 12;
-constexpr size_t kMaxNotes = 64;
-constexpr uint64_t kMaxCount = uint64_t{1} << 56;  // times 9 components of 8 bytes is below 2^63
-constexpr size_t kMaxNameBytes = 255;              // as in checkSchema
 
 enum class Section { kOther, kPointData, kCellData, kPoints, kCells };
 
@@ -34,12 +30,12 @@ const char* find(const XML_Char** attributes, const char* name) {
   return nullptr;
 }
 
-bool parseType(const char* text, VtuType* type) {
+bool parseType(const char* text, ValueType* type) {
   static const char* const names[] = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
                                       "UInt32", "Int64", "UInt64", "Float32", "Float64"};
   for (int i = 0; i < 10; ++i)
     if (std::strcmp(text, names[i]) == 0) {
-      *type = static_cast<VtuType>(i);
+      *type = static_cast<ValueType>(i);
       return true;
     }
   return false;
@@ -51,16 +47,6 @@ bool parseUnsigned(const char* text, uint64_t* value) {
   const char* end = text + std::strlen(text);
   const std::from_chars_result r = std::from_chars(text, end, *value);
   return r.ec == std::errc() && r.ptr + std::strspn(r.ptr, blanks) == end;
-}
-
-// Not in the middle of a UTF-8 character.
-std::string cutName(const char* text) {
-  std::string name = text;
-  if (name.size() <= kMaxNameBytes) return name;
-  size_t size = kMaxNameBytes;
-  while (size > 0 && (static_cast<unsigned char>(name[size]) & 0xC0) == 0x80) --size;
-  name.resize(size);
-  return name;
 }
 
 class HeaderParser {
@@ -188,10 +174,10 @@ class HeaderParser {
 
   bool enterRoot(const char* name, const XML_Char** attributes) {
     if (std::strcmp(name, "VTKFile") != 0)
-      failHere("this is not a VTK XML file: it begins with <" + cutName(name) + ">");
+      failHere("this is not a VTK XML file: it begins with <" + cutMeshName(name) + ">");
     const char* type = find(attributes, "type");
     if (!type || std::strcmp(type, "UnstructuredGrid") != 0)
-      failHere("the file holds \"" + cutName(type ? type : "") + "\", no UnstructuredGrid",
+      failHere("the file holds \"" + cutMeshName(type ? type : "") + "\", no UnstructuredGrid",
                Status::kUnsupported);
     if (const char* order = find(attributes, "byte_order")) {
       file_.big_endian = std::strcmp(order, "BigEndian") == 0;
@@ -203,7 +189,7 @@ class HeaderParser {
       if (file_.word_bytes == 4 && std::strcmp(header, "UInt32") != 0)
         failHere("header_type is neither UInt32 nor UInt64");
     }
-    if (const char* compressor = find(attributes, "compressor")) compressor_ = cutName(compressor);
+    if (const char* compressor = find(attributes, "compressor")) compressor_ = cutMeshName(compressor);
     file_.zlib = !compressor_.empty();
     return true;
   }
@@ -226,7 +212,7 @@ class HeaderParser {
     uint64_t value = 0;
     if (!text || !parseUnsigned(text, &value))
       failHere(std::string(name) + " is missing or no number");
-    if (value > kMaxCount) failHere(std::string(name) + " is more than any file can hold");
+    if (value > kMaxMeshCount) failHere(std::string(name) + " is more than any file can hold");
     return value;
   }
 
@@ -234,16 +220,10 @@ class HeaderParser {
     if (std::strcmp(name, "FieldData") == 0)
       file_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
     if (std::strcmp(name, "Piece") != 0) return false;
-    if (file_.pieces.size() == kMaxPieces) failHere("too many pieces", Status::kUnsupported);
+    if (file_.pieces.size() == kMaxMeshPieces) failHere("too many pieces", Status::kUnsupported);
     VtuPiece piece;
     piece.point_count = count(attributes, "NumberOfPoints");
     piece.cell_count = count(attributes, "NumberOfCells");
-    piece.first_point = file_.point_count;
-    piece.first_cell = file_.cell_count;
-    file_.point_count += piece.point_count;
-    file_.cell_count += piece.cell_count;
-    if (file_.point_count > kMaxCount || file_.cell_count > kMaxCount)
-      failHere("the pieces have more points or cells than any file can hold");
     file_.pieces.push_back(std::move(piece));
     return true;
   }
@@ -270,7 +250,7 @@ class HeaderParser {
       if (data || std::strcmp(element, "DataArray") != 0)
         file_.addNote("array \"" + array.name + "\" is left out: its values are no numbers");
       else
-        failHere("an array of points or cells has the type \"" + cutName(type ? type : "") + "\"");
+        failHere("an array of points or cells has the type \"" + cutMeshName(type ? type : "") + "\"");
       return std::strcmp(element, "DataArray") == 0;
     }
     if (!setComponents(array, attributes, data)) return true;
@@ -282,11 +262,11 @@ class HeaderParser {
   // Arrays without a name are numbered over the data of their piece.
   std::string nameOf(const char* name) {
     const bool field = section_ == Section::kPointData;
-    if (!field && section_ != Section::kCellData) return name ? cutName(name) : "";
+    if (!field && section_ != Section::kCellData) return name ? cutMeshName(name) : "";
     if (name && *name) {
-      if (std::strlen(name) > kMaxNameBytes)
-        file_.addNote("array \"" + cutName(name) + "\" has a longer name, cut to 255 bytes");
-      return cutName(name);
+      if (std::strlen(name) > kMaxMeshNameBytes)
+        file_.addNote("array \"" + cutMeshName(name) + "\" has a longer name, cut to 255 bytes");
+      return cutMeshName(name);
     }
     const VtuPiece& piece = file_.pieces.back();
     const size_t number = (field ? piece.point_data : piece.cell_data).size() + 1;
@@ -414,11 +394,6 @@ class HeaderParser {
 };
 
 }  // namespace
-
-void VtuFile::addNote(const std::string& text) {
-  if (notes.size() < kMaxNotes && std::find(notes.begin(), notes.end(), text) == notes.end())
-    notes.push_back(text);
-}
 
 VtuFile parseVtuHeader(ByteSource& bytes) {
   return HeaderParser(bytes).run();

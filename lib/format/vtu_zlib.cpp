@@ -130,7 +130,7 @@ class BlockTable {
 };
 
 // Inflates as it is read, never a whole block at once: a block may be as large as the array.
-class ZlibBlocks final : public VtuBytes {
+class ZlibBlocks final : public ValueBytes {
  public:
   ZlibBlocks(const EncodedRun& run, const VtuFile& file, uint64_t size)
       : table_(run, file, size), blocks_(table_.blocks()), size_(size) {
@@ -241,7 +241,7 @@ class ZlibBlocks final : public VtuBytes {
 
 }  // namespace
 
-std::unique_ptr<VtuBytes> openZlibBlocks(const EncodedRun& run, const VtuFile& file,
+std::unique_ptr<ValueBytes> openZlibBlocks(const EncodedRun& run, const VtuFile& file,
                                          uint64_t size) {
   return std::make_unique<ZlibBlocks>(run, file, size);
 }

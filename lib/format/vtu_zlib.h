@@ -9,7 +9,7 @@
 
 namespace tetstream {
 
-std::unique_ptr<VtuBytes> openZlibBlocks(const EncodedRun& run, const VtuFile& file, uint64_t size);
+std::unique_ptr<ValueBytes> openZlibBlocks(const EncodedRun& run, const VtuFile& file, uint64_t size);
 
 // The length words of an array: 4 or 8 bytes, in the file's byte order.
 uint64_t readVtuWord(EncodedRun& run, uint64_t offset, const VtuFile& file);

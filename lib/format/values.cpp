@@ -1,4 +1,4 @@
-#include "vtu_values.h"
+#include "values.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "status.h"
-#include "vtu_run.h"
 
 namespace tetstream {
 
@@ -56,47 +55,48 @@ size_t convertFrom(const unsigned char* in, unsigned char* out, ScalarType type,
   return 0;
 }
 
-size_t convertValues(const unsigned char* in, VtuType from, unsigned char* out, ScalarType to,
+size_t convertValues(const unsigned char* in, ValueType from, unsigned char* out, ScalarType to,
                      size_t count) {
   switch (from) {
-    case VtuType::kInt8:
+    case ValueType::kInt8:
       return convertFrom<int8_t>(in, out, to, count);
-    case VtuType::kUInt8:
+    case ValueType::kUInt8:
       return convertFrom<uint8_t>(in, out, to, count);
-    case VtuType::kInt16:
+    case ValueType::kInt16:
       return convertFrom<int16_t>(in, out, to, count);
-    case VtuType::kUInt16:
+    case ValueType::kUInt16:
       return convertFrom<uint16_t>(in, out, to, count);
-    case VtuType::kInt32:
+    case ValueType::kInt32:
       return convertFrom<int32_t>(in, out, to, count);
-    case VtuType::kUInt32:
+    case ValueType::kUInt32:
       return convertFrom<uint32_t>(in, out, to, count);
-    case VtuType::kInt64:
+    case ValueType::kInt64:
       return convertFrom<int64_t>(in, out, to, count);
-    case VtuType::kUInt64:
+    case ValueType::kUInt64:
       return convertFrom<uint64_t>(in, out, to, count);
-    case VtuType::kFloat32:
+    case ValueType::kFloat32:
       return convertFrom<float>(in, out, to, count);
-    case VtuType::kFloat64:
+    case ValueType::kFloat64:
       return convertFrom<double>(in, out, to, count);
   }
   return 0;
 }
 
-bool isSame(VtuType a, ScalarType b) {
-  return (a == VtuType::kFloat32 && b == ScalarType::kFloat32) ||
-         (a == VtuType::kFloat64 && b == ScalarType::kFloat64) ||
-         (a == VtuType::kInt32 && b == ScalarType::kInt32) ||
-         (a == VtuType::kInt64 && b == ScalarType::kInt64);
+bool isSame(ValueType a, ScalarType b) {
+  return (a == ValueType::kFloat32 && b == ScalarType::kFloat32) ||
+         (a == ValueType::kFloat64 && b == ScalarType::kFloat64) ||
+         (a == ValueType::kInt32 && b == ScalarType::kInt32) ||
+         (a == ValueType::kInt64 && b == ScalarType::kInt64);
 }
 
-class BinaryValues final : public VtuValues {
+class BinaryValues final : public Values {
  public:
-  BinaryValues(ByteSource& bytes, const VtuFile& file, const VtuArray& array, uint64_t count)
-      : bytes_(openVtuBytes(bytes, file, array, count * sizeOf(array.type))),
-        what_(placeOf(bytes, array)),
-        type_(array.type),
-        swap_(file.big_endian != (std::endian::native == std::endian::big)) {}
+  BinaryValues(std::unique_ptr<ValueBytes> bytes, const std::string& what, ValueType type,
+               bool big_endian)
+      : bytes_(std::move(bytes)),
+        what_(what),
+        type_(type),
+        swap_(big_endian != (std::endian::native == std::endian::big)) {}
 
   void read(uint64_t first, size_t count, void* out, ScalarType type) override {
     unsigned char* to = static_cast<unsigned char*>(out);
@@ -122,18 +122,36 @@ class BinaryValues final : public VtuValues {
   }
 
  private:
-  std::unique_ptr<VtuBytes> bytes_;
+  std::unique_ptr<ValueBytes> bytes_;
   std::string what_;
-  VtuType type_;
+  ValueType type_;
   bool swap_;
 };
 
 }  // namespace
 
-std::unique_ptr<VtuValues> openVtuValues(ByteSource& bytes, const VtuFile& file,
-                                         const VtuArray& array, uint64_t count) {
-  if (array.format == VtuFormat::kAscii) return openVtuAscii(bytes, array, count);
-  return std::make_unique<BinaryValues>(bytes, file, array, count);
+ScalarType scalarOf(ValueType type) {
+  switch (type) {
+    case ValueType::kFloat32:
+      return ScalarType::kFloat32;
+    case ValueType::kFloat64:
+      return ScalarType::kFloat64;
+    case ValueType::kUInt32:
+    case ValueType::kInt64:
+    case ValueType::kUInt64:
+      return ScalarType::kInt64;
+    default:
+      return ScalarType::kInt32;
+  }
+}
+
+std::unique_ptr<Values> openBinaryValues(std::unique_ptr<ValueBytes> bytes, const std::string& what,
+                                         ValueType type, bool big_endian) {
+  return std::make_unique<BinaryValues>(std::move(bytes), what, type, big_endian);
+}
+
+std::string placeOf(const ByteSource& bytes, const std::string& array) {
+  return bytes.name() + ": array \"" + array + "\"";
 }
 
 }  // namespace tetstream

@@ -1,5 +1,5 @@
-// Values of a .vtu file as text, read in sequence. So that a reader can go back without starting
-// anew, the place of every so-manieth value is kept.
+// Values that stand in a file as text, read in sequence. So that a reader can go back without
+// starting anew, the place of every so-manieth value is kept.
 #include <algorithm>
 #include <charconv>
 #include <cstring>
@@ -8,8 +8,7 @@
 #include <utility>
 
 #include "status.h"
-#include "vtu_run.h"
-#include "vtu_values.h"
+#include "values.h"
 
 namespace tetstream {
 
@@ -43,28 +42,28 @@ bool parseWord(std::string_view word, T* value) {
   return false;
 }
 
-class AsciiValues final : public VtuValues {
+class AsciiValues final : public Values {
  public:
-  AsciiValues(ByteSource& bytes, const VtuArray& array, uint64_t count)
+  AsciiValues(ByteSource& bytes, const std::string& what, ValueType type, const TextPlace& place)
       : bytes_(bytes),
-        what_(placeOf(bytes, array)),
-        type_(array.type),
-        begin_(array.begin),
-        end_(array.end),
-        count_(count),
+        what_(what),
+        type_(type),
+        begin_(place.begin),
+        end_(place.end),
+        count_(place.count),
         text_at_(begin_) {
     // A digit each and blanks between them.
-    if (end_ - begin_ < 2 * count - 1)
+    if (end_ - begin_ < 2 * count_ - 1)
       fail(Status::kBadData, "%s has not enough text for the %llu values that the counts need",
-           what_.c_str(), static_cast<unsigned long long>(count));
+           what_.c_str(), static_cast<unsigned long long>(count_));
     text_.resize(static_cast<size_t>(std::min<uint64_t>(kTextBytes, end_ - begin_)));
   }
 
   void read(uint64_t first, size_t count, void* out, ScalarType type) override {
     if (first != next_) seek(first);
-    if (type_ == VtuType::kFloat32) return readAs<float>(count, out, type);
-    if (type_ == VtuType::kFloat64) return readAs<double>(count, out, type);
-    if (type_ == VtuType::kUInt64) return readAs<uint64_t>(count, out, type);
+    if (type_ == ValueType::kFloat32) return readAs<float>(count, out, type);
+    if (type_ == ValueType::kFloat64) return readAs<double>(count, out, type);
+    if (type_ == ValueType::kUInt64) return readAs<uint64_t>(count, out, type);
     readAs<int64_t>(count, out, type);
   }
 
@@ -182,7 +181,7 @@ class AsciiValues final : public VtuValues {
 
   ByteSource& bytes_;
   std::string what_;
-  VtuType type_;
+  ValueType type_;
   uint64_t begin_, end_, count_;
   uint64_t next_ = 0;  // index of the value after the last one read
   uint64_t stride_ = 256;
@@ -194,8 +193,9 @@ class AsciiValues final : public VtuValues {
 
 }  // namespace
 
-std::unique_ptr<VtuValues> openVtuAscii(ByteSource& bytes, const VtuArray& array, uint64_t count) {
-  return std::make_unique<AsciiValues>(bytes, array, count);
+std::unique_ptr<Values> openTextValues(ByteSource& bytes, const std::string& what, ValueType type,
+                                       const TextPlace& place) {
+  return std::make_unique<AsciiValues>(bytes, what, type, place);
 }
 
 }  // namespace tetstream

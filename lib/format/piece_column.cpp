@@ -1,4 +1,4 @@
-#include "vtu_column.h"
+#include "piece_column.h"
 
 #include <algorithm>
 
@@ -6,40 +6,40 @@
 
 namespace tetstream {
 
-uint64_t VtuColumn::firstRow(size_t piece) const {
-  const VtuPiece& p = file_.pieces[piece];
-  return plan_.rows == VtuRows::kPoints ? p.first_point : p.first_cell;
+uint64_t PieceColumn::firstRow(size_t piece) const {
+  const MeshPiece& p = mesh_.pieces[piece];
+  return plan_.rows == PieceRows::kPoints ? p.first_point : p.first_cell;
 }
 
-uint64_t VtuColumn::rowCount(size_t piece) const {
-  const VtuPiece& p = file_.pieces[piece];
-  return plan_.rows == VtuRows::kPoints ? p.point_count : p.cell_count;
+uint64_t PieceColumn::rowCount(size_t piece) const {
+  const MeshPiece& p = mesh_.pieces[piece];
+  return plan_.rows == PieceRows::kPoints ? p.point_count : p.cell_count;
 }
 
-void VtuColumn::open(size_t piece) {
+void PieceColumn::open(size_t piece) {
   if (piece == piece_) return;
   piece_ = SIZE_MAX;
   values_.reset();
   const uint64_t count = rowCount(piece) * static_cast<uint64_t>(plan_.components);
-  values_ = openVtuValues(bytes_, file_, *plan_.arrays[piece], count);
+  values_ = plan_.arrays[piece]->open(count);
   piece_ = piece;
 }
 
-void VtuColumn::check(size_t piece) {
+void PieceColumn::check(size_t piece) {
   if (rowCount(piece) > 0) open(piece);
 }
 
-void VtuColumn::read(uint64_t first, size_t count, void* out) {
-  const uint64_t total = plan_.rows == VtuRows::kPoints ? file_.point_count : file_.cell_count;
+void PieceColumn::read(uint64_t first, size_t count, void* out) {
+  const uint64_t total = plan_.rows == PieceRows::kPoints ? mesh_.point_count : mesh_.cell_count;
   if (first > total || count > total - first)
     fail(Status::kBadArgument, "%s: rows %llu to %llu were asked for, there are %llu",
-         bytes_.name().c_str(), static_cast<unsigned long long>(first),
+         mesh_.name.c_str(), static_cast<unsigned long long>(first),
          static_cast<unsigned long long>(first + count), static_cast<unsigned long long>(total));
   unsigned char* to = static_cast<unsigned char*>(out);
   const uint64_t components = static_cast<uint64_t>(plan_.components);
   while (count > 0) {
     // The last piece that begins at or before `first`; those without rows share their begin.
-    size_t low = 0, high = file_.pieces.size();
+    size_t low = 0, high = mesh_.pieces.size();
     while (high - low > 1) {
       const size_t middle = (low + high) / 2;
       (firstRow(middle) <= first ? low : high) = middle;

@@ -1,0 +1,46 @@
+#include "vtu_pieces.h"
+
+#include "vtu_run.h"
+
+namespace tetstream {
+
+namespace {
+
+struct OpenVtu {
+  std::unique_ptr<ByteSource> bytes;
+  VtuFile file;
+};
+
+MeshArray arrayOf(const std::shared_ptr<OpenVtu>& vtu, const VtuArray& array) {
+  return {array.name, array.type, array.components, [vtu, &array](uint64_t count) {
+            return openVtuValues(*vtu->bytes, vtu->file, array, count);
+          }};
+}
+
+std::optional<MeshArray> arrayOf(const std::shared_ptr<OpenVtu>& vtu,
+                                 const std::optional<VtuArray>& array) {
+  return array ? std::optional(arrayOf(vtu, *array)) : std::nullopt;
+}
+
+}  // namespace
+
+void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes) {
+  VtuFile parsed = parseVtuHeader(*bytes);
+  mesh.name = bytes->name();
+  const auto vtu = std::make_shared<OpenVtu>(std::move(bytes), std::move(parsed));
+  for (const std::string& note : vtu->file.notes) mesh.addNote(note);
+  for (const VtuPiece& piece : vtu->file.pieces) {
+    MeshPiece added;
+    added.point_count = piece.point_count;
+    added.cell_count = piece.cell_count;
+    for (const VtuArray& array : piece.point_data) added.point_data.push_back(arrayOf(vtu, array));
+    for (const VtuArray& array : piece.cell_data) added.cell_data.push_back(arrayOf(vtu, array));
+    added.points = arrayOf(vtu, piece.points);
+    added.connectivity = arrayOf(vtu, piece.connectivity);
+    added.offsets = arrayOf(vtu, piece.offsets);
+    added.types = arrayOf(vtu, piece.types);
+    mesh.add(std::move(added));
+  }
+}
+
+}  // namespace tetstream
