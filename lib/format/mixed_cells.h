@@ -6,10 +6,9 @@
 
 #include "mesh_pieces.h"
 #include "row_spool.h"
+#include "vtk_cells.h"
 
 namespace tetstream {
-
-constexpr int64_t kVtkTetra = 10;  // VTK's number of the linear tetrahedron
 
 // The array of VTK's ghost marks, which names cells that other pieces have, too; null without.
 const MeshArray* ghostMarks(const MeshPiece& piece);

@@ -50,10 +50,12 @@ const Format& needFormat(const std::string& name, const std::string& path);
 
 // The rows, each defined in its own file.
 Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createVtk(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createTets(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);

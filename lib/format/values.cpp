@@ -9,12 +9,8 @@
 
 namespace tetstream {
 
-namespace {
-
-constexpr size_t kConvertBytes = 1 << 14;
-
 template <class T>
-void reverseEach(unsigned char* bytes, size_t count) {
+static void reverseEach(unsigned char* bytes, size_t count) {
   for (size_t i = 0; i < count; ++i, bytes += sizeof(T)) std::reverse(bytes, bytes + sizeof(T));
 }
 
@@ -23,6 +19,10 @@ void swapBytes(unsigned char* bytes, size_t size, size_t count) {
   if (size == 4) reverseEach<uint32_t>(bytes, count);
   if (size == 8) reverseEach<uint64_t>(bytes, count);
 }
+
+namespace {
+
+constexpr size_t kConvertBytes = 1 << 14;
 
 // Returns the index of the first value that does not fit, or count. Only wide integers to narrower
 // or signed ones can fail: the reader never asks for floats as integers.

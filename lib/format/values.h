@@ -61,6 +61,9 @@ struct TextPlace {
 std::unique_ptr<Values> openTextValues(ByteSource& bytes, const std::string& what, ValueType type,
                                        const TextPlace& place);
 
+// Turns the bytes of each of `count` values of `size` bytes around.
+void swapBytes(unsigned char* bytes, size_t size, size_t count);
+
 // "FILE: array "NAME"", for messages.
 std::string placeOf(const ByteSource& bytes, const std::string& array);
 

@@ -9,7 +9,6 @@ namespace tetstream {
 constexpr int kLevel = 1;             // higher levels gain little on numbers and cost much
 constexpr uint64_t kHeaderWords = 3;  // of a block table: count, block size, size of the last
 constexpr uint64_t kWordBytes = 8;    // header_type UInt64
-constexpr size_t kCopyBytes = 1 << 15;
 
 BlockCompressor::BlockCompressor() {
   // note: first, because zlib's state would be lost if this threw after it.
@@ -36,12 +35,13 @@ const std::vector<unsigned char>& BlockCompressor::compress(const void* data, si
 
 VtuSpool::VtuSpool(const std::string& temp_dir, BlockCompressor* compressor)
     : compressor_(compressor), file_(temp_dir) {
-  block_.reserve(kVtuBlockBytes);
+  if (compressor_) block_.reserve(kVtuBlockBytes);
 }
 
 void VtuSpool::append(const void* data, size_t size) {
   const unsigned char* from = static_cast<const unsigned char*>(data);
   plain_bytes_ += size;
+  if (!compressor_) return file_.append(data, size);
   while (size > 0) {
     const size_t n = std::min(size, kVtuBlockBytes - block_.size());
     block_.insert(block_.end(), from, from + n);
@@ -52,22 +52,19 @@ void VtuSpool::append(const void* data, size_t size) {
 }
 
 void VtuSpool::endBlock() {
-  if (compressor_) {
-    const std::vector<unsigned char>& packed = compressor_->compress(block_.data(), block_.size());
-    const uint32_t size = static_cast<uint32_t>(packed.size());
-    file_.append(&size, sizeof size);
-    file_.append(packed.data(), packed.size());
-    compressed_bytes_ += size;
-    ++block_count_;
-  } else {
-    file_.append(block_.data(), block_.size());
-  }
+  const std::vector<unsigned char>& packed = compressor_->compress(block_.data(), block_.size());
+  const uint32_t size = static_cast<uint32_t>(packed.size());
+  file_.append(&size, sizeof size);
+  file_.append(packed.data(), packed.size());
+  compressed_bytes_ += size;
+  ++block_count_;
   block_.clear();
 }
 
 void VtuSpool::close() {
   if (!block_.empty()) endBlock();
   block_ = {};
+  file_.close();
 }
 
 uint64_t VtuSpool::encodedBytes() const {
@@ -75,21 +72,10 @@ uint64_t VtuSpool::encodedBytes() const {
   return (kHeaderWords + block_count_) * kWordBytes + compressed_bytes_;
 }
 
-void VtuSpool::copyBytes(BufferedSink& sink, uint64_t begin, uint64_t size) {
-  unsigned char bytes[kCopyBytes];
-  while (size > 0) {
-    const size_t n = static_cast<size_t>(std::min<uint64_t>(size, sizeof bytes));
-    file_.readAt(begin, bytes, n);
-    sink.write(bytes, n);
-    begin += n;
-    size -= n;
-  }
-}
-
 void VtuSpool::write(BufferedSink& sink) {
   if (!compressor_) {
     writeWord(sink, plain_bytes_);
-    return copyBytes(sink, 0, plain_bytes_);
+    return file_.write(sink);
   }
   writeWord(sink, block_count_);
   writeWord(sink, kVtuBlockBytes);
@@ -104,7 +90,7 @@ void VtuSpool::write(BufferedSink& sink) {
   for (uint64_t i = 0; i < block_count_; ++i, at += size) {
     file_.readAt(at, &size, sizeof size);
     at += sizeof size;
-    copyBytes(sink, at, size);
+    file_.write(sink, at, size);
   }
 }
 

@@ -1,12 +1,12 @@
 // format: one array of a .vtu file on its way out: collected, compressed in blocks and kept in a
-// temporary file until the sizes that stand before it are known. Depends on base.
+// temporary file until the sizes that stand before it are known. Depends on column_spool.h.
 #pragma once
 
 #include <zlib.h>
 
 #include <vector>
 
-#include "bytes.h"
+#include "column_spool.h"
 
 namespace tetstream {
 
@@ -42,10 +42,9 @@ class VtuSpool {
  private:
   void endBlock();
   void writeWord(BufferedSink& sink, uint64_t word) { sink.write(&word, sizeof word); }
-  void copyBytes(BufferedSink& sink, uint64_t begin, uint64_t size);
 
   BlockCompressor* compressor_;
-  SpoolFile file_;  // compressed blocks, each after its size in 4 bytes; or the bytes as they are
+  ColumnSpool file_;  // compressed blocks, each after its size in 4 bytes; or the bytes as they are
   std::vector<unsigned char> block_;
   uint64_t plain_bytes_ = 0, block_count_ = 0, compressed_bytes_ = 0;
 };

@@ -5,15 +5,16 @@
 #include <memory>
 #include <vector>
 
+#include "dropped_marks.h"
 #include "registry.h"
 #include "status.h"
+#include "vtk_cells.h"
 #include "vtu_spool.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr unsigned char kTetra = 10;  // VTK's number of the linear tetrahedron
 constexpr size_t kMadeAtOnce = 1024;  // cells whose types and offsets are made
 
 const char* nameOf(ScalarType type) {
@@ -78,7 +79,7 @@ std::string escaped(const std::string& text) {
 class VtuWriter final : public Sink {
  public:
   VtuWriter(std::unique_ptr<ByteSink> bytes, const WriteOptions& options)
-      : bytes_(std::move(bytes)), options_(options) {}
+      : bytes_(std::move(bytes)), options_(options), dropped_(*bytes_, options, ".vtu") {}
 
   void begin(const Schema& schema) override {
     checkSchema(schema);
@@ -101,7 +102,7 @@ class VtuWriter final : public Sink {
       cell_data_[i]->append(batch.cell_data[i], cells * schema_.cell_data[i].bytesPerRow());
     vertex_count_ += vertices;
     cell_count_ += cells;
-    noteDropped(batch);
+    dropped_.look(batch);
   }
 
   void finish() override {
@@ -122,31 +123,12 @@ class VtuWriter final : public Sink {
 
   Spool makeSpool() { return std::make_unique<VtuSpool>(options_.temp_dir, compressor_.get()); }
 
-  void note(const std::string& text) {
-    if (options_.note) options_.note(bytes_->name() + ": " + text);
-  }
-
-  void noteDropped(const BatchView& batch) {
-    const auto any = [](const uint8_t* locks, size_t count) {
-      return locks && std::any_of(locks, locks + count, [](uint8_t lock) { return lock != 0; });
-    };
-    if (!noted_locked_ && (batch.edge_count > 0 || any(batch.locked, batch.vertex_count) ||
-                           any(batch.face_locks, batch.face_count))) {
-      note("locks of vertices, edges and faces are left out: .vtu has no place for them");
-      noted_locked_ = true;
-    }
-    if (batch.face_count > 0 && !noted_faces_) {
-      note("the labels of boundary faces are left out: they are no tetrahedra");
-      noted_faces_ = true;
-    }
-  }
-
   // Every cell is a tetrahedron: its offset is that of its end in the connectivity.
   void makeKinds() {
     offsets_ = makeSpool();
     types_ = makeSpool();
     int64_t offsets[kMadeAtOnce];
-    const std::vector<unsigned char> types(kMadeAtOnce, kTetra);
+    const std::vector<unsigned char> types(kMadeAtOnce, kVtkTetra);
     for (uint64_t done = 0; done < cell_count_;) {
       const size_t n =
           cell_count_ - done < kMadeAtOnce ? static_cast<size_t>(cell_count_ - done) : kMadeAtOnce;
@@ -213,13 +195,13 @@ class VtuWriter final : public Sink {
 
   std::unique_ptr<ByteSink> bytes_;
   WriteOptions options_;
+  DroppedMarks dropped_;
   Schema schema_;
   std::unique_ptr<BlockCompressor> compressor_;
   Spool points_, connectivity_, offsets_, types_;
   std::vector<Spool> fields_, cell_data_;
   uint64_t vertex_count_ = 0, cell_count_ = 0, offset_ = 0;
   std::string text_;
-  bool noted_locked_ = false, noted_faces_ = false;
 };
 
 }  // namespace

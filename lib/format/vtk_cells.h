@@ -1,0 +1,8 @@
+// format: VTK's numbers of cell types. Depends on nothing.
+#pragma once
+
+namespace tetstream {
+
+constexpr int kVtkTetra = 10;  // linear
+
+}  // namespace tetstream

@@ -1,0 +1,76 @@
+#include "vtk_scan.h"
+
+#include "status.h"
+
+namespace tetstream {
+
+constexpr size_t kTextBytes = 1 << 16;
+constexpr size_t kMaxWord = 4096;  // what is longer is no name, keyword or number
+
+static bool isBlank(char c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+VtkScan::VtkScan(ByteSource& bytes) : bytes_(bytes), text_(kTextBytes) {}
+
+bool VtkScan::fill() {
+  if (at_ < filled_) return true;
+  begin_ += at_;
+  at_ = 0;
+  filled_ = bytes_.readAt(begin_, text_.data(), text_.size());
+  return filled_ > 0;
+}
+
+void VtkScan::seek(uint64_t place) {
+  if (place >= begin_ && place - begin_ <= filled_) {
+    at_ = static_cast<size_t>(place - begin_);
+    return;
+  }
+  begin_ = place;
+  at_ = filled_ = 0;
+}
+
+void VtkScan::fail(uint64_t place, const std::string& text) const {
+  tetstream::fail(Status::kBadData, "%s: byte %llu: %s", bytes_.name().c_str(),
+                  static_cast<unsigned long long>(place), text.c_str());
+}
+
+std::string VtkScan::word(bool same_line) {
+  std::string word;
+  while (fill() && isBlank(text_[at_])) {
+    if (same_line && text_[at_] == '\n') return word;
+    ++at_;
+  }
+  while (fill() && !isBlank(text_[at_])) {
+    if (word.size() == kMaxWord) fail(place() - word.size(), "there is no end to this word");
+    word += text_[at_++];
+  }
+  return word;
+}
+
+std::string VtkScan::line() {
+  std::string line;
+  while (fill()) {
+    const char c = text_[at_++];
+    if (c == '\n') break;
+    if (line.size() < kMaxWord) line += c;
+  }
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return line;
+}
+
+bool VtkScan::skipWords(uint64_t count) {
+  bool inside = false;
+  while (count > 0 || inside) {
+    if (!fill()) return count == 0;
+    for (; at_ < filled_ && (count > 0 || inside); ++at_) {
+      const bool blank = isBlank(text_[at_]);
+      count -= !blank && !inside;
+      inside = !blank;
+      if (blank && count == 0) return true;
+    }
+  }
+  return true;
+}
+
+}  // namespace tetstream
