@@ -31,10 +31,15 @@ else()
   set(pc_includedir "\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}")
 endif()
 set(pc_requires "zlib expat")
-if(TETSTREAM_ZSTD)
-  string(APPEND pc_requires " libzstd")
-endif()
-# Cairo is loaded, not linked: what it takes is the loader, where that is no part of the C library.
+set(TETSTREAM_CODECS "")  # those that pkg-config finds
+foreach(codec ZSTD LZ4 LZMA)
+  if(TETSTREAM_${codec})
+    string(TOLOWER lib${codec} module)
+    string(APPEND pc_requires " ${module}")
+    list(APPEND TETSTREAM_CODECS ${codec})
+  endif()
+endforeach()
+# Cairo and HDF5 are loaded, not linked: what that takes is the loader, where that is no part of the C library.
 list(TRANSFORM CMAKE_DL_LIBS PREPEND " -l" OUTPUT_VARIABLE pc_dl)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/tetstream.pc.in ${PROJECT_BINARY_DIR}/tetstream.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/tetstream.pc

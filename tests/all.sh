@@ -82,8 +82,8 @@ stage_full() {
 }
 
 echo "== packages"
-bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev \
-  libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy valgrind mandoc \
+bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev liblz4-dev \
+  liblzma-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy valgrind mandoc \
   python3 || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"

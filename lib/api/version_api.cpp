@@ -9,6 +9,21 @@
 #else
 #define TETSTREAM_ZSTD_WORD "no zstd"
 #endif
+#ifdef TETSTREAM_WITH_LZ4
+#define TETSTREAM_LZ4_WORD "lz4"
+#else
+#define TETSTREAM_LZ4_WORD "no lz4"
+#endif
+#ifdef TETSTREAM_WITH_LZMA
+#define TETSTREAM_LZMA_WORD "lzma"
+#else
+#define TETSTREAM_LZMA_WORD "no lzma"
+#endif
+#ifdef TETSTREAM_WITH_HDF5
+#define TETSTREAM_HDF5_WORD "hdf5"
+#else
+#define TETSTREAM_HDF5_WORD "no hdf5"
+#endif
 #ifdef TETSTREAM_WITH_CAIRO
 #define TETSTREAM_CAIRO_WORD "cairo"
 #else
@@ -20,7 +35,8 @@
 #define TETSTREAM_KERNEL_WORD "plain kernels"
 #endif
 #define TETSTREAM_BUILD \
-  " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_CAIRO_WORD ", " TETSTREAM_KERNEL_WORD ")"
+  " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_LZ4_WORD ", " TETSTREAM_LZMA_WORD                    \
+  ", " TETSTREAM_HDF5_WORD ", " TETSTREAM_CAIRO_WORD ", " TETSTREAM_KERNEL_WORD ")"
 
 int32_t tetstream_version_number(void) {
   return TETSTREAM_VERSION_NUMBER;

@@ -12,6 +12,8 @@
 
 namespace tetstream {
 
+struct VtuCompressor;
+
 enum class VtuFormat { kAscii, kInlineBase64, kAppendedRaw, kAppendedBase64 };
 
 struct VtuArray {
@@ -33,7 +35,7 @@ struct VtuPiece {
 
 struct VtuFile {
   bool big_endian = false;
-  bool zlib = false;
+  const VtuCompressor* compressor = nullptr;
   size_t word_bytes = 4;  // of lengths and block tables
   std::vector<VtuPiece> pieces;
   std::vector<std::string> notes;  // what was left out, each once

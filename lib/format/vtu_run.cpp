@@ -6,7 +6,7 @@
 
 #include "base64.h"
 #include "status.h"
-#include "vtu_zlib.h"
+#include "vtu_blocks.h"
 
 namespace tetstream {
 
@@ -107,7 +107,7 @@ std::unique_ptr<ValueBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
   VtuArray place = array;
   if (array.format == VtuFormat::kInlineBase64) place = trimmed(bytes, array);
   const EncodedRun run(bytes, placeOf(bytes, array.name), place.begin, place.end, base64);
-  if (file.zlib) return openZlibBlocks(run, file, size);
+  if (file.compressor) return file.compressor->open(run, file, size);
   return std::make_unique<PlainBytes>(run, file, size);
 }
 

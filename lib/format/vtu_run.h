@@ -1,5 +1,5 @@
-// format: the binary values of one array of a .vtu file, as they lie in memory: base64 and zlib
-// blocks undone. Depends on vtu_file.h.
+// format: the binary values of one array of a .vtu file, as they lie in memory: base64 and
+// compressed blocks undone. Depends on vtu_file.h.
 #pragma once
 
 #include <memory>

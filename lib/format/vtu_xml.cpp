@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "status.h"
+#include "vtu_blocks.h"
 #include "vtu_file.h"
 
 namespace tetstream {
@@ -190,7 +191,7 @@ class HeaderParser {
         failHere("header_type is neither UInt32 nor UInt64");
     }
     if (const char* compressor = find(attributes, "compressor")) compressor_ = cutMeshName(compressor);
-    file_.zlib = !compressor_.empty();
+    file_.compressor = findVtuCompressor(compressor_);
     return true;
   }
 
@@ -363,10 +364,9 @@ class HeaderParser {
 
   void finishArray(VtuArray& array) const {
     if (array.format == VtuFormat::kAscii) return;
-    if (file_.zlib && compressor_ != "vtkZLibDataCompressor")
-      fail(Status::kUnsupported,
-           "%s: the values are compressed with %s; only vtkZLibDataCompressor is read",
-           bytes_.name().c_str(), compressor_.c_str());
+    if (!compressor_.empty() && !file_.compressor)
+      fail(Status::kUnsupported, "%s: the values are compressed with %s; this build reads %s",
+           bytes_.name().c_str(), compressor_.c_str(), vtuCompressorNames().c_str());
     if (array.format == VtuFormat::kInlineBase64) return;
     const char* name = array.name.c_str();
     if (!appended_)

@@ -95,7 +95,7 @@ TEST(VtuErrors, SaysWhatIsWrongWithTheHeader) {
       {"=\"UnstructuredGrid\"", "=\"PolyData\"", "UNSUPPORTED: test.vtu: byte 0: the file holds"},
       {"<VTKFile", "<VTKFile byte_order='x'", "byte_order"},
       {"<VTKFile", "<VTKFile header_type='Int8'", "header_type"},
-      {"<VTKFile", "<VTKFile compressor='vtkLZ4DataCompressor'",
+      {"<VTKFile", "<VTKFile compressor='vtkFooDataCompressor'",
        "UNSUPPORTED: test.vtu: the values"},
       {"\"raw\"", "\"hex\"", "encoding"},
       {" _", " x", "begin with '_'"},
