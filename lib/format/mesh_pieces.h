@@ -38,6 +38,8 @@ struct MeshPiece {
 struct MeshPieces {
   std::string name;  // of the file, for messages
   CellForm form = CellForm::kOffsets;
+  bool join = false;       // points that pieces share are to be one each
+  std::string global_ids;  // the points' array that tells which those are, if the file names one
   std::vector<MeshPiece> pieces;
   uint64_t point_count = 0, cell_count = 0;  // of all pieces
   std::vector<std::string> notes;            // what was left out, each once

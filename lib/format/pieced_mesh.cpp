@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "interleaved_cells.h"
+#include "joined_points.h"
 #include "mixed_cells.h"
 #include "piece_column.h"
 #include "status.h"
@@ -260,8 +261,33 @@ class PiecedMesh final : public IndexedSource {
 
 }  // namespace
 
+// Names that writers give to arrays of global ids of points where no attribute tells.
+static constexpr const char* kGlobalIds[] = {"GlobalPointIds", "vtkGlobalPointIds",
+                                             "GlobalNodeIds", "GlobalNodeId", "GlobalIds"};
+
+static int findGlobalIds(const Schema& schema, const std::string& named) {
+  const auto usable = [&](int i) {
+    return i >= 0 && !isFloat(schema.fields[static_cast<size_t>(i)].type) &&
+           schema.fields[static_cast<size_t>(i)].components == 1;
+  };
+  int found = findColumn(schema.fields, named);
+  for (const char* name : kGlobalIds)
+    if (!usable(found)) found = findColumn(schema.fields, name);
+  return usable(found) ? found : -1;
+}
+
 std::unique_ptr<IndexedSource> openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
-  return std::make_unique<PiecedMesh>(std::move(mesh), options);
+  JoinPlan plan;
+  if (mesh.join)
+    for (const MeshPiece& piece : mesh.pieces)
+      if (piece.point_count > 0) plan.first_points.push_back(piece.first_point);
+  const std::string name = mesh.name, global_ids = mesh.global_ids;
+  auto opened = std::make_unique<PiecedMesh>(std::move(mesh), options);
+  plan.global_ids = findGlobalIds(opened->schema(), global_ids);
+  plan.temp_dir = options.temp_dir;
+  if (options.note)
+    plan.note = [name, note = options.note](const std::string& text) { note(name + ": " + text); };
+  return joinPoints(std::move(opened), plan);
 }
 
 }  // namespace tetstream

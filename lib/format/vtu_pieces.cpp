@@ -29,6 +29,7 @@ void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes) {
   mesh.name = bytes->name();
   const auto vtu = std::make_shared<OpenVtu>(std::move(bytes), std::move(parsed));
   for (const std::string& note : vtu->file.notes) mesh.addNote(note);
+  if (!vtu->file.global_ids.empty()) mesh.global_ids = vtu->file.global_ids;
   for (const VtuPiece& piece : vtu->file.pieces) {
     MeshPiece added;
     added.point_count = piece.point_count;

@@ -1,35 +1,21 @@
-// The XML part of .vtu files. Expat gets the file in pieces, up to the start tag of AppendedData,
-// after which the file need not be XML any more. Elements that are not known are passed over with
-// everything in them.
-#include <expat.h>
-
-#include <algorithm>
-#include <charconv>
+// The XML part of .vtu files, up to the start tag of AppendedData, after which the file need not be
+// XML any more. Elements that are not known are passed over with everything in them.
 #include <cstring>
-#include <exception>
-#include <memory>
 
 #include "status.h"
 #include "vtu_blocks.h"
 #include "vtu_file.h"
+#include "xml_feed.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr size_t kFeedBytes = 1 << 16;
-constexpr uint64_t kMaxTagBytes = 1 << 20;  // of a tag or comment, which expat holds in memory
 // These bound what a hostile header costs in memory and, as arrays are compared by name, in time.
 constexpr size_t kMaxArrays = 1 << 18;  // of all pieces
 constexpr size_t kMaxPieceArrays = 1 << 12;
 
 enum class Section { kOther, kPointData, kCellData, kPoints, kCells };
-
-const char* find(const XML_Char** attributes, const char* name) {
-  for (; *attributes; attributes += 2)
-    if (std::strcmp(attributes[0], name) == 0) return attributes[1];
-  return nullptr;
-}
 
 bool parseType(const char* text, ValueType* type) {
   static const char* const names[] = {"Int8",   "UInt8", "Int16",  "UInt16",  "Int32",
@@ -42,105 +28,20 @@ bool parseType(const char* text, ValueType* type) {
   return false;
 }
 
-bool parseUnsigned(const char* text, uint64_t* value) {
-  const char* blanks = " \t\r\n";
-  text += std::strspn(text, blanks);
-  const char* end = text + std::strlen(text);
-  const std::from_chars_result r = std::from_chars(text, end, *value);
-  return r.ec == std::errc() && r.ptr + std::strspn(r.ptr, blanks) == end;
-}
-
-class HeaderParser {
+class HeaderParser final : XmlFeed {
  public:
-  explicit HeaderParser(ByteSource& bytes)
-      : bytes_(bytes), expat_(XML_ParserCreate(nullptr), XML_ParserFree) {
-    if (!expat_) fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes.name().c_str());
-    XML_SetUserData(expat_.get(), this);
-    XML_SetElementHandler(expat_.get(), onStart, onEnd);
-    XML_SetStartDoctypeDeclHandler(expat_.get(), onDoctype);
-    XML_SetDefaultHandler(expat_.get(), onOther);
-  }
+  explicit HeaderParser(ByteSource& bytes) : XmlFeed(bytes) {}
 
   VtuFile run() {
     feed();
-    if (file_.pieces.empty()) failAt(last_event_, "there is no <Piece>");
-    if (appended_) placeAppended();
+    if (file_.pieces.empty()) failAt(lastEvent(), "there is no <Piece>");
+    if (stopped()) placeAppended();
     for (VtuPiece& piece : file_.pieces) finishPiece(piece);
     return std::move(file_);
   }
 
  private:
-  void feed() {
-    std::vector<char> buffer(kFeedBytes);
-    uint64_t fed = 0;
-    for (;;) {
-      const size_t got = bytes_.readAt(fed, buffer.data(), buffer.size());
-      const bool end = got < buffer.size();
-      const XML_Status status = XML_Parse(expat_.get(), buffer.data(), static_cast<int>(got), end);
-      if (error_) std::rethrow_exception(error_);
-      if (appended_) return;
-      if (status != XML_STATUS_OK) failXml();
-      if (end) return;
-      fed += got;
-      if (fed - last_event_ > kMaxTagBytes)
-        failAt(last_event_, "a tag or comment is longer than 1 MiB");
-    }
-  }
-
-  [[noreturn]] void failXml() {
-    const XML_Error code = XML_GetErrorCode(expat_.get());
-    if (code == XML_ERROR_NO_MEMORY)
-      fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes_.name().c_str());
-    const XML_Index byte = XML_GetCurrentByteIndex(expat_.get());  // -1: there is not one byte
-    fail(Status::kBadData, "%s: line %llu, byte %lld: not XML: %s", bytes_.name().c_str(),
-         static_cast<unsigned long long>(XML_GetCurrentLineNumber(expat_.get())),
-         static_cast<long long>(std::max<XML_Index>(byte, 0)), XML_ErrorString(code));
-  }
-
-  [[noreturn]] void failAt(uint64_t byte, const std::string& text,
-                           Status status = Status::kBadData) const {
-    fail(status, "%s: byte %llu: %s", bytes_.name().c_str(), static_cast<unsigned long long>(byte),
-         text.c_str());
-  }
-  [[noreturn]] void failHere(const std::string& text, Status status = Status::kBadData) const {
-    failAt(tagBegin(), text, status);
-  }
-
-  uint64_t tagBegin() const { return static_cast<uint64_t>(XML_GetCurrentByteIndex(expat_.get())); }
-  uint64_t tagEnd() const {
-    return tagBegin() + static_cast<uint64_t>(XML_GetCurrentByteCount(expat_.get()));
-  }
-
-  // Expat is C: no exception may pass through it.
-  template <class Function>
-  void guard(Function function) noexcept {
-    if (error_) return;
-    try {
-      last_event_ = tagEnd();
-      function();
-    } catch (...) {
-      error_ = std::current_exception();
-      XML_StopParser(expat_.get(), XML_FALSE);
-    }
-  }
-  static HeaderParser& self(void* user) { return *static_cast<HeaderParser*>(user); }
-  static void XMLCALL onStart(void* user, const XML_Char* name, const XML_Char** attributes) {
-    self(user).guard([&] { self(user).start(name, attributes); });
-  }
-  static void XMLCALL onEnd(void* user, const XML_Char*) {
-    self(user).guard([&] { self(user).end(); });
-  }
-  static void XMLCALL onOther(void* user, const XML_Char*, int) {
-    self(user).guard([] {});
-  }
-  static void XMLCALL onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*,
-                                int) {
-    self(user).guard([&] {
-      self(user).failHere("document type declarations are not read", Status::kUnsupported);
-    });
-  }
-
-  void start(const char* name, const XML_Char** attributes) {
+  void start(const char* name, Attributes attributes) override {
     if (!skipping_ && !enter(name, attributes)) {
       skipping_ = true;
       skip_from_ = depth_;
@@ -148,14 +49,14 @@ class HeaderParser {
     ++depth_;
   }
 
-  void end() {
+  void end() override {
     --depth_;
     if (skipping_ && depth_ == skip_from_) skipping_ = false;
     if (depth_ <= 4) closeText();
   }
 
   // False if the element and what is in it do not matter.
-  bool enter(const char* name, const XML_Char** attributes) {
+  bool enter(const char* name, Attributes attributes) {
     switch (depth_) {
       case 0:
         return enterRoot(name, attributes);
@@ -164,7 +65,7 @@ class HeaderParser {
       case 2:
         return enterPiece(name, attributes);
       case 3:
-        return enterSection(name);
+        return enterSection(name, attributes);
       case 4:
         return enterArray(name, attributes);
       default:
@@ -173,7 +74,7 @@ class HeaderParser {
     }
   }
 
-  bool enterRoot(const char* name, const XML_Char** attributes) {
+  bool enterRoot(const char* name, Attributes attributes) {
     if (std::strcmp(name, "VTKFile") != 0)
       failHere("this is not a VTK XML file: it begins with <" + cutMeshName(name) + ">");
     const char* type = find(attributes, "type");
@@ -195,20 +96,19 @@ class HeaderParser {
     return true;
   }
 
-  bool enterPart(const char* name, const XML_Char** attributes) {
+  bool enterPart(const char* name, Attributes attributes) {
     if (std::strcmp(name, "UnstructuredGrid") == 0) return true;
     if (std::strcmp(name, "AppendedData") != 0) return false;
     const char* encoding = find(attributes, "encoding");
     raw_ = encoding && std::strcmp(encoding, "raw") == 0;
     if (encoding && !raw_ && std::strcmp(encoding, "base64") != 0)
       failHere("the encoding of the appended data is neither raw nor base64");
-    appended_ = true;
     appended_begin_ = tagEnd();
-    XML_StopParser(expat_.get(), XML_FALSE);
+    stop();
     return true;
   }
 
-  uint64_t count(const XML_Char** attributes, const char* name) const {
+  uint64_t count(Attributes attributes, const char* name) const {
     const char* text = find(attributes, name);
     uint64_t value = 0;
     if (!text || !parseUnsigned(text, &value))
@@ -217,7 +117,7 @@ class HeaderParser {
     return value;
   }
 
-  bool enterPiece(const char* name, const XML_Char** attributes) {
+  bool enterPiece(const char* name, Attributes attributes) {
     if (std::strcmp(name, "FieldData") == 0)
       file_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
     if (std::strcmp(name, "Piece") != 0) return false;
@@ -229,15 +129,17 @@ class HeaderParser {
     return true;
   }
 
-  bool enterSection(const char* name) {
+  bool enterSection(const char* name, Attributes attributes) {
     static const char* const names[] = {"PointData", "CellData", "Points", "Cells"};
     section_ = Section::kOther;
     for (int i = 0; i < 4; ++i)
       if (std::strcmp(name, names[i]) == 0) section_ = static_cast<Section>(i + 1);
+    const char* ids = section_ == Section::kPointData ? find(attributes, "GlobalIds") : nullptr;
+    if (ids) file_.global_ids = cutMeshName(ids);
     return section_ != Section::kOther;
   }
 
-  bool enterArray(const char* element, const XML_Char** attributes) {
+  bool enterArray(const char* element, Attributes attributes) {
     const char* name = find(attributes, "Name");
     const char* type = find(attributes, "type");
     const bool data = section_ == Section::kPointData || section_ == Section::kCellData;
@@ -276,7 +178,7 @@ class HeaderParser {
     return made;
   }
 
-  bool setComponents(VtuArray& array, const XML_Char** attributes, bool data) {
+  bool setComponents(VtuArray& array, Attributes attributes, bool data) {
     const char* text = find(attributes, "NumberOfComponents");
     uint64_t value = section_ == Section::kPoints ? 3 : 1;
     if (text && !parseUnsigned(text, &value)) failHere("NumberOfComponents is no number");
@@ -293,7 +195,7 @@ class HeaderParser {
     return true;
   }
 
-  void setFormat(VtuArray& array, const XML_Char** attributes) const {
+  void setFormat(VtuArray& array, Attributes attributes) const {
     const char* offset = find(attributes, "offset");
     const char* format = find(attributes, "format");
     if (!format) format = offset ? "appended" : "ascii";
@@ -346,7 +248,7 @@ class HeaderParser {
   // The appended data begin after a '_' that follows blanks.
   void placeAppended() {
     char text[4096];
-    const size_t got = bytes_.readAt(appended_begin_, text, sizeof text);
+    const size_t got = bytes().readAt(appended_begin_, text, sizeof text);
     size_t at = 0;
     while (at < got && std::strchr(" \t\r\n", text[at]) && text[at] != '\0') ++at;
     if (at == got || text[at] != '_')
@@ -366,30 +268,27 @@ class HeaderParser {
     if (array.format == VtuFormat::kAscii) return;
     if (!compressor_.empty() && !file_.compressor)
       fail(Status::kUnsupported, "%s: the values are compressed with %s; this build reads %s",
-           bytes_.name().c_str(), compressor_.c_str(), vtuCompressorNames().c_str());
+           bytes().name().c_str(), compressor_.c_str(), vtuCompressorNames().c_str());
     if (array.format == VtuFormat::kInlineBase64) return;
     const char* name = array.name.c_str();
-    if (!appended_)
+    if (!stopped())
       fail(Status::kBadData, "%s: array \"%s\" is appended, but there is no AppendedData",
-           bytes_.name().c_str(), name);
+           bytes().name().c_str(), name);
     array.format = raw_ ? VtuFormat::kAppendedRaw : VtuFormat::kAppendedBase64;
-    array.end = bytes_.size();
+    array.end = bytes().size();
     if (array.begin > array.end - appended_begin_)
       fail(Status::kBadData, "%s: array \"%s\" begins past the end of the file",
-           bytes_.name().c_str(), name);
+           bytes().name().c_str(), name);
     array.begin += appended_begin_;
   }
 
-  ByteSource& bytes_;
-  std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> expat_;
-  std::exception_ptr error_;
   VtuFile file_;
   std::string compressor_;
   int depth_ = 0, skip_from_ = 0;
-  bool skipping_ = false, appended_ = false, raw_ = false;
+  bool skipping_ = false, raw_ = false;
   Section section_ = Section::kOther;
   VtuArray* open_ = nullptr;  // whose inline values are being passed
-  uint64_t last_event_ = 0, appended_begin_ = 0;
+  uint64_t appended_begin_ = 0;
   size_t array_count_ = 0;
 };
 

@@ -1,0 +1,25 @@
+// format: many files of which only some are open at a time. Depends on bytes.h.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bytes.h"
+
+namespace tetstream {
+
+class FilePool : public std::enable_shared_from_this<FilePool> {
+ public:
+  // The file, opened once to know its size and from then on when it is read.
+  std::unique_ptr<ByteSource> add(const std::string& path);
+  ByteSource& open(size_t file);
+
+ private:
+  std::vector<std::string> paths_;
+  std::vector<std::unique_ptr<ByteSource>> files_;  // null: not open
+  std::deque<size_t> opened_;                       // in this order
+};
+
+}  // namespace tetstream

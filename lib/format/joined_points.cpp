@@ -1,0 +1,247 @@
+// Points with the same key come together by hashing them into buckets that fit into memory, each of
+// which is sorted.
+#include "joined_points.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "column_spool.h"
+#include "memory.h"
+#include "mix.h"
+#include "row_spool.h"
+#include "status.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kAtOnce = 2048;                       // points
+constexpr uint64_t kBucketBytes = uint64_t{16} << 20;  // wanted in memory at once
+constexpr uint64_t kMaxBuckets = 256;                  // each is a file with a buffer
+
+struct Keyed {
+  std::array<uint64_t, 3> key;  // bits of the coordinates, or the global id
+  uint64_t point;
+  bool operator<(const Keyed& other) const {
+    return key != other.key ? key < other.key : point < other.point;
+  }
+};
+
+struct Same {
+  uint64_t point, first;  // `point` is `first`, which is lower
+  bool operator<(const Same& other) const { return point < other.point; }
+};
+
+// Rows in files, by bucket.
+template <class Row>
+class Buckets {
+ public:
+  Buckets(size_t count, const std::string& temp_dir) {
+    for (size_t i = 0; i < count; ++i) files_.push_back(std::make_unique<ColumnSpool>(temp_dir));
+  }
+  size_t count() const { return files_.size(); }
+  void add(size_t bucket, const Row& row) { files_[bucket]->append(&row, sizeof row); }
+  // The rows of a bucket, sorted. Its file is gone afterwards.
+  Array<Row> take(size_t bucket, Account& account) {
+    ColumnSpool& file = *files_[bucket];
+    file.close();
+    Array<Row> rows(account, static_cast<size_t>(file.size() / sizeof(Row)));
+    if (rows.size() > 0) file.readAt(0, rows.data(), static_cast<size_t>(file.size()));
+    std::sort(rows.data(), rows.data() + rows.size());
+    files_[bucket].reset();
+    return rows;
+  }
+
+ private:
+  std::vector<std::unique_ptr<ColumnSpool>> files_;
+};
+
+class JoinedPoints final : public IndexedSource {
+ public:
+  JoinedPoints(std::unique_ptr<IndexedSource> mesh, const JoinPlan& plan)
+      : mesh_(std::move(mesh)),
+        plan_(plan),
+        schema_(mesh_->schema()),
+        new_of_(sizeof(int64_t), plan.temp_dir),
+        old_of_(sizeof(uint64_t), plan.temp_dir) {
+    const uint64_t points = static_cast<uint64_t>(schema_.vertex_count);
+    const uint64_t buckets =
+        std::clamp<uint64_t>(points * sizeof(Keyed) / kBucketBytes + 1, 1, kMaxBuckets);
+    Buckets<Keyed> keyed(static_cast<size_t>(buckets), plan.temp_dir);
+    addKeys(keyed, points);
+    Buckets<Same> same(static_cast<size_t>(buckets), plan.temp_dir);
+    findSame(keyed, same, points);
+    number(same, points);
+    schema_.vertex_count = static_cast<int64_t>(old_of_.rows());
+    tell(points - old_of_.rows());
+  }
+
+  bool changed() const { return old_of_.rows() < new_of_.rows(); }
+  std::unique_ptr<IndexedSource> takeMesh() { return std::move(mesh_); }
+
+  const Schema& schema() const override { return schema_; }
+  void readPositions(uint64_t first, size_t count, void* out) override {
+    forRuns(first, count, 3 * sizeOf(schema_.position_type), out,
+            [&](uint64_t point, size_t n, void* to) { mesh_->readPositions(point, n, to); });
+  }
+  void readField(size_t column, uint64_t first, size_t count, void* out) override {
+    forRuns(first, count, schema_.fields[column].bytesPerRow(), out,
+            [&](uint64_t point, size_t n, void* to) { mesh_->readField(column, point, n, to); });
+  }
+  void readCells(uint64_t first, size_t count, int64_t* out) override {
+    mesh_->readCells(first, count, out);
+    for (size_t i = 0; i < 4 * count; ++i) out[i] = newOf(static_cast<uint64_t>(out[i]));
+  }
+  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
+    mesh_->readCellData(column, first, count, out);
+  }
+
+ private:
+  void addKeys(Buckets<Keyed>& keyed, uint64_t points) {
+    double places[3 * kAtOnce];
+    for (uint64_t at = 0; at < points; at += kAtOnce) {
+      const size_t n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, points - at));
+      plan_.global_ids < 0 ? readPlaces(at, n, places) : readIds(at, n, places);
+      for (size_t i = 0; i < n; ++i) {
+        Keyed row{{}, at + i};
+        std::memcpy(row.key.data(), places + 3 * i, sizeof row.key);
+        keyed.add(bucketOf(row, keyed.count()), row);
+      }
+    }
+  }
+
+  static size_t bucketOf(const Keyed& row, size_t count) {
+    return static_cast<size_t>(mix(row.key[0] ^ mix(row.key[1] ^ mix(row.key[2]))) % count);
+  }
+
+  void readPlaces(uint64_t first, size_t count, double* out) {
+    float narrow[3 * kAtOnce];
+    const bool is_narrow = schema_.position_type == ScalarType::kFloat32;
+    mesh_->readPositions(first, count, is_narrow ? static_cast<void*>(narrow) : out);
+    if (is_narrow)
+      convertScalars(narrow, ScalarType::kFloat32, out, ScalarType::kFloat64, 3 * count);
+    for (size_t i = 0; i < 3 * count; ++i) out[i] += 0.0;  // -0 is 0
+  }
+
+  // As keys, whose bits alone matter.
+  void readIds(uint64_t first, size_t count, double* out) {
+    int64_t ids[kAtOnce];
+    const size_t column = static_cast<size_t>(plan_.global_ids);
+    mesh_->readField(column, first, count, ids);
+    if (schema_.fields[column].type == ScalarType::kInt32) {
+      int32_t narrow[kAtOnce];
+      std::memcpy(narrow, ids, count * sizeof(int32_t));
+      std::copy_n(narrow, count, ids);
+    }
+    for (size_t i = 0; i < count; ++i) {
+      out[3 * i] = std::bit_cast<double>(ids[i]);
+      out[3 * i + 1] = out[3 * i + 2] = 0;
+    }
+  }
+
+  size_t pieceOf(uint64_t point) const {
+    const auto after =
+        std::upper_bound(plan_.first_points.begin(), plan_.first_points.end(), point);
+    return static_cast<size_t>(after - plan_.first_points.begin());
+  }
+
+  void findSame(Buckets<Keyed>& keyed, Buckets<Same>& same, uint64_t points) {
+    Account account;
+    const uint64_t part = (points - 1) / same.count() + 1;
+    for (size_t bucket = 0; bucket < keyed.count(); ++bucket) {
+      const Array<Keyed> rows = keyed.take(bucket, account);
+      for (size_t first = 0, end; first < rows.size(); first = end) {
+        end = first + 1;
+        bool repeated = false;  // in one piece
+        for (; end < rows.size() && rows[end].key == rows[first].key; ++end)
+          repeated |= pieceOf(rows[end].point) == pieceOf(rows[end - 1].point);
+        kept_apart_ += repeated && pieceOf(rows[end - 1].point) != pieceOf(rows[first].point);
+        for (size_t i = first + 1; !repeated && i < end; ++i)
+          same.add(static_cast<size_t>(rows[i].point / part), {rows[i].point, rows[first].point});
+      }
+    }
+  }
+
+  void number(Buckets<Same>& same, uint64_t points) {
+    Account account;
+    uint64_t point = 0;
+    for (size_t bucket = 0; bucket < same.count(); ++bucket) {
+      const Array<Same> rows = same.take(bucket, account);
+      for (size_t i = 0; i < rows.size(); ++i) {
+        numberUpTo(&point, rows[i].point);
+        const int64_t other = -1 - static_cast<int64_t>(rows[i].first);
+        new_of_.append(&other, 1);
+        ++point;
+      }
+    }
+    numberUpTo(&point, points);
+    new_of_.finish();
+    old_of_.finish();
+  }
+
+  void numberUpTo(uint64_t* point, uint64_t end) {
+    for (; *point < end; ++*point) {
+      const int64_t number = static_cast<int64_t>(old_of_.rows());
+      new_of_.append(&number, 1);
+      old_of_.append(point, 1);
+    }
+  }
+
+  void tell(uint64_t joined) const {
+    if (!plan_.note) return;
+    const char* const by = plan_.global_ids < 0 ? "coordinates" : "global ids";
+    if (joined > 0)
+      plan_.note(textOf("%llu points were joined with those of other pieces by their %s",
+                        static_cast<unsigned long long>(joined), by));
+    if (kept_apart_ > 0)
+      plan_.note(textOf("at %llu places pieces are not joined: one of them has several points "
+                        "with the same %s there",
+                        static_cast<unsigned long long>(kept_apart_), by));
+  }
+
+  // Of a joined point, what stands there is -1 - the first one, which is not joined.
+  int64_t newOf(uint64_t point) {
+    int64_t number;
+    std::memcpy(&number, new_of_.row(point), sizeof number);
+    if (number < 0)
+      std::memcpy(&number, new_of_.row(static_cast<uint64_t>(-1 - number)), sizeof number);
+    return number;
+  }
+
+  uint64_t oldOf(uint64_t point) {
+    uint64_t old;
+    std::memcpy(&old, old_of_.row(point), sizeof old);
+    return old;
+  }
+
+  template <class Read>
+  void forRuns(uint64_t first, size_t count, size_t row_bytes, void* out, Read read) {
+    for (size_t at = 0; at < count;) {
+      const uint64_t point = oldOf(first + at);
+      size_t n = 1;
+      while (at + n < count && oldOf(first + at + n) == point + n) ++n;
+      read(point, n, static_cast<unsigned char*>(out) + at * row_bytes);
+      at += n;
+    }
+  }
+
+  std::unique_ptr<IndexedSource> mesh_;
+  JoinPlan plan_;
+  Schema schema_;
+  RowSpool new_of_, old_of_;
+  uint64_t kept_apart_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<IndexedSource> joinPoints(std::unique_ptr<IndexedSource> mesh,
+                                          const JoinPlan& plan) {
+  if (plan.first_points.size() < 2) return mesh;
+  auto joined = std::make_unique<JoinedPoints>(std::move(mesh), plan);
+  if (!joined->changed()) return joined->takeMesh();
+  return joined;
+}
+
+}  // namespace tetstream

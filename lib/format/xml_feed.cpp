@@ -1,0 +1,114 @@
+#include "xml_feed.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <vector>
+
+namespace tetstream {
+
+constexpr size_t kFeedBytes = 1 << 16;
+constexpr uint64_t kMaxTagBytes = 1 << 20;  // of a tag or comment, which expat holds in memory
+
+XmlFeed::XmlFeed(ByteSource& bytes)
+    : bytes_(bytes), expat_(XML_ParserCreate(nullptr), XML_ParserFree) {
+  if (!expat_) fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes.name().c_str());
+  XML_SetUserData(expat_.get(), this);
+  XML_SetElementHandler(expat_.get(), onStart, onEnd);
+  XML_SetStartDoctypeDeclHandler(expat_.get(), onDoctype);
+  XML_SetDefaultHandler(expat_.get(), onOther);
+}
+
+const char* XmlFeed::find(Attributes attributes, const char* name) {
+  for (; *attributes; attributes += 2)
+    if (std::strcmp(attributes[0], name) == 0) return attributes[1];
+  return nullptr;
+}
+
+bool XmlFeed::parseUnsigned(const char* text, uint64_t* value) {
+  const char* blanks = " \t\r\n";
+  text += std::strspn(text, blanks);
+  const char* end = text + std::strlen(text);
+  const std::from_chars_result r = std::from_chars(text, end, *value);
+  return r.ec == std::errc() && r.ptr + std::strspn(r.ptr, blanks) == end;
+}
+
+void XmlFeed::feed() {
+  std::vector<char> buffer(kFeedBytes);
+  uint64_t fed = 0;
+  for (;;) {
+    const size_t got = bytes_.readAt(fed, buffer.data(), buffer.size());
+    const bool end = got < buffer.size();
+    const XML_Status status = XML_Parse(expat_.get(), buffer.data(), static_cast<int>(got), end);
+    if (error_) std::rethrow_exception(error_);
+    if (stopped_) return;
+    if (status != XML_STATUS_OK) failXml();
+    if (end) return;
+    fed += got;
+    if (fed - last_event_ > kMaxTagBytes)
+      failAt(last_event_, "a tag or comment is longer than 1 MiB");
+  }
+}
+
+void XmlFeed::failXml() {
+  const XML_Error code = XML_GetErrorCode(expat_.get());
+  if (code == XML_ERROR_NO_MEMORY)
+    fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes_.name().c_str());
+  const XML_Index byte = XML_GetCurrentByteIndex(expat_.get());  // -1: there is not one byte
+  fail(Status::kBadData, "%s: line %llu, byte %lld: not XML: %s", bytes_.name().c_str(),
+       static_cast<unsigned long long>(XML_GetCurrentLineNumber(expat_.get())),
+       static_cast<long long>(std::max<XML_Index>(byte, 0)), XML_ErrorString(code));
+}
+
+void XmlFeed::failAt(uint64_t byte, const std::string& text, Status status) const {
+  fail(status, "%s: byte %llu: %s", bytes_.name().c_str(), static_cast<unsigned long long>(byte),
+       text.c_str());
+}
+void XmlFeed::stop() {
+  stopped_ = true;
+  XML_StopParser(expat_.get(), XML_FALSE);
+}
+
+uint64_t XmlFeed::tagBegin() const {
+  return static_cast<uint64_t>(XML_GetCurrentByteIndex(expat_.get()));
+}
+
+uint64_t XmlFeed::tagEnd() const {
+  return tagBegin() + static_cast<uint64_t>(XML_GetCurrentByteCount(expat_.get()));
+}
+
+// Expat is C: no exception may pass through it.
+template <class Function>
+void XmlFeed::guard(Function function) noexcept {
+  if (error_) return;
+  try {
+    last_event_ = tagEnd();
+    function();
+  } catch (...) {
+    error_ = std::current_exception();
+    XML_StopParser(expat_.get(), XML_FALSE);
+  }
+}
+
+void XMLCALL XmlFeed::onStart(void* user, const XML_Char* name, Attributes attributes) {
+  XmlFeed& self = *static_cast<XmlFeed*>(user);
+  self.guard([&] { self.start(name, attributes); });
+}
+
+void XMLCALL XmlFeed::onEnd(void* user, const XML_Char*) {
+  XmlFeed& self = *static_cast<XmlFeed*>(user);
+  self.guard([&] { self.end(); });
+}
+
+void XMLCALL XmlFeed::onOther(void* user, const XML_Char*, int) {
+  static_cast<XmlFeed*>(user)->guard([] {});
+}
+
+void XMLCALL XmlFeed::onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*,
+                                int) {
+  XmlFeed& self = *static_cast<XmlFeed*>(user);
+  self.guard(
+      [&] { self.failHere("document type declarations are not read", Status::kUnsupported); });
+}
+
+}  // namespace tetstream
