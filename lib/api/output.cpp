@@ -37,12 +37,12 @@ namespace {
 // A property of some formats, with its two values; the first one sets the member to true.
 struct Property {
   const char *name, *yes, *no;
-  const char* formats[3];
+  const char* formats[4];
   bool WriteOptions::*member;
 };
 
 constexpr Property kProperties[] = {
-    {"compress", "yes", "no", {"tets", "vtu", nullptr}, &WriteOptions::compress},
+    {"compress", "yes", "no", {"tets", "vtu", "vtkhdf", nullptr}, &WriteOptions::compress},
     {"order", "post", "pre", {"sva", "svb", nullptr}, &WriteOptions::post_order},
 };
 

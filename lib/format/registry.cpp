@@ -32,6 +32,16 @@ static const Format kFormats[] = {
      true,
      openVtk,
      createVtk},
+#ifdef TETSTREAM_WITH_HDF5
+    {"vtkhdf",
+     ".vtkhdf",
+     "VTK's unstructured grid in HDF5",
+     {true, -1, true},
+     false,
+     true,
+     openVtkHdf,
+     createVtkHdf},
+#endif
     {"sva",
      ".sva",
      "streaming volume mesh of Isenburg, text",

@@ -55,7 +55,7 @@ size_t convertFrom(const unsigned char* in, unsigned char* out, ScalarType type,
   return 0;
 }
 
-size_t convertValues(const unsigned char* in, ValueType from, unsigned char* out, ScalarType to,
+size_t convertSome(const unsigned char* in, ValueType from, unsigned char* out, ScalarType to,
                      size_t count) {
   switch (from) {
     case ValueType::kInt8:
@@ -82,12 +82,24 @@ size_t convertValues(const unsigned char* in, ValueType from, unsigned char* out
   return 0;
 }
 
+}  // namespace
+
 bool isSame(ValueType a, ScalarType b) {
   return (a == ValueType::kFloat32 && b == ScalarType::kFloat32) ||
          (a == ValueType::kFloat64 && b == ScalarType::kFloat64) ||
          (a == ValueType::kInt32 && b == ScalarType::kInt32) ||
          (a == ValueType::kInt64 && b == ScalarType::kInt64);
 }
+
+void convertValues(const unsigned char* in, const StoredValues& stored, unsigned char* out,
+                   ScalarType type, size_t count) {
+  const size_t good = convertSome(in, stored.type, out, type, count);
+  if (good < count)
+    fail(Status::kUnsupported, "%s: value %llu does not fit into a signed 64-bit integer",
+         stored.what.c_str(), static_cast<unsigned long long>(stored.first + good));
+}
+
+namespace {
 
 class BinaryValues final : public Values {
  public:
@@ -111,10 +123,7 @@ class BinaryValues final : public Values {
       const size_t n = std::min(count, kConvertBytes / size);
       bytes_->readAt(first * size, stored, n * size);
       if (swap_) swapBytes(stored, size, n);
-      const size_t good = convertValues(stored, type_, to, type, n);
-      if (good < n)
-        fail(Status::kUnsupported, "%s: value %llu does not fit into a signed 64-bit integer",
-             what_.c_str(), static_cast<unsigned long long>(first + good));
+      convertValues(stored, {type_, what_, first}, to, type, n);
       to += n * sizeOf(type);
       first += n;
       count -= n;

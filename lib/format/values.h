@@ -61,6 +61,18 @@ struct TextPlace {
 std::unique_ptr<Values> openTextValues(ByteSource& bytes, const std::string& what, ValueType type,
                                        const TextPlace& place);
 
+bool isSame(ValueType a, ScalarType b);
+
+// Of what convertValues reads, and for its message: the array and the number of the first value.
+struct StoredValues {
+  ValueType type;
+  const std::string& what;
+  uint64_t first;
+};
+// `count` values in this machine's byte order to those of our type; throws if one does not fit.
+void convertValues(const unsigned char* in, const StoredValues& stored, unsigned char* out,
+                   ScalarType type, size_t count);
+
 // Turns the bytes of each of `count` values of `size` bytes around.
 void swapBytes(unsigned char* bytes, size_t size, size_t count);
 

@@ -1,0 +1,110 @@
+// format: HDF5 files and what is in them, whose bytes lie where the caller says. Depends on
+// hdf5_library.h, values.h.
+#pragma once
+
+#ifdef TETSTREAM_WITH_HDF5
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bytes.h"
+#include "hdf5_library.h"
+#include "values.h"
+
+namespace tetstream {
+
+// Where the library's bytes are. Errors may be thrown: they come out of the call that met them.
+class Hdf5Storage {
+ public:
+  virtual ~Hdf5Storage() = default;
+  virtual size_t readAt(uint64_t offset, void* out, size_t size) = 0;  // less only at the end
+  virtual void writeAt(uint64_t offset, const void* data, size_t size) = 0;
+  virtual void resize(uint64_t size) = 0;
+  virtual uint64_t size() const = 0;
+};
+
+// A handle of the library. Closed in a turn of its own.
+class Hdf5Id {
+ public:
+  Hdf5Id() = default;
+  Hdf5Id(hid_t id, herr_t (*closing)(hid_t)) : id_(id), close_(closing) {}
+  Hdf5Id(Hdf5Id&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  Hdf5Id& operator=(Hdf5Id&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Hdf5Id() { close(); }
+  void close() noexcept;
+  hid_t release() { return std::exchange(id_, -1); }  // the caller closes it
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_ = -1;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+// What a dataset holds, as far as we read it.
+struct Hdf5Shape {
+  bool numbers = false;  // of a type of ours
+  ValueType type = ValueType::kFloat32;
+  uint64_t rows = 0;
+  uint64_t components = 1;
+};
+
+class Hdf5File {
+ public:
+  // Opens an existing file, or creates one in an empty storage. `name` is for messages.
+  Hdf5File(std::unique_ptr<Hdf5Storage> storage, const std::string& name, bool create);
+  ~Hdf5File();
+  Hdf5File(const Hdf5File&) = delete;
+  Hdf5File& operator=(const Hdf5File&) = delete;
+
+  const std::string& name() const { return name_; }
+  Hdf5Storage& storage() { return *storage_; }
+  void close();  // of one that was created: everything is written
+
+  // Everything below is to be called in a turn; paths are as in "VTKHDF/Points".
+  bool has(const std::string& path);
+  std::vector<std::string> datasetsOf(const std::string& group);  // by name; none: no such group
+  Hdf5Shape shapeOf(const std::string& path);  // throws if it claims more than the file can hold
+  std::string textAttribute(const std::string& group, const std::string& attribute);
+  std::vector<int64_t> integers(const std::string& path, size_t most);
+
+  Hdf5Id createGroup(const std::string& path);
+  void addAttribute(hid_t object, const char* attribute, const std::string& text);
+  void addAttribute(hid_t object, const char* attribute, const std::vector<int64_t>& numbers);
+
+  Hdf5Id create(const std::string& path, hid_t type, hid_t space, hid_t plan);  // a dataset
+  Hdf5Id openDataset(const std::string& path);
+  // The result, or throws what the storage threw, or the library's own words after `what`.
+  template <class Result>
+  Result check(Result result, const std::string& what) {
+    if (failed_ || result < 0) failCall(what);
+    return result;
+  }
+  void keepError() noexcept {
+    if (!failed_) failed_ = std::current_exception();
+  }
+
+ private:
+  [[noreturn]] void failCall(const std::string& what);
+  void checkStorage(hid_t dataset, const Hdf5Shape& shape, const std::string& path);
+
+  std::unique_ptr<Hdf5Storage> storage_;
+  std::string name_;
+  std::exception_ptr failed_;  // in the storage
+  Hdf5Id file_;
+};
+
+// The library's number of a type.
+hid_t hdf5Type(ValueType type);
+
+// Rows [first, ...) of a dataset of numbers as the values of an array. Asked for whole rows only.
+std::unique_ptr<Values> openHdf5Values(std::shared_ptr<Hdf5File> file, const std::string& path,
+                                       uint64_t first_row);
+
+}  // namespace tetstream
+#endif
