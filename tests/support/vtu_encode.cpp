@@ -1,6 +1,12 @@
 #include "vtu_encode.h"
 
 #include <zlib.h>
+#ifdef TETSTREAM_WITH_LZ4
+#include <lz4.h>
+#endif
+#ifdef TETSTREAM_WITH_LZMA
+#include <lzma.h>
+#endif
 
 #include <algorithm>
 #include <bit>
@@ -66,9 +72,27 @@ std::string textOf(const VtuTestArray& a) {
   return out;
 }
 
-std::string deflated(const std::string& bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string out(size, '\0');
+std::string compressed(const std::string& bytes, const std::string& codec) {
+  std::string out(bytes.size() + 1024, '\0');
+#ifdef TETSTREAM_WITH_LZ4
+  if (codec == "lz4") {
+    out.resize(static_cast<size_t>(
+        LZ4_compress_default(bytes.data(), out.data(), static_cast<int>(bytes.size()),
+                             static_cast<int>(out.size()))));
+    return out;
+  }
+#endif
+#ifdef TETSTREAM_WITH_LZMA
+  if (codec == "lzma") {
+    size_t made = 0;
+    lzma_easy_buffer_encode(1, LZMA_CHECK_CRC32, nullptr,
+                            reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(),
+                            reinterpret_cast<uint8_t*>(out.data()), &made, out.size());
+    out.resize(made);
+    return out;
+  }
+#endif
+  uLongf size = static_cast<uLongf>(out.size());
   compress(reinterpret_cast<Bytef*>(out.data()), &size,
            reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()));
   out.resize(size);
@@ -95,7 +119,7 @@ std::string encoded(const VtuTestArray& a, const VtuStyle& style) {
   std::string sizes;
   body.clear();
   for (size_t i = 0; i < values.size(); i += style.block_bytes) {
-    const std::string block = deflated(values.substr(i, style.block_bytes));
+    const std::string block = compressed(values.substr(i, style.block_bytes), style.codec);
     appendWord(sizes, block.size(), style);
     body += block;
   }
@@ -133,7 +157,10 @@ std::string makeVtu(const std::vector<VtuTestPiece>& pieces, const VtuStyle& sty
   std::string xml = "<VTKFile type=\"UnstructuredGrid\"", appended;
   if (style.big_endian) xml += " byte_order=\"BigEndian\"";
   if (style.header_bits == 64) xml += " header_type=\"UInt64\"";
-  if (style.zlib) xml += " compressor=\"vtkZLibDataCompressor\"";
+  const std::string codec = style.codec;
+  if (style.zlib)
+    xml += std::string(" compressor=\"vtk") +
+           (codec == "lz4" ? "LZ4" : codec == "lzma" ? "LZMA" : "ZLib") + "DataCompressor\"";
   xml += "><UnstructuredGrid>\n";
   for (const VtuTestPiece& piece : pieces) {
     xml += "<Piece NumberOfPoints=\"" + std::to_string(piece.points) + "  \" NumberOfCells=\"" +

@@ -17,6 +17,7 @@ struct VtuStyle {
   int header_bits = 32;
   size_t block_bytes = 32768;
   bool header_apart = false;  // base64 without zlib: the length word is a text of its own
+  const char* codec = "zlib";  // what is meant by `zlib`: also "lz4", "lzma", where built in
 };
 
 // Values stand in `reals` if the type is a float, else in `integers` (UInt64: their bit pattern).

@@ -31,11 +31,11 @@ static std::string readRows(int64_t count, size_t row_bytes, size_t step, Read r
   return bytes;
 }
 
-VtuMesh readVtu(const std::string& file, size_t step) {
+VtuMesh readMesh(std::unique_ptr<ByteSource> bytes, const Format& format, size_t step) {
   VtuMesh mesh;
   ReadOptions options;
   options.note = [&](const std::string& text) { mesh.notes.push_back(text); };
-  const Input input = openVtu(openMemory(file.data(), file.size(), "test.vtu"), options);
+  const Input input = format.open(std::move(bytes), options);
   IndexedSource& source = *input.indexed;
   const Schema& s = mesh.schema = source.schema();
   mesh.positions =
@@ -58,13 +58,50 @@ VtuMesh readVtu(const std::string& file, size_t step) {
   return mesh;
 }
 
-std::string vtuFailure(const std::string& file) {
+VtuMesh readAs(const char* format, const std::string& file, size_t step) {
+  return readMesh(openMemory(file.data(), file.size(), std::string("test.") + format),
+                  *findFormat(format), step);
+}
+
+VtuMesh readVtu(const std::string& file, size_t step) {
+  return readAs("vtu", file, step);
+}
+
+std::string failureAs(const char* format, const std::string& file) {
   try {
-    readVtu(file);
+    readAs(format, file);
   } catch (const Error& error) {
     return statusName(error.status()) + (": " + error.text());
   }
   return "";
+}
+
+std::string vtuFailure(const std::string& file) {
+  return failureAs("vtu", file);
+}
+
+std::string writtenBy(Sink& sink, std::vector<unsigned char>& out, const VtuMesh& mesh) {
+  sink.begin(mesh.schema);
+  BatchView batch;
+  batch.vertex_count = static_cast<size_t>(mesh.schema.vertex_count);
+  batch.cell_count = static_cast<size_t>(mesh.schema.cell_count);
+  batch.positions = mesh.positions.data();
+  batch.cells = mesh.cells.data();
+  std::vector<const void*> fields, cell_data;
+  for (const std::string& column : mesh.fields) fields.push_back(column.data());
+  for (const std::string& column : mesh.cell_data) cell_data.push_back(column.data());
+  batch.fields = fields.data();
+  batch.cell_data = cell_data.data();
+  sink.put(batch);
+  sink.finish();
+  return std::string(out.begin(), out.end());
+}
+
+std::string writtenAs(const char* format, const VtuMesh& mesh, bool compress) {
+  std::vector<unsigned char> out;
+  WriteOptions options;
+  options.compress = compress;
+  return writtenBy(*findFormat(format)->create(createMemory(out), options), out, mesh);
 }
 
 }  // namespace tetstream::test

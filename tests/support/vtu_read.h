@@ -1,4 +1,5 @@
-// tests/support: a .vtu file read whole, for tests that compare meshes.
+// tests/support: a .vtu file, or another one of an indexed mesh, read whole, for tests that compare
+// meshes.
 #pragma once
 
 #include <memory>
@@ -18,11 +19,20 @@ struct VtuMesh {
   bool operator==(const VtuMesh& other) const;  // but for the notes
 };
 
-// `file` is the file's bytes, called "test.vtu". Reads `step` rows at once.
+// Reads `step` rows at once.
+VtuMesh readMesh(std::unique_ptr<ByteSource> bytes, const Format& format, size_t step = 1000);
+// `file` is the file's bytes, called "test.vtu".
 VtuMesh readVtu(const std::string& file, size_t step = 1000);
+// The same of any indexed format, called "test.FORMAT".
+VtuMesh readAs(const char* format, const std::string& file, size_t step = 1000);
 
 // The sentence of the failure that reading gives, after its status's name; "" if there is none.
 std::string vtuFailure(const std::string& file);
+std::string failureAs(const char* format, const std::string& file);
+
+// The mesh, written by the format.
+std::string writtenAs(const char* format, const VtuMesh& mesh, bool compress = true);
+std::string writtenBy(Sink& sink, std::vector<unsigned char>& out, const VtuMesh& mesh);
 
 template <class T>
 std::vector<T> valuesAs(const std::string& bytes) {

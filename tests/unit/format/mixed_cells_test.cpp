@@ -1,0 +1,105 @@
+// Files with cells that are not linear tetrahedra, or with ghosts.
+#include <gtest/gtest.h>
+
+#include "status.h"
+#include "vtu_encode.h"
+#include "vtu_read.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+// Five points; a triangle, a tetrahedron, a line, a vertex, another tetrahedron.
+VtuTestPiece mixedPiece() {
+  VtuTestPiece piece = twoCellPiece();
+  piece.cells = 5;
+  piece.cells_element[0].integers = {0, 1, 2, 0, 1, 2, 3, 0, 1, 4, 1, 2, 3, 4};
+  piece.cells_element[1].integers = {3, 7, 9, 10, 14};
+  piece.cells_element[2].integers = {5, 10, 3, 1, 10};
+  piece.cell_data[0].integers = {100, 101, 102, 103, 104};
+  return piece;
+}
+
+bool hasNote(const VtuMesh& mesh, const std::string& text) {
+  for (const std::string& note : mesh.notes)
+    if (note.find(text) != std::string::npos) return true;
+  return false;
+}
+
+const std::vector<VtuStyle> kStyles = {{}, {VtuCoding::kAppendedRaw}, {VtuCoding::kInline, true}};
+
+TEST(MixedCells, KeepTheTetrahedraWithTheirDataAndTellOfTheOthers) {
+  for (const VtuStyle& style : kStyles)
+    for (const size_t step : {1, 2, 1000}) {
+      const VtuMesh mesh = readVtu(makeVtu({mixedPiece(), twoCellPiece(), mixedPiece()}, style),
+                                   step);
+      EXPECT_EQ(mesh.schema.cell_count, 6);
+      EXPECT_EQ(mesh.cells,
+                (std::vector<int64_t>{0, 1, 2, 3, 1, 2, 3, 4, 5, 6, 7, 8, 6, 7, 8, 9,
+                                      10, 11, 12, 13, 11, 12, 13, 14}));
+      const std::vector<int32_t> labels = valuesAs<int32_t>(mesh.cell_data[0]);
+      EXPECT_EQ(labels[0], 101);
+      EXPECT_EQ(labels[1], 104);
+      EXPECT_EQ(labels[5], 104);
+      EXPECT_TRUE(hasNote(mesh, "6 cells of lower dimension are left out"));
+    }
+}
+
+TEST(MixedCells, TakeTheCornersOfCurvedTetrahedra) {
+  VtuTestPiece piece = twoCellPiece();
+  piece.cells = 1;
+  piece.cells_element[0].integers = {3, 2, 1, 0, 4, 4, 4, 4, 4, 4};
+  piece.cells_element[1].integers = {10};
+  piece.cells_element[2].integers = {24};
+  piece.cell_data[0].integers = {7};
+  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  EXPECT_EQ(mesh.cells, (std::vector<int64_t>{3, 2, 1, 0}));
+  EXPECT_TRUE(hasNote(mesh, "1 curved tetrahedra are taken by their corners"));
+}
+
+TEST(MixedCells, NameTheFirstCellThatIsNoTetrahedronAndItsType) {
+  VtuTestPiece piece = mixedPiece();
+  piece.cells_element[2].integers[3] = 14;
+  const std::string text = vtuFailure(makeVtu({piece}, {}));
+  EXPECT_TRUE(text.starts_with("TETSTREAM_UNSUPPORTED: test.vtu: cell 3 has VTK's type 14, "
+                               "a pyramid"))
+      << text;
+}
+
+TEST(MixedCells, LeaveGhostsOutWithTheirMarks) {
+  VtuTestPiece piece = mixedPiece();
+  piece.cell_data.push_back({"UInt8", "vtkGhostType", 1, {}, {0, 1, 0, 0, 4}});
+  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  EXPECT_EQ(mesh.cells, (std::vector<int64_t>{1, 2, 3, 4}));
+  ASSERT_EQ(mesh.schema.cell_data.size(), 1u);
+  EXPECT_TRUE(hasNote(mesh, "1 ghost cells"));
+}
+
+TEST(MixedCells, RefuseWrongOffsetsAndPoints) {
+  const struct {
+    std::vector<int64_t> connectivity, offsets;
+    const char* says;
+  } cases[] = {
+      {{0, 1, 2, 0, 1, 2, 3, 0, 1, 4, 1, 2, 3, 5}, {3, 7, 9, 10, 14}, "cell 4 uses point 5"},
+      {{0, 1, 2, 0, -1, 2, 3, 0, 1, 4, 1, 2, 3, 4}, {3, 7, 9, 10, 14}, "cell 1 uses point -1"},
+      {{0, 1, 2, 0, 1, 2, 3, 0, 1, 4, 1, 2, 3, 4}, {3, 2, 9, 10, 14}, "cell 1 has a wrong offset"},
+      {{0, 1, 2, 0, 1, 2, 3, 0, 1, 4, 1, 2, 3, 4}, {3, 7, 19, 10, 14}, "cell 2 has a wrong"},
+      {{0, 1, 2, 0, 1, 2, 3, 0, 1, 4, 1, 2, 3, 4}, {3, 6, 9, 10, 14}, "cell 1 is a tetrahedron w"},
+      {{0, 1, 2, 0, 1, 2, 3, 0, 1, 4, 1, 2, 3, 4}, {3, 7, 9, 10, -4}, "cell 4 has a wrong offset"},
+      {{0, 1, 2, 0, 1, 2, 3}, {3, 7, 9, 10, 14}, "test.vtu: array \"connectivity\""},
+  };
+  for (const auto& c : cases) {
+    VtuTestPiece piece = mixedPiece();
+    piece.cells_element[0].integers = c.connectivity;
+    piece.cells_element[1].integers = c.offsets;
+    for (const VtuStyle& style : kStyles) {
+      const std::string text = vtuFailure(makeVtu({piece}, style));
+      EXPECT_TRUE(text.starts_with("TETSTREAM_BAD_DATA: test.vtu: ")) << text;
+      EXPECT_NE(text.find(c.says), std::string::npos) << c.says << ": " << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetstream

@@ -1,0 +1,95 @@
+// Blocks of .vtu files compressed with what VTK offers beside zlib.
+#include <gtest/gtest.h>
+
+#include "status.h"
+#include "vtu_encode.h"
+#include "vtu_read.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+const std::vector<const char*> kCodecs = {
+#ifdef TETSTREAM_WITH_LZ4
+    "lz4",
+#endif
+#ifdef TETSTREAM_WITH_LZMA
+    "lzma",
+#endif
+    "zlib",
+};
+
+VtuStyle styleOf(const char* codec, VtuCoding coding, size_t block_bytes) {
+  VtuStyle style;
+  style.coding = coding;
+  style.zlib = true;
+  style.codec = codec;
+  style.header_bits = 64;
+  style.block_bytes = block_bytes;
+  return style;
+}
+
+TEST(VtuCodecs, ReadBlocksOfAnySizeInAnyCoding) {
+  const VtuMesh plain = readVtu(makeVtu({twoCellPiece()}, {}));
+  for (const char* codec : kCodecs)
+    for (const VtuCoding coding :
+         {VtuCoding::kInline, VtuCoding::kAppendedBase64, VtuCoding::kAppendedRaw})
+      for (const size_t block_bytes : {1, 7, 16, 32768})
+        for (const size_t step : {1, 3, 1000})
+          EXPECT_TRUE(readVtu(makeVtu({twoCellPiece()}, styleOf(codec, coding, block_bytes)),
+                              step) == plain)
+              << codec << " in blocks of " << block_bytes;
+}
+
+TEST(VtuCodecs, SurviveDamageOfEveryByte) {
+  for (const char* codec : kCodecs) {
+    const std::string good = makeVtu({twoCellPiece("Float32", "UInt8")},
+                                     styleOf(codec, VtuCoding::kAppendedRaw, 16));
+    for (size_t byte = 0; byte < good.size(); ++byte)
+      for (const int bit : {0, 3, 7}) {
+        std::string bad = good;
+        bad[byte] = static_cast<char>(bad[byte] ^ (1 << bit));
+        const std::string text = vtuFailure(bad);
+        EXPECT_TRUE(text.empty() || text.starts_with("TETSTREAM_BAD_DATA: test.vtu: ") ||
+                    text.starts_with("TETSTREAM_UNSUPPORTED: test.vtu: "))
+            << codec << ", byte " << byte << ": " << text;
+      }
+    for (size_t size = 0; size < good.size(); ++size)
+      EXPECT_TRUE(vtuFailure(good.substr(0, size)) != "" ||
+                  size >= good.rfind("\n</AppendedData>"))
+          << codec << ", cut to " << size;
+  }
+}
+
+TEST(VtuCodecs, NameTheDamagedBlock) {
+  for (const char* codec : kCodecs) {
+    std::string file = makeVtu({twoCellPiece()}, styleOf(codec, VtuCoding::kAppendedRaw, 1 << 10));
+    const size_t begin = file.find("\n _") + 3;
+    for (size_t i = begin + 4 * 8; i < begin + 4 * 8 + 6; ++i) file[i] = '\x5A';
+    const std::string text = vtuFailure(file);
+    EXPECT_NE(text.find("compressed block 0 (byte 0 of the values): "), std::string::npos) << text;
+  }
+}
+
+#ifdef TETSTREAM_WITH_LZ4
+TEST(VtuCodecs, RefuseLz4BlocksThatWouldNotFitMemory) {
+  VtuTestPiece piece = twoCellPiece();
+  std::string file = makeVtu({piece}, styleOf("lz4", VtuCoding::kAppendedRaw, 32768));
+  // The types claim to be one block of 2^31 bytes, in 2^24: just what LZ4 could hold.
+  const uint64_t cells = uint64_t{1} << 31;
+  const std::string counted = "NumberOfCells=\"2\"";
+  file.replace(file.find(counted), counted.size(),
+               "NumberOfCells=\"" + std::to_string(cells) + "\"");
+  const size_t tag = file.find("Name=\"types\"");
+  const size_t offset = std::stoul(file.substr(file.find("offset=\"", tag) + 8, 12));
+  const uint64_t words[4] = {1, cells, 0, uint64_t{1} << 24};
+  file.replace(file.find("\n _") + 3 + offset, 32, reinterpret_cast<const char*>(words), 32);
+  file.resize(file.size() + (size_t{1} << 24));
+  const std::string text = vtuFailure(file);
+  EXPECT_NE(text.find("LZ4 blocks of 2147483648 bytes are not read"), std::string::npos) << text;
+}
+#endif
+
+}  // namespace
+}  // namespace tetstream
