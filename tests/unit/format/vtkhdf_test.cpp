@@ -1,0 +1,191 @@
+// VTKHDF files: written and read back, in partitions, and with claims that are lies.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "hdf5_column.h"
+#include "status.h"
+#include "vtu_encode.h"
+#include "vtu_read.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+// Bytes in memory that a test looks into.
+class MemoryStorage final : public Hdf5Storage {
+ public:
+  explicit MemoryStorage(std::string& bytes) : bytes_(bytes) {}
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    return offset < bytes_.size() ? bytes_.copy(static_cast<char*>(out), size, offset) : 0;
+  }
+  void writeAt(uint64_t offset, const void* data, size_t size) override {
+    if (fail_at_ >= 0 && fail_at_-- == 0) fail(Status::kIo, "the disk is full");
+    bytes_.resize(std::max<size_t>(bytes_.size(), offset + size));
+    bytes_.replace(offset, size, static_cast<const char*>(data), size);
+  }
+  void resize(uint64_t size) override { bytes_.resize(size); }
+  uint64_t size() const override { return bytes_.size(); }
+  int fail_at_ = -1;
+
+ private:
+  std::string& bytes_;
+};
+
+template <class T>
+void add(Hdf5File& file, const std::string& path, ValueType type, int components,
+         const std::vector<T>& values) {
+  Hdf5Column column(file, "VTKHDF/" + path, type, components, false);
+  column.append(values.data(), values.size() / static_cast<size_t>(components));
+  column.finish();
+}
+
+struct Parts {
+  std::string type = "UnstructuredGrid";
+  std::vector<int64_t> points = {4, 4}, cells = {1, 2}, ids = {4, 7};
+  std::vector<int64_t> connectivity = {0, 1, 2, 3, 0, 1, 2, 3, 2, 1, 0};
+  std::vector<int64_t> offsets = {0, 4, 0, 4, 7};
+  std::vector<uint8_t> types = {10, 10, 5};
+  std::vector<float> fields = {1, 2, 3, 4, 1, 2, 3, 5};
+};
+
+// Two tetrahedra that share a face, in two partitions, and a triangle.
+std::string makeFile(const Parts& parts) {
+  std::string bytes;
+  Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
+  {
+    const Hdf5Turn turn;
+    const Hdf5Id group = file.createGroup("VTKHDF");
+    file.addAttribute(group, "Version", std::vector<int64_t>{2, 0});
+    file.addAttribute(group, "Type", parts.type);
+    add(file, "NumberOfPoints", ValueType::kInt64, 1, parts.points);
+    add(file, "NumberOfCells", ValueType::kInt64, 1, parts.cells);
+    add(file, "NumberOfConnectivityIds", ValueType::kInt64, 1, parts.ids);
+    add<double>(file, "Points", ValueType::kFloat64, 3,
+                {0, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0});
+    add(file, "Connectivity", ValueType::kInt64, 1, parts.connectivity);
+    add(file, "Offsets", ValueType::kInt64, 1, parts.offsets);
+    add(file, "Types", ValueType::kUInt8, 1, parts.types);
+    file.createGroup("VTKHDF/PointData");
+    add(file, "PointData/p", ValueType::kFloat32, 1, parts.fields);
+    file.createGroup("VTKHDF/CellData");
+    add<int64_t>(file, "CellData/region", ValueType::kInt64, 1, {7, 8, 9});
+  }
+  file.close();
+  return bytes;
+}
+
+TEST(VtkHdf, JoinsPartitions) {
+  for (const size_t step : {1, 1000}) {
+    const VtuMesh mesh = readAs("vtkhdf", makeFile({}), step);
+    EXPECT_EQ(mesh.schema.vertex_count, 5);
+    EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 0, 1, 2, 4}));
+    EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(valuesAs<int64_t>(mesh.cell_data[0]), (std::vector<int64_t>{7, 8}));
+    EXPECT_EQ(mesh.notes.size(), 2u);  // the triangle, the points
+  }
+}
+
+TEST(VtkHdf, WrittenGivesBackEveryArrayInTheSameBytes) {
+  VtuTestPiece piece = twoCellPiece();
+  piece.point_data.push_back({"Float64", "v", 3, {}, {}});
+  piece.point_data.back().reals.assign(15, 0.1);
+  piece.cell_data.push_back({"Int64", "wide", 1, {}, {INT64_MIN, INT64_MAX}});
+  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  for (const bool compress : {true, false}) {
+    const std::string file = writtenAs("vtkhdf", mesh, compress);
+    VtuMesh read = readAs("vtkhdf", file);
+    EXPECT_TRUE(read == mesh);
+    EXPECT_TRUE(file == writtenAs("vtkhdf", mesh, compress));
+  }
+}
+
+TEST(VtkHdf, ReadsColumnsOfManyChunks) {
+  VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
+  const int64_t copies = 20000;  // a chunk holds 16384 ids
+  const std::vector<int64_t> cells = mesh.cells;
+  const std::string labels = mesh.cell_data[0];
+  for (int64_t i = 1; i < copies; ++i) {
+    mesh.cells.insert(mesh.cells.end(), cells.begin(), cells.end());
+    mesh.cell_data[0] += labels;
+  }
+  mesh.schema.cell_count *= copies;
+  EXPECT_TRUE(readAs("vtkhdf", writtenAs("vtkhdf", mesh), 777) == mesh);
+}
+
+TEST(VtkHdf, SaysWhatIsWrong) {
+  const auto failure = [](const std::function<void(Parts&)>& change) {
+    Parts parts;
+    change(parts);
+    return failureAs("vtkhdf", makeFile(parts));
+  };
+  EXPECT_TRUE(has(failureAs("vtkhdf", "no HDF5 at all"), "BAD_DATA: test.vtkhdf: this is no HDF5"));
+  EXPECT_TRUE(has(failureAs("vtkhdf", ""), "BAD_DATA: test.vtkhdf: this is no HDF5"));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.type = "ImageData"; }),
+                  "UNSUPPORTED: test.vtkhdf: the file holds \"ImageData\""));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.types[1] = 14; }), "cell 1 has VTK's type 14"));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.connectivity[7] = 4; }), "cell 1 uses point 4"));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.points = {4, 5}; }),
+                  "dataset \"VTKHDF/Points\" has 8 rows where the counts need 9"));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.cells = {1}; }), "different partitions"));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.cells = {1, -2}; }), "than any file can hold"));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.fields.resize(7); }),
+                  "dataset \"VTKHDF/PointData/p\" has 7 rows where the counts need 8"));
+  EXPECT_TRUE(has(failure([](Parts& p) { p.offsets[4] = 8; }), "dataset \"VTKHDF/Connectivity\""));
+}
+
+TEST(VtkHdf, RefusesSpaceThatWasNeverWritten) {
+  std::string bytes;
+  Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
+  const Hdf5Turn turn;
+  const Hdf5Functions& h = hdf5();
+  const hsize_t rows = hsize_t{1} << 50, chunk = 1024;
+  const Hdf5Id space(h.Screate_simple(1, &rows, nullptr), h.Sclose);
+  const Hdf5Id plan(h.Pcreate(h.P_CLS_DATASET_CREATE_ID), h.Pclose);
+  h.Pset_chunk(plan, 1, &chunk);
+  const Hdf5Id made = file.create("claim", h.T_NATIVE_DOUBLE, space, plan);
+  try {
+    file.shapeOf("claim");
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_TRUE(has(error.text(), "dataset \"claim\" claims 1125899906842624 rows")) << error.text();
+  }
+}
+
+TEST(VtkHdf, RefusesFilesThatAreCut) {
+  const std::string good = makeFile({});
+  for (size_t size = 0; size < good.size(); size += 13) {
+    const std::string text = failureAs("vtkhdf", good.substr(0, size));
+    EXPECT_TRUE(text.starts_with("TETSTREAM_BAD_DATA: test.vtkhdf: ")) << size << ": " << text;
+  }
+}
+
+TEST(VtkHdf, TellsWhatTheStorageSays) {
+  for (int at = 0; at < 3; ++at) {
+    std::string bytes;
+    auto storage = std::make_unique<MemoryStorage>(bytes);
+    storage->fail_at_ = at;
+    try {
+      Hdf5File file(std::move(storage), "made", true);
+      {
+        const Hdf5Turn turn;
+        file.createGroup("VTKHDF");
+        add<double>(file, "x", ValueType::kFloat64, 1, std::vector<double>(50000));
+      }
+      file.close();
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Status::kIo) << error.text();
+      EXPECT_EQ(error.text(), "the disk is full");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetstream
