@@ -3,7 +3,7 @@ source "${BASH_SOURCE%/*}/common.bash"
 
 expect 0 --version
 contains "$out" "tetstream "
-for format in tets vtu sva svb; do contains "$out" "  $format "; done
+for format in tets vtu pvtu vtk sva svb; do contains "$out" "  $format "; done
 [[ -z $err ]] || fail "--version writes to standard error"
 
 expect 0 --help
