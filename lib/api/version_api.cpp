@@ -34,8 +34,8 @@
 #else
 #define TETSTREAM_KERNEL_WORD "plain kernels"
 #endif
-#define TETSTREAM_BUILD \
-  " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_LZ4_WORD ", " TETSTREAM_LZMA_WORD                    \
+#define TETSTREAM_BUILD                                                     \
+  " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_LZ4_WORD ", " TETSTREAM_LZMA_WORD \
   ", " TETSTREAM_HDF5_WORD ", " TETSTREAM_CAIRO_WORD ", " TETSTREAM_KERNEL_WORD ")"
 
 int32_t tetstream_version_number(void) {

@@ -5,8 +5,9 @@
 
 namespace tetstream {
 
-constexpr size_t kChunkBytes = 1 << 17;  // held of every column
-constexpr int kLevel = 1;                // higher ones gain little on numbers and cost much
+// Held of every column; with less, reading a column alone goes in steps too small for a disk.
+constexpr size_t kChunkBytes = 1 << 19;
+constexpr int kLevel = 1;  // higher ones gain little on numbers and cost much
 
 Hdf5Column::Hdf5Column(Hdf5File& file, const std::string& path, ValueType type, int components,
                        bool compress)
@@ -22,12 +23,11 @@ Hdf5Column::Hdf5Column(Hdf5File& file, const std::string& path, ValueType type, 
 void Hdf5Column::create(size_t chunk_rows) {
   const Hdf5Functions& h = hdf5();
   const std::string what = "cannot write \"" + path_ + "\"";
-  const int dimensions = components_ == 1 ? 1 : 2;
   const hsize_t none[2] = {0, components_}, all[2] = {H5S_UNLIMITED, components_};
   const hsize_t chunk[2] = {chunk_rows, components_};
-  const Hdf5Id space(file_.check(h.Screate_simple(dimensions, none, all), what), h.Sclose);
+  const Hdf5Id space(file_.check(h.Screate_simple(dimensions(), none, all), what), h.Sclose);
   const Hdf5Id plan(file_.check(h.Pcreate(h.P_CLS_DATASET_CREATE_ID), what), h.Pclose);
-  file_.check(h.Pset_chunk(plan, dimensions, chunk), what);
+  file_.check(h.Pset_chunk(plan, dimensions(), chunk), what);
   file_.check(h.Pset_obj_track_times(plan, false), what);  // the same bytes at any time
   if (compress_ && h.Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
     file_.check(h.Pset_shuffle(plan), what);
@@ -57,7 +57,8 @@ void Hdf5Column::writeHeld() {
   const hsize_t grown[2] = {written_ + rows, components_};
   file_.check(h.Dset_extent(dataset_, grown), what);
   const Hdf5Id space(file_.check(h.Dget_space(dataset_), what), h.Sclose);
-  const Hdf5Id memory(file_.check(h.Screate_simple(2, size, nullptr), what), h.Sclose);
+  // Of as many dimensions: else the library goes value by value.
+  const Hdf5Id memory(file_.check(h.Screate_simple(dimensions(), size, nullptr), what), h.Sclose);
   file_.check(h.Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr), what);
   file_.check(h.Dwrite(dataset_, hdf5Type(type_), memory, space, H5P_DEFAULT, held_.data()), what);
   written_ += rows;

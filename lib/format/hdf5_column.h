@@ -18,6 +18,7 @@ class Hdf5Column {
  private:
   void create(size_t chunk_rows);
   void writeHeld();
+  int dimensions() const { return components_ == 1 ? 1 : 2; }
 
   Hdf5File& file_;
   std::string path_;

@@ -56,8 +56,8 @@ void Hdf5File::failCall(const std::string& what) {
   std::string words;
   hdf5().Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, takeWords, &words);
   hdf5().Eclear2(H5E_DEFAULT);
-  fail(Status::kBadData, "%s: %s%s%s", name_.c_str(), what.c_str(), words.empty() ? "" : ": HDF5: ",
-       words.c_str());
+  fail(Status::kBadData, "%s: %s%s%s", name_.c_str(), what.c_str(),
+       words.empty() ? "" : ": HDF5: ", words.c_str());
 }
 
 bool Hdf5File::has(const std::string& path) {
@@ -79,8 +79,7 @@ std::vector<std::string> Hdf5File::datasetsOf(const std::string& path) {
   H5G_info_t info;
   check(hdf5().Gget_info(group, &info), "\"" + path + "\"");
   constexpr hsize_t kMaxNames = 1 << 12;
-  if (info.nlinks > kMaxNames)
-    fail(Status::kUnsupported, "%s: too many arrays", name_.c_str());
+  if (info.nlinks > kMaxNames) fail(Status::kUnsupported, "%s: too many arrays", name_.c_str());
   for (hsize_t i = 0; i < info.nlinks; ++i) {
     char name[4096];
     check(hdf5().Lget_name_by_idx(file_, path.c_str(), H5_INDEX_NAME, H5_ITER_INC, i, name,
@@ -131,13 +130,12 @@ static bool readType(hid_t type, ValueType* out) {
 
 Hdf5Shape Hdf5File::shapeOf(const std::string& path) {
   const std::string what = "dataset \"" + path + "\"";
-  const Hdf5Id dataset(check(hdf5().Dopen2(file_, path.c_str(), H5P_DEFAULT), what),
-                       hdf5().Dclose);
+  const Hdf5Id dataset(check(hdf5().Dopen2(file_, path.c_str(), H5P_DEFAULT), what), hdf5().Dclose);
   const Hdf5Id space(check(hdf5().Dget_space(dataset), what), hdf5().Sclose);
   const Hdf5Id type(check(hdf5().Dget_type(dataset), what), hdf5().Tclose);
   Hdf5Shape shape;
-  const int dimensions = check(hdf5().Sget_simple_extent_ndims(space), what);
-  shape.numbers = readType(type, &shape.type) && (dimensions == 1 || dimensions == 2);
+  shape.dimensions = check(hdf5().Sget_simple_extent_ndims(space), what);
+  shape.numbers = readType(type, &shape.type) && (shape.dimensions == 1 || shape.dimensions == 2);
   if (!shape.numbers) return shape;
   hsize_t sizes[2] = {0, 1};
   check(hdf5().Sget_simple_extent_dims(space, sizes, nullptr), what);
@@ -197,9 +195,9 @@ std::vector<int64_t> Hdf5File::integers(const std::string& path, size_t most) {
   std::vector<int64_t> numbers(static_cast<size_t>(shape.rows));
   const Hdf5Id dataset = openDataset(path);
   if (!numbers.empty())
-    check(hdf5().Dread(dataset, hdf5().T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                       numbers.data()),
-          "dataset \"" + path + "\"");
+    check(
+        hdf5().Dread(dataset, hdf5().T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
+        "dataset \"" + path + "\"");
   return numbers;
 }
 
@@ -210,10 +208,10 @@ Hdf5Id Hdf5File::createGroup(const std::string& path) {
 }
 
 Hdf5Id Hdf5File::create(const std::string& path, hid_t type, hid_t space, hid_t plan) {
-  return Hdf5Id(check(hdf5().Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, plan,
-                                      H5P_DEFAULT),
-                      "cannot write \"" + path + "\""),
-                hdf5().Dclose);
+  return Hdf5Id(
+      check(hdf5().Dcreate2(file_, path.c_str(), type, space, H5P_DEFAULT, plan, H5P_DEFAULT),
+            "cannot write \"" + path + "\""),
+      hdf5().Dclose);
 }
 
 void Hdf5File::addAttribute(hid_t object, const char* attribute, const std::string& text) {
@@ -241,9 +239,9 @@ void Hdf5File::addAttribute(hid_t object, const char* attribute,
 
 hid_t hdf5Type(ValueType type) {
   const Hdf5Functions& h = hdf5();
-  const hid_t types[] = {h.T_NATIVE_INT8,   h.T_NATIVE_UINT8, h.T_NATIVE_INT16, h.T_NATIVE_UINT16,
-                         h.T_NATIVE_INT32,  h.T_NATIVE_UINT32, h.T_NATIVE_INT64,
-                         h.T_NATIVE_UINT64, h.T_NATIVE_FLOAT, h.T_NATIVE_DOUBLE};
+  const hid_t types[] = {h.T_NATIVE_INT8,  h.T_NATIVE_UINT8,  h.T_NATIVE_INT16, h.T_NATIVE_UINT16,
+                         h.T_NATIVE_INT32, h.T_NATIVE_UINT32, h.T_NATIVE_INT64, h.T_NATIVE_UINT64,
+                         h.T_NATIVE_FLOAT, h.T_NATIVE_DOUBLE};
   return types[static_cast<int>(type)];
 }
 
@@ -284,7 +282,9 @@ class Hdf5Values final : public Values {
     const hsize_t start[2] = {first_row_ + first / shape_.components, 0};
     const hsize_t size[2] = {count / shape_.components, shape_.components};
     const Hdf5Id space(file_->check(h.Dget_space(dataset_), what_), h.Sclose);
-    const Hdf5Id memory(file_->check(h.Screate_simple(2, size, nullptr), what_), h.Sclose);
+    // Of as many dimensions: else the library goes value by value.
+    const Hdf5Id memory(file_->check(h.Screate_simple(shape_.dimensions, size, nullptr), what_),
+                        h.Sclose);
     file_->check(h.Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr), what_);
     file_->check(h.Dread(dataset_, hdf5Type(shape_.type), memory, space, H5P_DEFAULT, out), what_);
   }

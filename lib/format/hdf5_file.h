@@ -52,6 +52,7 @@ struct Hdf5Shape {
   ValueType type = ValueType::kFloat32;
   uint64_t rows = 0;
   uint64_t components = 1;
+  int dimensions = 1;  // 2: rows and components
 };
 
 class Hdf5File {

@@ -196,9 +196,10 @@ class JoinedPoints final : public IndexedSource {
       plan_.note(textOf("%llu points were joined with those of other pieces by their %s",
                         static_cast<unsigned long long>(joined), by));
     if (kept_apart_ > 0)
-      plan_.note(textOf("at %llu places pieces are not joined: one of them has several points "
-                        "with the same %s there",
-                        static_cast<unsigned long long>(kept_apart_), by));
+      plan_.note(
+          textOf("at %llu places pieces are not joined: one of them has several points "
+                 "with the same %s there",
+                 static_cast<unsigned long long>(kept_apart_), by));
   }
 
   // Of a joined point, what stands there is -1 - the first one, which is not joined.

@@ -100,8 +100,7 @@ class Window {
 
 const MeshArray& needArray(const MeshPieces& mesh, size_t piece,
                            const std::optional<MeshArray>& array, const char* name) {
-  if (!array)
-    fail(Status::kBadData, "%s: piece %zu has no %s", mesh.name.c_str(), piece, name);
+  if (!array) fail(Status::kBadData, "%s: piece %zu has no %s", mesh.name.c_str(), piece, name);
   return *array;
 }
 
@@ -232,8 +231,9 @@ MixedCells::MixedCells(MeshPieces& mesh, const std::string& temp_dir)
   spool_.finish();
   addCount(mesh, dropped.lower, "cells of lower dimension are left out");
   addCount(mesh, dropped.empty, "empty cells are left out");
-  addCount(mesh, dropped.ghosts, "ghost cells, which other pieces have or which are hidden, are "
-                                 "left out");
+  addCount(mesh, dropped.ghosts,
+           "ghost cells, which other pieces have or which are hidden, are "
+           "left out");
   addCount(mesh, dropped.curved, "curved tetrahedra are taken by their corners");
 }
 

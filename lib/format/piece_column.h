@@ -20,8 +20,7 @@ struct PieceColumnPlan {
 
 class PieceColumn {
  public:
-  PieceColumn(const MeshPieces& mesh, PieceColumnPlan plan)
-      : mesh_(mesh), plan_(std::move(plan)) {}
+  PieceColumn(const MeshPieces& mesh, PieceColumnPlan plan) : mesh_(mesh), plan_(std::move(plan)) {}
 
   // Rows [first, first + count) of the whole file.
   void read(uint64_t first, size_t count, void* out);

@@ -142,8 +142,7 @@ class PiecedMesh final : public IndexedSource {
   void planCells() {
     connectivity_ = cellColumn(&MeshPiece::connectivity, "connectivity", 4);
     if (mesh_.form == CellForm::kTetrahedra) return;
-    if (mesh_.form == CellForm::kOffsets)
-      offsets_ = cellColumn(&MeshPiece::offsets, "offsets", 1);
+    if (mesh_.form == CellForm::kOffsets) offsets_ = cellColumn(&MeshPiece::offsets, "offsets", 1);
     types_ = cellColumn(&MeshPiece::types, "types", 1);
     if (onlyTetrahedra() && !hasGhosts())
       takeTetrahedra();
@@ -262,8 +261,8 @@ class PiecedMesh final : public IndexedSource {
 }  // namespace
 
 // Names that writers give to arrays of global ids of points where no attribute tells.
-static constexpr const char* kGlobalIds[] = {"GlobalPointIds", "vtkGlobalPointIds",
-                                             "GlobalNodeIds", "GlobalNodeId", "GlobalIds"};
+static constexpr const char* kGlobalIds[] = {"GlobalPointIds", "vtkGlobalPointIds", "GlobalNodeIds",
+                                             "GlobalNodeId", "GlobalIds"};
 
 static int findGlobalIds(const Schema& schema, const std::string& named) {
   const auto usable = [&](int i) {

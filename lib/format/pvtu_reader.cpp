@@ -62,8 +62,7 @@ Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   for (const std::string& name : PieceNames(*bytes).run())
     addVtuPieces(mesh, pool->add(pathBeside(bytes->name(), name)));
   mesh.name = bytes->name();
-  if (mesh.pieces.empty())
-    fail(Status::kBadData, "%s: there is no <Piece>", mesh.name.c_str());
+  if (mesh.pieces.empty()) fail(Status::kBadData, "%s: there is no <Piece>", mesh.name.c_str());
   Input input;
   input.indexed = openPiecedMesh(std::move(mesh), options);
   return input;

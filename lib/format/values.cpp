@@ -56,7 +56,7 @@ size_t convertFrom(const unsigned char* in, unsigned char* out, ScalarType type,
 }
 
 size_t convertSome(const unsigned char* in, ValueType from, unsigned char* out, ScalarType to,
-                     size_t count) {
+                   size_t count) {
   switch (from) {
     case ValueType::kInt8:
       return convertFrom<int8_t>(in, out, to, count);

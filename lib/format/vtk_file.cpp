@@ -47,8 +47,9 @@ struct Attribute {
 };
 
 constexpr Attribute kAttributes[] = {
-    {"vectors", 3, false},    {"normals", 3, false},       {"tensors", 9, false},
-    {"tensors6", 6, false},   {"global_ids", 1, false},    {"pedigree_ids", 1, false},
+    {"vectors", 3, false},    {"normals", 3, false},
+    {"tensors", 9, false},    {"tensors6", 6, false},
+    {"global_ids", 1, false}, {"pedigree_ids", 1, false},
     {"edge_flags", 1, false}, {"texture_coordinates", 0, true},
 };
 
@@ -181,8 +182,7 @@ class VtkParser {
 
   [[noreturn]] void failShort(const VtkArray& array) const {
     fail(textOf("the file ends before the %llu x %d values of \"%s\"",
-                static_cast<unsigned long long>(array.rows), array.components,
-                array.name.c_str()));
+                static_cast<unsigned long long>(array.rows), array.components, array.name.c_str()));
   }
 
   void passStrings(uint64_t count) {
@@ -263,10 +263,9 @@ class VtkParser {
     if (!file_.points) fail("there is data before the POINTS");
     const uint64_t claimed = number("the number of rows");
     if (claimed != rows)
-      fail(textOf("there is data for %llu %s, but there are %llu",
-                  static_cast<unsigned long long>(claimed),
-                  part == Part::kPoints ? "points" : "cells",
-                  static_cast<unsigned long long>(rows)));
+      fail(textOf(
+          "there is data for %llu %s, but there are %llu", static_cast<unsigned long long>(claimed),
+          part == Part::kPoints ? "points" : "cells", static_cast<unsigned long long>(rows)));
     part_ = part;
     scan_.line();
   }

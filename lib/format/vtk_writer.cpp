@@ -153,8 +153,8 @@ class VtkWriter final : public Sink {
   }
 
   void writeCells(BufferedSink& sink) {
-    writeText(sink, "CELLS " + std::to_string(cell_count_) + " " +
-                        std::to_string(5 * cell_count_) + "\n");
+    writeText(sink, "CELLS " + std::to_string(cell_count_) + " " + std::to_string(5 * cell_count_) +
+                        "\n");
     NumberRun<int32_t> run(sink);
     forCells([&](const int64_t* corners) {
       run.add(4);

@@ -72,7 +72,8 @@ class VtkHdf {
   // Of several time steps, whose partitions follow each other, those of the first.
   size_t countParts() {
     if (points_.size() != cells_.size() || points_.size() != ids_.size())
-      failFile(Status::kBadData, "the numbers of points, cells and ids are of different partitions");
+      failFile(Status::kBadData,
+               "the numbers of points, cells and ids are of different partitions");
     if (!file_->has("VTKHDF/Steps")) return points_.size();
     mesh_.addNote("of several time steps the first one is read");
     if (!file_->has("VTKHDF/Steps/NumberOfParts")) return points_.size() > 0;
@@ -112,8 +113,8 @@ class VtkHdf {
     if (!file_->has(path)) failFile(Status::kBadData, "there is no dataset \"" + path + "\"");
     const Hdf5Shape shape = file_->shapeOf(path);
     if (!shape.numbers || shape.components != components)
-      failFile(Status::kBadData, "dataset \"" + path + "\" has not " +
-                                     std::to_string(components) + " numbers in a row");
+      failFile(Status::kBadData, "dataset \"" + path + "\" has not " + std::to_string(components) +
+                                     " numbers in a row");
     return makeArray(name, path, shape, first, rows);
   }
 
@@ -159,9 +160,9 @@ class VtkHdf {
                   std::vector<MeshArray> MeshPiece::*list) {
     const bool of_points = list == &MeshPiece::point_data;
     for (MeshPiece& piece : mesh_.pieces)
-      (piece.*list).push_back(makeArray(name, path, shape,
-                                        of_points ? piece.first_point : piece.first_cell,
-                                        of_points ? piece.point_count : piece.cell_count));
+      (piece.*list)
+          .push_back(makeArray(name, path, shape, of_points ? piece.first_point : piece.first_cell,
+                               of_points ? piece.point_count : piece.cell_count));
   }
 
   MeshPieces& mesh_;

@@ -31,9 +31,8 @@ class SpoolStorage final : public Hdf5Storage {
     const size_t n = static_cast<size_t>(std::min<uint64_t>(size, left));
     size_t done = 0;
     while (done < n) {
-      const ssize_t got =
-          ::pread(spool_.descriptor(), static_cast<char*>(out) + done, n - done,
-                  static_cast<off_t>(offset + done));
+      const ssize_t got = ::pread(spool_.descriptor(), static_cast<char*>(out) + done, n - done,
+                                  static_cast<off_t>(offset + done));
       if (got < 0 && errno != EINTR) failIo(kSpoolName, "read");
       if (got == 0) break;
       if (got > 0) done += static_cast<size_t>(got);
@@ -142,8 +141,8 @@ class VtkHdfWriter final : public Sink {
     std::vector<std::string> names;
     for (const Column& column : columns) {
       names.push_back(linkName(column.name, names));
-      out.push_back(makeColumn(group + "/" + names.back(), valueType(column.type),
-                               column.components));
+      out.push_back(
+          makeColumn(group + "/" + names.back(), valueType(column.type), column.components));
     }
   }
 
@@ -164,8 +163,7 @@ class VtkHdfWriter final : public Sink {
     const std::vector<unsigned char> tetrahedra(kMadeAtOnce, kVtkTetra);
     int64_t made[kMadeAtOnce];
     for (uint64_t done = 0; done <= cell_count_; done += kMadeAtOnce) {
-      const size_t n =
-          static_cast<size_t>(std::min<uint64_t>(cell_count_ + 1 - done, kMadeAtOnce));
+      const size_t n = static_cast<size_t>(std::min<uint64_t>(cell_count_ + 1 - done, kMadeAtOnce));
       for (size_t i = 0; i < n; ++i) made[i] = static_cast<int64_t>(4 * (done + i));
       offsets->append(made, n);
       types->append(tetrahedra.data(),

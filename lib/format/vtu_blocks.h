@@ -54,7 +54,8 @@ class BlockDecoder {
 
 // Blocks of a compressor whose decoder takes any part: a block may be as large as the array.
 std::unique_ptr<ValueBytes> openStreamedBlocks(BlockTable table, const EncodedRun& run,
-                                               uint64_t size, std::unique_ptr<BlockDecoder> decoder);
+                                               uint64_t size,
+                                               std::unique_ptr<BlockDecoder> decoder);
 
 // The rows of the table of compressors, each in its own file; null where it is not built in.
 std::unique_ptr<ValueBytes> openZlibBlocks(const EncodedRun& run, const VtuFile& file,

@@ -12,7 +12,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr uint64_t kMaxRatio = 256;               // 255 bytes for one at best
+constexpr uint64_t kMaxRatio = 256;                // 255 bytes for one at best
 constexpr uint64_t kMaxBlock = uint64_t{1} << 26;  // VTK's are of 32 KiB
 
 class Lz4Blocks final : public ValueBytes {
@@ -48,11 +48,11 @@ class Lz4Blocks final : public ValueBytes {
     if (compressed > static_cast<uint64_t>(most)) failBlock(block);
     packed_.resize(static_cast<size_t>(compressed));
     blocks_.readAt(begin, packed_.data(), packed_.size());
-    plain_.resize(static_cast<size_t>(
-        std::min(table_.blockBytes(), size_ - block * table_.blockBytes())));
-    const int made = LZ4_decompress_safe(packed_.data(), plain_.data(),
-                                         static_cast<int>(packed_.size()),
-                                         static_cast<int>(plain_.size()));
+    plain_.resize(
+        static_cast<size_t>(std::min(table_.blockBytes(), size_ - block * table_.blockBytes())));
+    const int made =
+        LZ4_decompress_safe(packed_.data(), plain_.data(), static_cast<int>(packed_.size()),
+                            static_cast<int>(plain_.size()));
     if (made != static_cast<int>(plain_.size())) failBlock(block);
     block_ = block;
   }

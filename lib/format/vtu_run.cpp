@@ -102,7 +102,7 @@ VtuArray trimmed(ByteSource& bytes, VtuArray array) {
 }  // namespace
 
 std::unique_ptr<ValueBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
-                                       const VtuArray& array, uint64_t size) {
+                                         const VtuArray& array, uint64_t size) {
   const bool base64 = array.format != VtuFormat::kAppendedRaw;
   VtuArray place = array;
   if (array.format == VtuFormat::kInlineBase64) place = trimmed(bytes, array);

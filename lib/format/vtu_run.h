@@ -38,7 +38,7 @@ class EncodedRun {
 
 // Opens the values of a binary array, which must take exactly `size` bytes, at least one.
 std::unique_ptr<ValueBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
-                                       const VtuArray& array, uint64_t size);
+                                         const VtuArray& array, uint64_t size);
 
 // Opens an array that must have exactly `count` values, at least one. Nothing is believed: sizes
 // that the file claims are compared with its length before anything is allocated.

@@ -91,7 +91,8 @@ class HeaderParser final : XmlFeed {
       if (file_.word_bytes == 4 && std::strcmp(header, "UInt32") != 0)
         failHere("header_type is neither UInt32 nor UInt64");
     }
-    if (const char* compressor = find(attributes, "compressor")) compressor_ = cutMeshName(compressor);
+    if (const char* compressor = find(attributes, "compressor"))
+      compressor_ = cutMeshName(compressor);
     file_.compressor = findVtuCompressor(compressor_);
     return true;
   }
@@ -153,7 +154,8 @@ class HeaderParser final : XmlFeed {
       if (data || std::strcmp(element, "DataArray") != 0)
         file_.addNote("array \"" + array.name + "\" is left out: its values are no numbers");
       else
-        failHere("an array of points or cells has the type \"" + cutMeshName(type ? type : "") + "\"");
+        failHere("an array of points or cells has the type \"" + cutMeshName(type ? type : "") +
+                 "\"");
       return std::strcmp(element, "DataArray") == 0;
     }
     if (!setComponents(array, attributes, data)) return true;

@@ -76,9 +76,8 @@ std::string compressed(const std::string& bytes, const std::string& codec) {
   std::string out(bytes.size() + 1024, '\0');
 #ifdef TETSTREAM_WITH_LZ4
   if (codec == "lz4") {
-    out.resize(static_cast<size_t>(
-        LZ4_compress_default(bytes.data(), out.data(), static_cast<int>(bytes.size()),
-                             static_cast<int>(out.size()))));
+    out.resize(static_cast<size_t>(LZ4_compress_default(
+        bytes.data(), out.data(), static_cast<int>(bytes.size()), static_cast<int>(out.size()))));
     return out;
   }
 #endif
@@ -160,7 +159,10 @@ std::string makeVtu(const std::vector<VtuTestPiece>& pieces, const VtuStyle& sty
   const std::string codec = style.codec;
   if (style.zlib)
     xml += std::string(" compressor=\"vtk") +
-           (codec == "lz4" ? "LZ4" : codec == "lzma" ? "LZMA" : "ZLib") + "DataCompressor\"";
+           (codec == "lz4"    ? "LZ4"
+            : codec == "lzma" ? "LZMA"
+                              : "ZLib") +
+           "DataCompressor\"";
   xml += "><UnstructuredGrid>\n";
   for (const VtuTestPiece& piece : pieces) {
     xml += "<Piece NumberOfPoints=\"" + std::to_string(piece.points) + "  \" NumberOfCells=\"" +

@@ -16,7 +16,7 @@ struct VtuStyle {
   bool big_endian = false;
   int header_bits = 32;
   size_t block_bytes = 32768;
-  bool header_apart = false;  // base64 without zlib: the length word is a text of its own
+  bool header_apart = false;   // base64 without zlib: the length word is a text of its own
   const char* codec = "zlib";  // what is meant by `zlib`: also "lz4", "lzma", where built in
 };
 

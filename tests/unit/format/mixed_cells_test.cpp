@@ -32,12 +32,11 @@ const std::vector<VtuStyle> kStyles = {{}, {VtuCoding::kAppendedRaw}, {VtuCoding
 TEST(MixedCells, KeepTheTetrahedraWithTheirDataAndTellOfTheOthers) {
   for (const VtuStyle& style : kStyles)
     for (const size_t step : {1, 2, 1000}) {
-      const VtuMesh mesh = readVtu(makeVtu({mixedPiece(), twoCellPiece(), mixedPiece()}, style),
-                                   step);
+      const VtuMesh mesh =
+          readVtu(makeVtu({mixedPiece(), twoCellPiece(), mixedPiece()}, style), step);
       EXPECT_EQ(mesh.schema.cell_count, 6);
-      EXPECT_EQ(mesh.cells,
-                (std::vector<int64_t>{0, 1, 2, 3, 1, 2, 3, 4, 5, 6, 7, 8, 6, 7, 8, 9,
-                                      10, 11, 12, 13, 11, 12, 13, 14}));
+      EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 1,  2,  3,  4,  5,  6,  7,  8,
+                                                  6, 7, 8, 9, 10, 11, 12, 13, 11, 12, 13, 14}));
       const std::vector<int32_t> labels = valuesAs<int32_t>(mesh.cell_data[0]);
       EXPECT_EQ(labels[0], 101);
       EXPECT_EQ(labels[1], 104);
@@ -62,8 +61,9 @@ TEST(MixedCells, NameTheFirstCellThatIsNoTetrahedronAndItsType) {
   VtuTestPiece piece = mixedPiece();
   piece.cells_element[2].integers[3] = 14;
   const std::string text = vtuFailure(makeVtu({piece}, {}));
-  EXPECT_TRUE(text.starts_with("TETSTREAM_UNSUPPORTED: test.vtu: cell 3 has VTK's type 14, "
-                               "a pyramid"))
+  EXPECT_TRUE(
+      text.starts_with("TETSTREAM_UNSUPPORTED: test.vtu: cell 3 has VTK's type 14, "
+                       "a pyramid"))
       << text;
 }
 

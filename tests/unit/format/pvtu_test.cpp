@@ -68,9 +68,7 @@ VtuTestPiece onePiece(double tip, int64_t first_id, bool ids) {
   piece.cells_element[1].integers = {4};
   piece.cells_element[2].integers = {10};
   piece.cell_data[0].integers = {first_id};
-  if (ids)
-    piece.point_data.push_back(
-        {"Int64", "GlobalPointIds", 1, {}, {10, 11, 12, first_id}});
+  if (ids) piece.point_data.push_back({"Int64", "GlobalPointIds", 1, {}, {10, 11, 12, first_id}});
   return piece;
 }
 
@@ -93,8 +91,8 @@ TEST_F(Pvtu, JoinsPointsWithTheSameCoordinates) {
 
 TEST_F(Pvtu, BelievesGlobalIdsMoreThanCoordinates) {
   VtuTestPiece second = onePiece(1, 5, true);
-  second.points_element[0].reals[1] = 1e-9;      // not quite the same place
-  second.point_data[1].integers[2] = 99;         // the same place, but another point
+  second.points_element[0].reals[1] = 1e-9;  // not quite the same place
+  second.point_data[1].integers[2] = 99;     // the same place, but another point
   writePieces({onePiece(-1, 4, true), second});
   const VtuMesh mesh = read();
   EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 0, 1, 4, 5}));

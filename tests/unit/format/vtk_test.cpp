@@ -118,13 +118,12 @@ std::string big(const std::vector<T>& values) {
 
 std::string binaryFile(const std::string& version, const std::string& cells) {
   return "# vtk DataFile Version " + version + "\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\n" +
-         "POINTS 5 float\n" +
-         big<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}) + "\n" + cells +
-         "CELL_TYPES 2\n" + big<int32_t>({10, 10}) + "\nPOINT_DATA 5\nSCALARS b bit 1\n" +
-         "LOOKUP_TABLE default\n\xA8\nFIELD F 2\nstr 1 5 string\n" +
-         std::string("\xC1") + "a" + std::string("\x80\x02") + "bc" +
-         std::string("\x40\x00\x00\x01", 4) + "d" + std::string("\0\0\0\0\0\0\0\x01", 8) + "e" +
-         "\xC0" + "\nd 2 5 double\n" + big<double>({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}) +
+         "POINTS 5 float\n" + big<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}) + "\n" +
+         cells + "CELL_TYPES 2\n" + big<int32_t>({10, 10}) + "\nPOINT_DATA 5\nSCALARS b bit 1\n" +
+         "LOOKUP_TABLE default\n\xA8\nFIELD F 2\nstr 1 5 string\n" + std::string("\xC1") + "a" +
+         std::string("\x80\x02") + "bc" + std::string("\x40\x00\x00\x01", 4) + "d" +
+         std::string("\0\0\0\0\0\0\0\x01", 8) + "e" + "\xC0" + "\nd 2 5 double\n" +
+         big<double>({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}) +
          "\nMETADATA\nINFORMATION 0\n\nCELL_DATA 2\nTENSORS t float\n" +
          big<float>({1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9}) + "\n";
 }
@@ -174,8 +173,7 @@ TEST(Vtk, SaysWhereAFileIsWrong) {
   };
   for (const auto& c : cases) {
     const std::string text = failureAs("vtk", replaced(kText, c.from, c.to));
-    EXPECT_TRUE(has(text, c.says))
-        << c.from << " -> " << c.to << ": " << text;
+    EXPECT_TRUE(has(text, c.says)) << c.from << " -> " << c.to << ": " << text;
   }
   EXPECT_TRUE(has(failureAs("vtk", ""), "BAD_DATA: test.vtk: byte 0"));
 }
@@ -184,8 +182,7 @@ TEST(Vtk, RefusesClaimsThatTheFileCannotHold) {
   const std::string good = binaryFile("4.2", kRows), late = binaryFile("5.1", kOffsets);
   for (const char* count : {"1152921504606846976", "72057594037927936", "4294967296", "2000"}) {
     for (const char* name : {"POINTS ", "CELL_TYPES ", "POINT_DATA ", "CELL_DATA "}) {
-      const std::string bad =
-          replaced(good, name, std::string(name) + count + " ");
+      const std::string bad = replaced(good, name, std::string(name) + count + " ");
       EXPECT_TRUE(has(failureAs("vtk", bad), "BAD_DATA: test.vtk: byte")) << name << count;
     }
     for (const std::string& from : {std::string("CELLS 2 10"), std::string("CELLS 2")})

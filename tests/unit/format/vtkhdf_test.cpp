@@ -108,7 +108,7 @@ TEST(VtkHdf, WrittenGivesBackEveryArrayInTheSameBytes) {
 
 TEST(VtkHdf, ReadsColumnsOfManyChunks) {
   VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
-  const int64_t copies = 20000;  // a chunk holds 16384 ids
+  const int64_t copies = 20000;  // a chunk holds 65536 ids
   const std::vector<int64_t> cells = mesh.cells;
   const std::string labels = mesh.cell_data[0];
   for (int64_t i = 1; i < copies; ++i) {
@@ -131,7 +131,9 @@ TEST(VtkHdf, SaysWhatIsWrong) {
                   "UNSUPPORTED: test.vtkhdf: the file holds \"ImageData\""));
   EXPECT_TRUE(has(failure([](Parts& p) { p.types[1] = 14; }), "cell 1 has VTK's type 14"));
   EXPECT_TRUE(has(failure([](Parts& p) { p.connectivity[7] = 4; }), "cell 1 uses point 4"));
-  EXPECT_TRUE(has(failure([](Parts& p) { p.points = {4, 5}; }),
+  EXPECT_TRUE(has(failure([](Parts& p) {
+                    p.points = {4, 5};
+                  }),
                   "dataset \"VTKHDF/Points\" has 8 rows where the counts need 9"));
   EXPECT_TRUE(has(failure([](Parts& p) { p.cells = {1}; }), "different partitions"));
   EXPECT_TRUE(has(failure([](Parts& p) { p.cells = {1, -2}; }), "than any file can hold"));
@@ -154,7 +156,8 @@ TEST(VtkHdf, RefusesSpaceThatWasNeverWritten) {
     file.shapeOf("claim");
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_TRUE(has(error.text(), "dataset \"claim\" claims 1125899906842624 rows")) << error.text();
+    EXPECT_TRUE(has(error.text(), "dataset \"claim\" claims 1125899906842624 rows"))
+        << error.text();
   }
 }
 

@@ -44,8 +44,8 @@ TEST(VtuCodecs, ReadBlocksOfAnySizeInAnyCoding) {
 
 TEST(VtuCodecs, SurviveDamageOfEveryByte) {
   for (const char* codec : kCodecs) {
-    const std::string good = makeVtu({twoCellPiece("Float32", "UInt8")},
-                                     styleOf(codec, VtuCoding::kAppendedRaw, 16));
+    const std::string good =
+        makeVtu({twoCellPiece("Float32", "UInt8")}, styleOf(codec, VtuCoding::kAppendedRaw, 16));
     for (size_t byte = 0; byte < good.size(); ++byte)
       for (const int bit : {0, 3, 7}) {
         std::string bad = good;
@@ -56,8 +56,7 @@ TEST(VtuCodecs, SurviveDamageOfEveryByte) {
             << codec << ", byte " << byte << ": " << text;
       }
     for (size_t size = 0; size < good.size(); ++size)
-      EXPECT_TRUE(vtuFailure(good.substr(0, size)) != "" ||
-                  size >= good.rfind("\n</AppendedData>"))
+      EXPECT_TRUE(vtuFailure(good.substr(0, size)) != "" || size >= good.rfind("\n</AppendedData>"))
           << codec << ", cut to " << size;
   }
 }
