@@ -14,6 +14,10 @@ namespace tetstream {
 
 namespace {
 
+struct DriverInfo {
+  Hdf5File* file;
+};
+
 struct DriverFile {
   H5FD_t library_part;  // first
   Hdf5File* file;
@@ -46,7 +50,7 @@ H5FD_t* openDriver(const char*, unsigned, hid_t access, haddr_t) {
     std::free(opened);
     return nullptr;
   }
-  std::memcpy(&opened->file, info, sizeof opened->file);
+  opened->file = static_cast<const DriverInfo*>(info)->file;
   return &opened->library_part;
 }
 
@@ -102,7 +106,7 @@ hid_t registerDriver() {
   driver.name = "tetstream";
   driver.maxaddr = (haddr_t{1} << 62) - 1;
   driver.fc_degree = H5F_CLOSE_STRONG;
-  driver.fapl_size = sizeof(Hdf5File*);
+  driver.fapl_size = sizeof(DriverInfo);
   driver.open = openDriver;
   driver.close = closeDriver;
   driver.query = queryDriver;
@@ -122,7 +126,7 @@ hid_t registerDriver() {
 Hdf5Id hdf5AccessOf(Hdf5File& file) {
   static const hid_t driver = registerDriver();
   Hdf5Id access(hdf5().Pcreate(hdf5().P_CLS_FILE_ACCESS_ID), hdf5().Pclose);
-  Hdf5File* const info = &file;
+  const DriverInfo info = {&file};
   if (driver < 0 || access < 0 || hdf5().Pset_driver(access, driver, &info) < 0 ||
       hdf5().Pset_fclose_degree(access, H5F_CLOSE_STRONG) < 0)
     fail(Status::kInternal, "%s: HDF5 refuses our way to the file", file.name().c_str());

@@ -137,7 +137,8 @@ class VtkHdf {
 
   void addData(const std::string& group, uint64_t rows, std::vector<MeshArray> MeshPiece::*list) {
     for (const std::string& name : file_->datasetsOf(group)) {
-      const std::string path = group + "/" + name, shown = "array \"" + cutMeshName(name) + "\"";
+      const std::string path = textOf("%s/%s", group.c_str(), name.c_str());
+      const std::string shown = textOf("array \"%s\"", cutMeshName(name).c_str());
       const Hdf5Shape shape = file_->shapeOf(path);
       if (!shape.numbers) {
         mesh_.addNote(shown + " is left out: its values are no numbers");
