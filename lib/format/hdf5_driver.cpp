@@ -5,8 +5,8 @@
 #include <H5FDdevelop.h>
 #endif
 
-#include <cstdlib>
 #include <cstring>
+#include <new>
 
 #include "status.h"
 
@@ -15,12 +15,12 @@ namespace tetstream {
 namespace {
 
 struct DriverInfo {
-  Hdf5File* file;
+  const std::shared_ptr<Hdf5Link>* link;
 };
 
 struct DriverFile {
   H5FD_t library_part;  // first
-  Hdf5File* file;
+  std::shared_ptr<Hdf5Link> link;
   haddr_t end_of_addresses;
 };
 
@@ -31,31 +31,30 @@ const DriverFile& own(const H5FD_t* file) {
   return *reinterpret_cast<const DriverFile*>(file);
 }
 
-// No exception passes through the library, which is C.
+// No exception passes through the library, which is C: the file keeps it.
 template <class Function>
-herr_t guarded(H5FD_t* file, Function function) noexcept {
+bool kept(H5FD_t* file, Function function) noexcept {
+  Hdf5File* const known = own(file).link->file;
+  if (!known) return false;
   try {
-    function(own(file).file->storage());
-    return 0;
+    function(known->storage());
+    return true;
   } catch (...) {
-    own(file).file->keepError();
-    return -1;
+    known->keepError();
+    return false;
   }
 }
 
 H5FD_t* openDriver(const char*, unsigned, hid_t access, haddr_t) {
   const void* info = hdf5().Pget_driver_info(access);
-  auto* opened = static_cast<DriverFile*>(std::calloc(1, sizeof(DriverFile)));
-  if (!info || !opened) {
-    std::free(opened);
-    return nullptr;
-  }
-  opened->file = static_cast<const DriverInfo*>(info)->file;
+  auto* opened = info ? new (std::nothrow) DriverFile{} : nullptr;
+  if (!opened) return nullptr;
+  opened->link = *static_cast<const DriverInfo*>(info)->link;
   return &opened->library_part;
 }
 
 herr_t closeDriver(H5FD_t* file) {
-  std::free(&own(file));
+  delete &own(file);
   return 0;
 }
 
@@ -75,26 +74,32 @@ herr_t setEndOfAddresses(H5FD_t* file, H5FD_mem_t, haddr_t end) {
 }
 
 haddr_t endOfFile(const H5FD_t* file, H5FD_mem_t) {
-  return own(file).file->storage().size();
+  const Hdf5File* const known = own(file).link->file;
+  return known ? known->storage().size() : own(file).end_of_addresses;
 }
 
 // What lies between the file's end and that of the addresses was never written.
 herr_t readDriver(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size, void* out) {
-  return guarded(file, [&](Hdf5Storage& storage) {
+  const bool good = kept(file, [&](Hdf5Storage& storage) {
     const size_t got = storage.readAt(address, out, size);
     std::memset(static_cast<char*>(out) + got, 0, size - got);
   });
+  return good ? 0 : -1;
 }
 
+// note: a failure is not told to the library, whose state is broken, up to a crash when the program
+// ends, once a file could not be closed. Our file is the one that knows, and fails.
 herr_t writeDriver(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t address, size_t size,
                    const void* data) {
-  return guarded(file, [&](Hdf5Storage& storage) { storage.writeAt(address, data, size); });
+  kept(file, [&](Hdf5Storage& storage) { storage.writeAt(address, data, size); });
+  return 0;
 }
 
 herr_t truncateDriver(H5FD_t* file, hid_t, hbool_t) {
-  return guarded(file, [&](Hdf5Storage& storage) {
+  kept(file, [&](Hdf5Storage& storage) {
     if (storage.size() != own(file).end_of_addresses) storage.resize(own(file).end_of_addresses);
   });
+  return 0;
 }
 
 hid_t registerDriver() {
@@ -126,7 +131,7 @@ hid_t registerDriver() {
 Hdf5Id hdf5AccessOf(Hdf5File& file) {
   static const hid_t driver = registerDriver();
   Hdf5Id access(hdf5().Pcreate(hdf5().P_CLS_FILE_ACCESS_ID), hdf5().Pclose);
-  const DriverInfo info = {&file};
+  const DriverInfo info = {&file.link()};
   if (driver < 0 || access < 0 || hdf5().Pset_driver(access, driver, &info) < 0 ||
       hdf5().Pset_fclose_degree(access, H5F_CLOSE_STRONG) < 0)
     fail(Status::kInternal, "%s: HDF5 refuses our way to the file", file.name().c_str());

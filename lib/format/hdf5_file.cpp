@@ -26,7 +26,7 @@ void Hdf5Id::close() noexcept {
 }
 
 Hdf5File::Hdf5File(std::unique_ptr<Hdf5Storage> storage, const std::string& name, bool create)
-    : storage_(std::move(storage)), name_(name) {
+    : storage_(std::move(storage)), name_(name), link_(this) {
   const Hdf5Turn turn;
   const Hdf5Id access = hdf5AccessOf(*this);
   const hid_t file = create ? hdf5().Fcreate(name.c_str(), kTruncate, H5P_DEFAULT, access)
@@ -52,7 +52,7 @@ static herr_t takeWords(unsigned, const H5E_error2_t* error, void* words) {
 }
 
 void Hdf5File::failCall(const std::string& what) {
-  if (failed_) std::rethrow_exception(std::exchange(failed_, nullptr));
+  if (failed_) std::rethrow_exception(failed_);
   std::string words;
   hdf5().Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, takeWords, &words);
   hdf5().Eclear2(H5E_DEFAULT);

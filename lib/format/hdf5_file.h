@@ -55,6 +55,25 @@ struct Hdf5Shape {
   int dimensions = 1;  // 2: rows and components
 };
 
+class Hdf5File;
+
+// By which the library's driver knows our file; null when that is gone.
+struct Hdf5Link {
+  Hdf5File* file;
+};
+
+class Hdf5LinkEnd {
+ public:
+  explicit Hdf5LinkEnd(Hdf5File* file) : link_(std::make_shared<Hdf5Link>(Hdf5Link{file})) {}
+  ~Hdf5LinkEnd() { link_->file = nullptr; }
+  Hdf5LinkEnd(const Hdf5LinkEnd&) = delete;
+  Hdf5LinkEnd& operator=(const Hdf5LinkEnd&) = delete;
+  const std::shared_ptr<Hdf5Link>& link() const { return link_; }
+
+ private:
+  std::shared_ptr<Hdf5Link> link_;
+};
+
 class Hdf5File {
  public:
   // Opens an existing file, or creates one in an empty storage. `name` is for messages.
@@ -64,7 +83,8 @@ class Hdf5File {
   Hdf5File& operator=(const Hdf5File&) = delete;
 
   const std::string& name() const { return name_; }
-  Hdf5Storage& storage() { return *storage_; }
+  Hdf5Storage& storage() const { return *storage_; }
+  const std::shared_ptr<Hdf5Link>& link() const { return link_.link(); }
   void close();  // of one that was created: everything is written
 
   // Everything below is to be called in a turn; paths are as in "VTKHDF/Points".
@@ -86,7 +106,7 @@ class Hdf5File {
     if (failed_ || result < 0) failCall(what);
     return result;
   }
-  void keepError() noexcept {
+  void keepError() noexcept {  // the first one
     if (!failed_) failed_ = std::current_exception();
   }
 
@@ -96,6 +116,7 @@ class Hdf5File {
 
   std::unique_ptr<Hdf5Storage> storage_;
   std::string name_;
+  Hdf5LinkEnd link_;
   std::exception_ptr failed_;  // in the storage
   Hdf5Id file_;
 };
