@@ -95,6 +95,17 @@ def check_structures(build):
     assert len(stars) == 4 and all(float(row[4]) > 0 and float(row[6]) > 16 for row in stars), rows
 
 
+def check_reading(build):
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        fluid(build, folder)
+        words = [harness.bench_path(build, "reading"), "--rounds", "1",
+                 os.path.join(folder, "fluid.vtu")]
+        done = subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True)
+    rows = [line[2:-2].split(" | ") for line in done.stdout.splitlines()]
+    assert len(rows) == 3 and rows[2][0] == "fluid.vtu" and int(rows[2][1]) > 3000, rows
+    assert 0 < float(rows[2][4]) and 0 < float(rows[2][3]), rows
+
+
 def check_orders(build):
     with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
         fluid(build, folder)
@@ -229,6 +240,7 @@ def main():
     check_memory_limit(build)
     check_slope(build)
     check_structures(build)
+    check_reading(build)
     check_orders(build)
     check_cost_of_fields(build)
     check_traces(build)
