@@ -181,7 +181,11 @@ class PiecedMesh final : public IndexedSource {
     while (first + 1 < mesh_.pieces.size() && !hasRows(mesh_.pieces[first], rows)) ++first;
     if (!hasRows(mesh_.pieces[first], rows)) first = 0;
     for (const MeshArray& model : mesh_.pieces[first].*list) {
-      if (isGhostMarks(model)) continue;  // they speak of pieces, which are one mesh here
+      if (isGhostMarks(model)) {
+        mesh_.addNote("array \"" + model.name +
+                      "\" is left out: it tells of pieces, which are one mesh here");
+        continue;
+      }
       PieceColumnPlan plan;
       if (!planData(mesh_, list, rows, model, &plan)) continue;
       schema.push_back({model.name, plan.components, plan.type});
