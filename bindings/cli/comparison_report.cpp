@@ -195,12 +195,6 @@ std::string regionsText(const ComparisonFigures& f) {
 
 // ---------------------------------------------------------------------------------- for programs
 
-void addNumbers(JsonText& json, const char* name, const double* numbers, int count) {
-  json.key(name).open('[');
-  for (int i = 0; i < count; ++i) json.value(numbers[i]);
-  json.close(']');
-}
-
 void addMesh(JsonText& json, const char* name, const tetstream_mesh_figures& m) {
   json.key(name).open('{');
   const auto add = [&](const char* key, auto value) { json.key(key).value(value); };
@@ -240,7 +234,7 @@ void addField(JsonText& json, const tetstream_field_comparison& f) {
   json.key("components").value(f.components);
   json.key("range").value(f.range);
   json.key("largest").value(f.largest);
-  addNumbers(json, "largest_place", f.largest_place, 3);
+  json.key("largest_place").values(f.largest_place, 3);
   json.key("largest_inside").value(f.largest_inside);
   json.key("cmse").value(f.cmse);
   json.key("rms").value(f.rms);
@@ -292,8 +286,8 @@ std::string comparisonJson(const ComparisonFigures& f) {
   json.key("rms_distance").value(i.rms_distance);
   json.key("distance_back").value(i.distance_back);
   json.key("rms_distance_back").value(i.rms_distance_back);
-  addNumbers(json, "distance_place", i.distance_place, 3);
-  addNumbers(json, "distance_back_place", i.distance_back_place, 3);
+  json.key("distance_place").values(i.distance_place, 3);
+  json.key("distance_back_place").values(i.distance_back_place, 3);
   json.key("regions").value(std::string_view(i.regions));
   json.key("seconds").value(i.seconds);
   json.key("peak_bytes").value(i.peak_bytes);

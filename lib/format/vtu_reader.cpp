@@ -12,7 +12,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr int64_t kTetra = 10;           // VTK's number of the linear tetrahedron
 constexpr size_t kCheckedAtOnce = 2048;  // cells
 
 using PieceArrays = std::vector<VtuArray> VtuPiece::*;

@@ -7,13 +7,13 @@
 
 #include "registry.h"
 #include "status.h"
+#include "vtu_file.h"
 #include "vtu_spool.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr unsigned char kTetra = 10;  // VTK's number of the linear tetrahedron
 constexpr size_t kMadeAtOnce = 1024;  // cells whose types and offsets are made
 
 const char* nameOf(ScalarType type) {
