@@ -17,10 +17,10 @@ namespace tetstream {
 constexpr uint32_t kNone = 0xffffffffu;
 
 enum VertexFlag : uint8_t {
-  kFinal = 1,     // no later cell will use it
-  kBoundary = 2,  // on the boundary of the domain (known once it or a neighbour there is final)
-  kLocked = 4,    // never moved: corner, non-manifold boundary, bad cell, or the caller's wish
-  kWritten = 8,   // a cell that uses it has left: it is frozen
+  kFinal = 1,        // no later cell will use it
+  kBoundary = 2,     // on the boundary of the domain (known once it or a neighbour there is final)
+  kLocked = 4,       // never moved: corner, non-manifold boundary, bad cell, or the caller's wish
+  kWritten = 8,      // a cell that uses it has left: it is frozen
   kCollapsed = 16,   // merged into another vertex
   kInterface = 128,  // cells of different regions meet there (known as kBoundary is)
 };
