@@ -17,7 +17,10 @@ static tetstream_status setSink(const char* function, tetstream_simplifier* simp
 
 template <class Shown, class Callbacks>
 static std::unique_ptr<Shown> sinkOf(const Callbacks* callbacks) {
-  return callbacks ? std::make_unique<Shown>(readStruct(callbacks, "callbacks")) : nullptr;
+  if (!callbacks) return nullptr;
+  const Callbacks table = readStruct(callbacks, "callbacks");
+  needPlace(reinterpret_cast<const void*>(table.put), "the callback put");
+  return std::make_unique<Shown>(table);
 }
 
 tetstream_status tetstream_simplifier_set_map(tetstream_simplifier* simplifier,
