@@ -33,7 +33,7 @@ tetstream_status tetstream_simplifier_set_map_file(tetstream_simplifier* simplif
                                                    const char* path, const char* format) {
   return setSink(__func__, simplifier, &tetstream_simplifier::map, [&] {
     needPlace(path, "path");
-    return createMapFile(path, format ? format : "");
+    return createMapFile(path, format ? format : "", simplifier->output->files());
   });
 }
 
@@ -55,7 +55,7 @@ tetstream_status tetstream_simplifier_set_log_file(tetstream_simplifier* simplif
                                                    const char* path, const char* format) {
   return setSink(__func__, simplifier, &tetstream_simplifier::log, [&] {
     needPlace(path, "path");
-    return createLogFile(path, format ? format : "");
+    return createLogFile(path, format ? format : "", simplifier->output->files());
   });
 }
 
