@@ -741,6 +741,7 @@ typedef struct tetstream_mesh_figures {
   double share_below_1, share_below_5, share_below_10; /* of cells whose least one is below */
   double median_aspect, p99_aspect;  /* circumradius / (3 inradius): 1 is regular; within 1 % */
   double largest_aspect;             /* infinite if there is a flat cell */
+  int64_t duplicate_cells;      /* whose four vertices are those of one before */
 } tetstream_mesh_figures;
 
 /* The error of one nodal field that both meshes have. Of several components it is the norm of the
