@@ -162,7 +162,8 @@ std::string shapesText(const tetstream_mesh_figures& a, const tetstream_mesh_fig
          line("aspect, largest", a.largest_aspect, b.largest_aspect, "") +
          faults("inverted cells", a.inverted_cells, b.inverted_cells) +
          faults("flat cells", a.flat_cells, b.flat_cells) +
-         faults("folded faces", a.folded_faces, b.folded_faces);
+         faults("folded faces", a.folded_faces, b.folded_faces) +
+         faults("duplicate cells", a.duplicate_cells, b.duplicate_cells);
 }
 
 std::string regionLine(const tetstream_region_comparison& r) {
@@ -216,6 +217,7 @@ void addMesh(JsonText& json, const char* name, const tetstream_mesh_figures& m) 
   add("inverted_cells", m.inverted_cells);
   add("flat_cells", m.flat_cells);
   add("folded_faces", m.folded_faces);
+  add("duplicate_cells", m.duplicate_cells);
   add("least_angle", m.least_angle);
   add("largest_angle", m.largest_angle);
   add("mean_least_angle", m.mean_least_angle);
