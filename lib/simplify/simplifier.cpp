@@ -141,6 +141,7 @@ class WindowedEngine final : public Simplifier::Engine {
   void finish() override {
     checkCount("cells", plan_.schema.cell_count, intake_.cellsRead());
     checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
+    checkCount("labelled faces", plan_.schema.face_count, intake_.facesRead());
     intake_.finalizeAll();
     resolveNew();
     if (const size_t strange = core_.window.faces.strange())
