@@ -258,7 +258,7 @@ def main():
     args = parser.parse_args()
     tetstream = harness.Tetstream(args.tetstream)
     if args.mesh == "generated":
-        before = generate(10)
+        before = generate(8)
     else:
         before = read_su2(os.path.join(harness.folder("TETSTREAM_MESHES"), "native",
                                        args.mesh + ".su2"))
