@@ -115,7 +115,8 @@ const char* faultOf(const SectionHead& head);
 struct HeaderStart {  // then one record per field, per cell array, then the box
   int64_t vertices, cells, front_width, front_span, front_cells;  // -1: not known
   uint32_t box_known, reserved32;
-  uint64_t reserved[2];
+  int64_t faces;  // labelled; 0: none, or not known
+  uint64_t reserved;
 };
 static_assert(sizeof(HeaderStart) == 64);
 
