@@ -18,10 +18,6 @@ constexpr size_t kTextBytes = 1 << 16;
 constexpr size_t kMaxWord = 512;    // characters of one number
 constexpr size_t kMaxMarks = 4096;  // when there are more, every second one is dropped
 
-bool isBlank(char c) {
-  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
-}
-
 bool isWhole(std::string_view word, std::from_chars_result r) {
   return r.ec == std::errc() && r.ptr == word.data() + word.size();
 }

@@ -13,11 +13,15 @@ void DroppedMarks::tell(bool* told, const std::string& text) {
   *told = true;
 }
 
-void DroppedMarks::look(const BatchView& batch) {
+void DroppedMarks::lookAtLocks(const BatchView& batch) {
   if (batch.edge_count > 0 || any(batch.locked, batch.vertex_count) ||
       any(batch.face_locks, batch.face_count))
     tell(&told_locks_, std::string("locks of vertices, edges and faces are left out: ") + format_ +
                            " has no place for them");
+}
+
+void DroppedMarks::look(const BatchView& batch) {
+  lookAtLocks(batch);
   if (batch.face_count > 0)
     tell(&told_faces_, "the labels of boundary faces are left out: they are no tetrahedra");
 }

@@ -11,7 +11,8 @@ class DroppedMarks {
   // `format` is named in the notes, which begin with the output's name.
   DroppedMarks(const ByteSink& bytes, const WriteOptions& options, const char* format)
       : note_(options.note), name_(bytes.name()), format_(format) {}
-  void look(const BatchView& batch);
+  void look(const BatchView& batch);  // locks and faces
+  void lookAtLocks(const BatchView& batch);
 
  private:
   void tell(bool* told, const std::string& text);

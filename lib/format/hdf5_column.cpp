@@ -6,8 +6,8 @@
 namespace tetstream {
 
 // Held of every column; with less, reading a column alone goes in steps too small for a disk.
-constexpr size_t kChunkBytes = 1 << 19;
-constexpr int kLevel = 1;  // higher ones gain little on numbers and cost much
+constexpr size_t kHdf5ChunkBytes = 1 << 19;
+constexpr int kDeflateLevel = 1;  // higher ones gain little on numbers and cost much
 
 Hdf5Column::Hdf5Column(Hdf5File& file, const std::string& path, ValueType type, int components,
                        bool compress)
@@ -16,7 +16,7 @@ Hdf5Column::Hdf5Column(Hdf5File& file, const std::string& path, ValueType type, 
       type_(type),
       components_(static_cast<size_t>(components)),
       row_bytes_(components_ * sizeOf(type)),
-      chunk_rows_(kChunkBytes / row_bytes_),
+      chunk_rows_(kHdf5ChunkBytes / row_bytes_),
       compress_(compress) {}
 
 // A small one is a single chunk, as large as it is.
@@ -31,7 +31,7 @@ void Hdf5Column::create(size_t chunk_rows) {
   file_.check(h.Pset_obj_track_times(plan, false), what);  // the same bytes at any time
   if (compress_ && h.Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
     file_.check(h.Pset_shuffle(plan), what);
-    file_.check(h.Pset_deflate(plan, kLevel), what);
+    file_.check(h.Pset_deflate(plan, kDeflateLevel), what);
   }
   dataset_ = file_.create(path_, hdf5Type(type_), space, plan);
 }

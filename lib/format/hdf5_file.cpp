@@ -11,7 +11,7 @@
 namespace tetstream {
 
 // Deflate makes at most 1032 bytes of one; filters that do better are not for numbers.
-constexpr uint64_t kMaxRatio = 1040;
+constexpr uint64_t kMaxHdf5Ratio = 1040;
 // Chunks are decompressed whole; VTK's have some hundred kilobytes.
 constexpr uint64_t kMaxChunkBytes = uint64_t{256} << 20;
 constexpr size_t kMaxText = 256;
@@ -152,7 +152,7 @@ void Hdf5File::checkStorage(hid_t dataset, const Hdf5Shape& shape, const std::st
     fail(Status::kUnsupported, "%s: dataset \"%s\" lies in other files", name_.c_str(),
          path.c_str());
   const uint64_t stored = std::min<uint64_t>(hdf5().Dget_storage_size(dataset), storage_->size());
-  const uint64_t most = stored * kMaxRatio / sizeOf(shape.type);
+  const uint64_t most = stored * kMaxHdf5Ratio / sizeOf(shape.type);
   if (shape.rows == 0 || shape.components == 0) return;
   if (shape.rows > most || shape.components > most / shape.rows)
     fail(Status::kBadData, "%s: dataset \"%s\" claims %llu rows of %llu, in %llu bytes",

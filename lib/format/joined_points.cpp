@@ -97,6 +97,10 @@ class JoinedPoints final : public IndexedSource {
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
     mesh_->readCellData(column, first, count, out);
   }
+  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
+    mesh_->readFaces(first, count, corners, labels);
+    for (size_t i = 0; i < 3 * count; ++i) corners[i] = newOf(static_cast<uint64_t>(corners[i]));
+  }
 
  private:
   void addKeys(Buckets<Keyed>& keyed, uint64_t points) {

@@ -1,5 +1,6 @@
-// format: the tetrahedra among the cells of a file that has others, too, or ghosts: kept in a
-// temporary file, so that they can be read by range. Depends on mesh_pieces.h, row_spool.h.
+// format: the tetrahedra and the triangles among the cells of a file that has others, too, or
+// ghosts: kept in temporary files, so that they can be read by range. Depends on mesh_pieces.h,
+// row_spool.h.
 #pragma once
 
 #include <string>
@@ -16,31 +17,32 @@ bool isGhostMarks(const MeshArray& array);
 
 class MixedCells {
  public:
-  // Reads all types and the points of the cells that stay: tetrahedra, of curved ones the corners.
-  // Cells of lower dimension, ghosts and empty ones are left out with a note in `mesh`; any other
-  // throws kUnsupported with the cell's number.
+  // Reads all types and the points of the cells that stay: triangles and tetrahedra, of curved ones
+  // the corners. Other cells of lower dimension, ghosts and empty ones are left out with a note in
+  // `mesh`; any other throws kUnsupported with the cell's number, and so do triangles alone.
   MixedCells(MeshPieces& mesh, const std::string& temp_dir);
 
-  uint64_t count() const { return spool_.rows(); }
-  // Points are numbered over all pieces.
-  void readCells(uint64_t first, size_t count, int64_t* out);
+  enum Kind { kTetrahedra, kTriangles };
+  uint64_t count(Kind kind) const { return spools_[kind].rows(); }
+  // The points, four or three each, are numbered over all pieces.
+  void readPoints(Kind kind, uint64_t first, size_t count, int64_t* out);
   // Calls read(cell, n, at) for runs of cells that follow each other in the file: n cells from
   // `cell` on are those from first + at on here.
   template <class Read>
-  void forRuns(uint64_t first, size_t count, Read read) {
+  void forRuns(Kind kind, uint64_t first, size_t count, Read read) {
     for (size_t at = 0; at < count;) {
-      const uint64_t cell = cellAt(first + at);
+      const uint64_t cell = cellAt(kind, first + at);
       size_t n = 1;
-      while (at + n < count && cellAt(first + at + n) == cell + n) ++n;
+      while (at + n < count && cellAt(kind, first + at + n) == cell + n) ++n;
       read(cell, n, at);
       at += n;
     }
   }
 
  private:
-  uint64_t cellAt(uint64_t index);
+  uint64_t cellAt(Kind kind, uint64_t index);
 
-  RowSpool spool_;
+  RowSpool spools_[2];
 };
 
 }  // namespace tetstream

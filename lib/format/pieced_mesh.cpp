@@ -7,6 +7,7 @@
 #include "mixed_cells.h"
 #include "piece_column.h"
 #include "status.h"
+#include "vtu_face_label.h"
 
 namespace tetstream {
 
@@ -95,7 +96,10 @@ class PiecedMesh final : public IndexedSource {
     planColumns(&MeshPiece::point_data, PieceRows::kPoints, schema_.fields, fields_);
     planColumns(&MeshPiece::cell_data, PieceRows::kCells, schema_.cell_data, cell_data_);
     schema_.vertex_count = static_cast<int64_t>(mesh_.point_count);
-    schema_.cell_count = static_cast<int64_t>(mixed_ ? mixed_->count() : mesh_.cell_count);
+    schema_.cell_count =
+        static_cast<int64_t>(mixed_ ? mixed_->count(MixedCells::kTetrahedra) : mesh_.cell_count);
+    schema_.face_count = 0;
+    if (mixed_ && mixed_->count(MixedCells::kTriangles) > 0) labelFaces();
     checkSchema(schema_);
     checkPieces();
     if (options.note)
@@ -113,13 +117,20 @@ class PiecedMesh final : public IndexedSource {
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
     if (!mixed_) return cell_data_[column].read(first, count, out);
     const size_t row_bytes = schema_.cell_data[column].bytesPerRow();
-    mixed_->forRuns(first, count, [&](uint64_t cell, size_t n, size_t at) {
+    mixed_->forRuns(MixedCells::kTetrahedra, first, count, [&](uint64_t cell, size_t n, size_t at) {
       cell_data_[column].read(cell, n, static_cast<unsigned char*>(out) + at * row_bytes);
     });
   }
 
+  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
+    mixed_->readPoints(MixedCells::kTriangles, first, count, corners);
+    mixed_->forRuns(MixedCells::kTriangles, first, count, [&](uint64_t cell, size_t n, size_t at) {
+      face_labels_->read(cell, n, labels + at);
+    });
+  }
+
   void readCells(uint64_t first, size_t count, int64_t* out) override {
-    if (mixed_) return mixed_->readCells(first, count, out);
+    if (mixed_) return mixed_->readPoints(MixedCells::kTetrahedra, first, count, out);
     checkOffsets(first, count);
     connectivity_->read(first, count, out);
     size_t piece = 0;
@@ -198,6 +209,31 @@ class PiecedMesh final : public IndexedSource {
           noteUnlike(mesh_, array.name);
   }
 
+  // By one cell array, which is nothing else if only faces have it.
+  void labelFaces() {
+    const auto faces = static_cast<long long>(mixed_->count(MixedCells::kTriangles));
+    const int by = faceLabelColumn(schema_.cell_data);
+    if (by < 0)
+      return mesh_.addNote(
+          textOf("%lld triangles are left out: there is no cell array of integers, one to "
+                 "a cell, that could label them as faces",
+                 faces));
+    const auto place = static_cast<std::ptrdiff_t>(by);
+    const std::string name = schema_.cell_data[static_cast<size_t>(by)].name;
+    PieceColumnPlan plan = cell_data_[static_cast<size_t>(by)].plan();
+    plan.type = ScalarType::kInt64;
+    face_labels_ = std::make_unique<PieceColumn>(mesh_, std::move(plan));
+    mesh_.addNote(
+        textOf("%lld triangles are labelled faces, by the cell array \"%s\"", faces, name.c_str()));
+    schema_.face_count = faces;
+    if (name != kFaceLabelName) return;
+    schema_.cell_data.erase(schema_.cell_data.begin() + place);
+    std::vector<PieceColumn> kept;
+    for (int i = 0; i < static_cast<int>(cell_data_.size()); ++i)
+      if (i != by) kept.push_back(std::move(cell_data_[static_cast<size_t>(i)]));
+    cell_data_.swap(kept);
+  }
+
   // That every array has the size that the counts need, so that nobody allocates for a lie.
   void checkPieces() {
     for (size_t i = 0; i < mesh_.pieces.size(); ++i) {
@@ -256,7 +292,7 @@ class PiecedMesh final : public IndexedSource {
   MeshPieces mesh_;
   std::string temp_dir_;
   Schema schema_;
-  std::unique_ptr<PieceColumn> points_, connectivity_, offsets_, types_;
+  std::unique_ptr<PieceColumn> points_, connectivity_, offsets_, types_, face_labels_;
   std::unique_ptr<MixedCells> mixed_;  // where the cells are not all that stay
   std::vector<PieceColumn> fields_, cell_data_;
   uint64_t checked_ = 0;

@@ -54,6 +54,11 @@ class ValueBytes {
 std::unique_ptr<Values> openBinaryValues(std::unique_ptr<ValueBytes> bytes, const std::string& what,
                                          ValueType type, bool big_endian);
 
+// What parts words of text.
+inline bool isBlank(char c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
 // Exactly `count` numbers, at least one, as text between blanks in bytes [begin, end) of the file.
 struct TextPlace {
   uint64_t begin = 0, end = 0, count = 0;

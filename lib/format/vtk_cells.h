@@ -3,6 +3,6 @@
 
 namespace tetstream {
 
-constexpr int kVtkTetra = 10;  // linear
+constexpr int kVtkTetra = 10, kVtkTriangle = 5;  // linear
 
 }  // namespace tetstream

@@ -12,7 +12,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kMaxArrays = 1 << 12;  // of one mesh, as they are compared by name
+constexpr size_t kMaxVtkArrays = 1 << 12;  // of one mesh, as they are compared by name
 constexpr uint64_t kMaxComponents = 9;
 
 struct TypeWord {
@@ -75,7 +75,7 @@ std::string decoded(const std::string& word) {
   return name;
 }
 
-std::string quoted(const std::string& word) {
+std::string quotedWord(const std::string& word) {
   return textOf("\"%s\"", cutMeshName(word).c_str());
 }
 
@@ -138,7 +138,7 @@ class VtkParser {
     if (word == "metadata") return skipMetadata();
     for (const Attribute& attribute : kAttributes)
       if (word == attribute.word) return readAttribute(attribute);
-    fail(quoted(word) + " is no keyword of an unstructured grid");
+    fail(quotedWord(word) + " is no keyword of an unstructured grid");
   }
 
   uint64_t number(const char* what, uint64_t most = kMaxMeshCount) {
@@ -159,7 +159,7 @@ class VtkParser {
         array.bits = file_.binary && type == "bit";
         return true;
       }
-    if (type != "string") fail(quoted(word) + " is no type of values");
+    if (type != "string") fail(quotedWord(word) + " is no type of values");
     return false;
   }
 
@@ -280,7 +280,7 @@ class VtkParser {
     for (const VtkArray& other : list)
       if (other.name == array.name)
         return note("array \"" + array.name + "\" is there twice: the second one is left out");
-    if (list.size() == kMaxArrays)
+    if (list.size() == kMaxVtkArrays)
       tetstream::fail(Status::kUnsupported, "%s: too many arrays", bytes_.name().c_str());
     list.push_back(std::move(array));
   }

@@ -1,17 +1,14 @@
 #include "vtk_scan.h"
 
 #include "status.h"
+#include "values.h"
 
 namespace tetstream {
 
-constexpr size_t kTextBytes = 1 << 16;
-constexpr size_t kMaxWord = 4096;  // what is longer is no name, keyword or number
+constexpr size_t kVtkScanBytes = 1 << 16;
+constexpr size_t kMaxVtkWord = 4096;  // what is longer is no name, keyword or number
 
-static bool isBlank(char c) {
-  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
-}
-
-VtkScan::VtkScan(ByteSource& bytes) : bytes_(bytes), text_(kTextBytes) {}
+VtkScan::VtkScan(ByteSource& bytes) : bytes_(bytes), text_(kVtkScanBytes) {}
 
 bool VtkScan::fill() {
   if (at_ < filled_) return true;
@@ -42,7 +39,7 @@ std::string VtkScan::word(bool same_line) {
     ++at_;
   }
   while (fill() && !isBlank(text_[at_])) {
-    if (word.size() == kMaxWord) fail(place() - word.size(), "there is no end to this word");
+    if (word.size() == kMaxVtkWord) fail(place() - word.size(), "there is no end to this word");
     word += text_[at_++];
   }
   return word;
@@ -53,7 +50,7 @@ std::string VtkScan::line() {
   while (fill()) {
     const char c = text_[at_++];
     if (c == '\n') break;
-    if (line.size() < kMaxWord) line += c;
+    if (line.size() < kMaxVtkWord) line += c;
   }
   if (!line.empty() && line.back() == '\r') line.pop_back();
   return line;

@@ -17,10 +17,10 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kMadeAtOnce = 1024;  // cells
+constexpr size_t kVtkCellsAtOnce = 1024;  // cells
 constexpr bool kSwap = std::endian::native == std::endian::little;
 
-const char* nameOf(ScalarType type) {
+const char* vtkNameOf(ScalarType type) {
   switch (type) {
     case ScalarType::kFloat32:
       return "float";
@@ -54,7 +54,7 @@ class NumberRun {
   explicit NumberRun(BufferedSink& sink) : sink_(sink) {}
   void add(uint64_t value) {
     held_[filled_++] = static_cast<T>(value);
-    if (filled_ == kMadeAtOnce) flush();
+    if (filled_ == kVtkCellsAtOnce) flush();
   }
   void flush() {
     if (kSwap) swapBytes(reinterpret_cast<unsigned char*>(held_), sizeof(T), filled_);
@@ -64,7 +64,7 @@ class NumberRun {
 
  private:
   BufferedSink& sink_;
-  T held_[kMadeAtOnce];
+  T held_[kVtkCellsAtOnce];
   size_t filled_ = 0;
 };
 
@@ -104,7 +104,7 @@ class VtkWriter final : public Sink {
     writeText(sink, std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") +
                         "\ntetrahedra, written by tetstream\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
     writeText(sink, "POINTS " + std::to_string(vertex_count_) + " " +
-                        nameOf(schema_.position_type) + "\n");
+                        vtkNameOf(schema_.position_type) + "\n");
     writeSpool(sink, *points_);
     cells_->close();
     wide ? writeOffsets(sink) : writeCells(sink);
@@ -143,9 +143,9 @@ class VtkWriter final : public Sink {
   // Calls take(corners) for each cell.
   template <class Take>
   void forCells(Take take) {
-    int64_t corners[4 * kMadeAtOnce];
+    int64_t corners[4 * kVtkCellsAtOnce];
     for (uint64_t done = 0; done < cell_count_;) {
-      const size_t n = static_cast<size_t>(std::min<uint64_t>(cell_count_ - done, kMadeAtOnce));
+      const size_t n = static_cast<size_t>(std::min<uint64_t>(cell_count_ - done, kVtkCellsAtOnce));
       cells_->readAt(done * 4 * sizeof(int64_t), corners, n * 4 * sizeof(int64_t));
       for (size_t i = 0; i < n; ++i) take(corners + 4 * i);
       done += n;
@@ -195,12 +195,12 @@ class VtkWriter final : public Sink {
     const size_t scalars = firstFloats(columns, 1), vectors = firstFloats(columns, 3);
     if (scalars < columns.size()) {
       writeText(sink, "SCALARS " + encoded(columns[scalars].name) + " " +
-                          nameOf(columns[scalars].type) + "\nLOOKUP_TABLE default\n");
+                          vtkNameOf(columns[scalars].type) + "\nLOOKUP_TABLE default\n");
       writeSpool(sink, *spools[scalars]);
     }
     if (vectors < columns.size()) {
       writeText(sink, "VECTORS " + encoded(columns[vectors].name) + " " +
-                          nameOf(columns[vectors].type) + "\n");
+                          vtkNameOf(columns[vectors].type) + "\n");
       writeSpool(sink, *spools[vectors]);
     }
     const size_t first = (scalars < columns.size()) + (vectors < columns.size());
@@ -209,7 +209,7 @@ class VtkWriter final : public Sink {
     for (size_t i = 0; i < columns.size(); ++i) {
       if (i == scalars || i == vectors) continue;
       writeText(sink, encoded(columns[i].name) + " " + std::to_string(columns[i].components) + " " +
-                          std::to_string(rows) + " " + nameOf(columns[i].type) + "\n");
+                          std::to_string(rows) + " " + vtkNameOf(columns[i].type) + "\n");
       writeSpool(sink, *spools[i]);
     }
   }

@@ -18,8 +18,8 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kMadeAtOnce = 1024;  // cells whose types and offsets are made
-constexpr size_t kCopyBytes = 1 << 16;
+constexpr size_t kKindsAtOnce = 1024;  // cells whose types and offsets are made
+constexpr size_t kCopiedAtOnce = 1 << 16;
 constexpr const char* kSpoolName = "a temporary file";
 
 class SpoolStorage final : public Hdf5Storage {
@@ -160,10 +160,11 @@ class VtkHdfWriter final : public Sink {
   void makeKinds() {
     const Place offsets = makeColumn("Offsets", ValueType::kInt64, 1);
     const Place types = makeColumn("Types", ValueType::kUInt8, 1);
-    const std::vector<unsigned char> tetrahedra(kMadeAtOnce, kVtkTetra);
-    int64_t made[kMadeAtOnce];
-    for (uint64_t done = 0; done <= cell_count_; done += kMadeAtOnce) {
-      const size_t n = static_cast<size_t>(std::min<uint64_t>(cell_count_ + 1 - done, kMadeAtOnce));
+    const std::vector<unsigned char> tetrahedra(kKindsAtOnce, kVtkTetra);
+    int64_t made[kKindsAtOnce];
+    for (uint64_t done = 0; done <= cell_count_; done += kKindsAtOnce) {
+      const size_t n =
+          static_cast<size_t>(std::min<uint64_t>(cell_count_ + 1 - done, kKindsAtOnce));
       for (size_t i = 0; i < n; ++i) made[i] = static_cast<int64_t>(4 * (done + i));
       offsets->append(made, n);
       types->append(tetrahedra.data(),
@@ -181,10 +182,10 @@ class VtkHdfWriter final : public Sink {
   }
 
   void copyOut() {
-    std::vector<unsigned char> bytes(kCopyBytes);
+    std::vector<unsigned char> bytes(kCopiedAtOnce);
     Hdf5Storage& storage = file_->storage();
     for (uint64_t at = 0; at < storage.size();) {
-      const size_t n = static_cast<size_t>(std::min<uint64_t>(kCopyBytes, storage.size() - at));
+      const size_t n = static_cast<size_t>(std::min<uint64_t>(kCopiedAtOnce, storage.size() - at));
       if (storage.readAt(at, bytes.data(), n) < n)
         fail(Status::kIo, "%s ends at byte %llu", kSpoolName, static_cast<unsigned long long>(at));
       bytes_->write(bytes.data(), n);

@@ -8,8 +8,8 @@
 namespace tetstream {
 
 constexpr size_t kInputBytes = 1 << 15;
-constexpr size_t kMaxMarks = 4096;  // the table of a huge array is read again, in this many parts
-constexpr size_t kHeaderWords = 3;
+constexpr size_t kMaxParts = 4096;  // the table of a huge array is read again, in this many parts
+constexpr size_t kTableWords = 3;
 
 static constexpr VtuCompressor kCompressors[] = {
     {"vtkZLibDataCompressor", openZlibBlocks},
@@ -65,13 +65,13 @@ BlockTable::BlockTable(const EncodedRun& run, const VtuFile& file, uint64_t size
                        uint64_t max_ratio)
     : run_(run), file_(file) {
   readHeader(size);
-  const uint64_t header_bytes = (kHeaderWords + count_) * file.word_bytes;
+  const uint64_t header_bytes = (kTableWords + count_) * file.word_bytes;
   if (header_bytes > run_.capacity()) fail("the file ends inside the block table");
   walk(size, run_.after(header_bytes).capacity(), max_ratio);
 }
 
 EncodedRun BlockTable::blocks() const {
-  return run_.after((kHeaderWords + count_) * file_.word_bytes);
+  return run_.after((kTableWords + count_) * file_.word_bytes);
 }
 
 void BlockTable::locate(uint64_t block, uint64_t* begin, uint64_t* size) {
@@ -107,7 +107,7 @@ void BlockTable::readHeader(uint64_t size) {
 
 // Checks every entry once and places the marks.
 void BlockTable::walk(uint64_t size, uint64_t available, uint64_t max_ratio) {
-  stride_ = (count_ - 1) / kMaxMarks + 1;
+  stride_ = (count_ - 1) / kMaxParts + 1;
   uint64_t sizes[512], sum = 0;
   for (uint64_t first = 0; first < count_; first += std::size(sizes)) {
     const size_t n = static_cast<size_t>(std::min<uint64_t>(std::size(sizes), count_ - first));
@@ -124,7 +124,7 @@ void BlockTable::walk(uint64_t size, uint64_t available, uint64_t max_ratio) {
 }
 
 void BlockTable::readSizes(uint64_t first, uint64_t* out, size_t n) {
-  readVtuWords(run_, (kHeaderWords + first) * file_.word_bytes, file_, out, n);
+  readVtuWords(run_, (kTableWords + first) * file_.word_bytes, file_, out, n);
 }
 
 void BlockTable::loadPart(uint64_t part) {

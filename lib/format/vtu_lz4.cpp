@@ -12,13 +12,13 @@ namespace tetstream {
 
 namespace {
 
-constexpr uint64_t kMaxRatio = 256;                // 255 bytes for one at best
+constexpr uint64_t kMaxLz4Ratio = 256;             // 255 bytes for one at best
 constexpr uint64_t kMaxBlock = uint64_t{1} << 26;  // VTK's are of 32 KiB
 
 class Lz4Blocks final : public ValueBytes {
  public:
   Lz4Blocks(const EncodedRun& run, const VtuFile& file, uint64_t size)
-      : table_(run, file, size, kMaxRatio), blocks_(table_.blocks()), size_(size) {
+      : table_(run, file, size, kMaxLz4Ratio), blocks_(table_.blocks()), size_(size) {
     if (std::min(table_.blockBytes(), size) > kMaxBlock)
       fail(Status::kUnsupported, "%s: LZ4 blocks of %llu bytes are not read, only up to 64 MiB",
            run.what().c_str(), static_cast<unsigned long long>(table_.blockBytes()));

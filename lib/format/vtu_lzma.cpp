@@ -9,7 +9,7 @@ namespace tetstream {
 namespace {
 
 // At best, some 273 bytes for a fifth of a bit.
-constexpr uint64_t kMaxRatio = 1 << 14;
+constexpr uint64_t kMaxLzmaRatio = 1 << 14;
 // The highest level of compression needs 65 MiB; a damaged header may ask for gigabytes.
 constexpr uint64_t kMemoryLimit = uint64_t{80} << 20;
 
@@ -50,7 +50,7 @@ class LzmaDecoder final : public BlockDecoder {
 
 std::unique_ptr<ValueBytes> openLzmaBlocks(const EncodedRun& run, const VtuFile& file,
                                            uint64_t size) {
-  return openStreamedBlocks(BlockTable(run, file, size, kMaxRatio), run, size,
+  return openStreamedBlocks(BlockTable(run, file, size, kMaxLzmaRatio), run, size,
                             std::make_unique<LzmaDecoder>());
 }
 

@@ -8,7 +8,7 @@ namespace tetstream {
 namespace {
 
 // Deflate makes at most 1032 bytes of one.
-constexpr uint64_t kMaxRatio = 1040;
+constexpr uint64_t kMaxZlibRatio = 1040;
 
 class ZlibDecoder final : public BlockDecoder {
  public:
@@ -45,7 +45,7 @@ class ZlibDecoder final : public BlockDecoder {
 
 std::unique_ptr<ValueBytes> openZlibBlocks(const EncodedRun& run, const VtuFile& file,
                                            uint64_t size) {
-  return openStreamedBlocks(BlockTable(run, file, size, kMaxRatio), run, size,
+  return openStreamedBlocks(BlockTable(run, file, size, kMaxZlibRatio), run, size,
                             std::make_unique<ZlibDecoder>());
 }
 

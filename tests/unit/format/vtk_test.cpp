@@ -99,7 +99,9 @@ TEST(Vtk, ReadsWhatOldProgramsWrite) {
     EXPECT_TRUE(hasNote(mesh, "field data is left out"));
     EXPECT_TRUE(hasNote(mesh, "\"short\" is left out"));
     EXPECT_TRUE(hasNote(mesh, "\"words\" is left out"));
-    EXPECT_TRUE(hasNote(mesh, "2 cells of lower dimension"));
+    EXPECT_TRUE(hasNote(mesh, "1 cells of lower dimension"));
+    EXPECT_EQ(mesh.faces, (std::vector<int64_t>{0, 1, 2}));
+    EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{7}));
   }
 }
 

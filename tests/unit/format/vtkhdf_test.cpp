@@ -88,6 +88,8 @@ TEST(VtkHdf, JoinsPartitions) {
     EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 0, 1, 2, 4}));
     EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{1, 2, 3, 4, 5}));
     EXPECT_EQ(valuesAs<int64_t>(mesh.cell_data[0]), (std::vector<int64_t>{7, 8}));
+    EXPECT_EQ(mesh.faces, (std::vector<int64_t>{2, 1, 0}));
+    EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{9}));
     EXPECT_EQ(mesh.notes.size(), 2u);  // the triangle, the points
   }
 }
