@@ -106,7 +106,7 @@ MeshPiece pieceOf(const SharedVtk& vtk) {
 Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   bytes = makeSeekable(std::move(bytes), options.temp_dir);
   VtkFile file = parseVtk(*bytes);
-  const auto vtk = std::make_shared<OpenVtk>(std::move(bytes), std::move(file));
+  const auto vtk = std::make_shared<OpenVtk>(OpenVtk{std::move(bytes), std::move(file)});
   MeshPieces mesh;
   mesh.name = vtk->bytes->name();
   mesh.form = vtk->file.offsets ? CellForm::kOffsets : CellForm::kInterleaved;

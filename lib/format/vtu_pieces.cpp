@@ -27,7 +27,7 @@ std::optional<MeshArray> arrayOf(const std::shared_ptr<OpenVtu>& vtu,
 void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes) {
   VtuFile parsed = parseVtuHeader(*bytes);
   mesh.name = bytes->name();
-  const auto vtu = std::make_shared<OpenVtu>(std::move(bytes), std::move(parsed));
+  const auto vtu = std::make_shared<OpenVtu>(OpenVtu{std::move(bytes), std::move(parsed)});
   for (const std::string& note : vtu->file.notes) mesh.addNote(note);
   if (!vtu->file.global_ids.empty()) mesh.global_ids = vtu->file.global_ids;
   for (const VtuPiece& piece : vtu->file.pieces) {
