@@ -199,9 +199,8 @@ Schema decodeHeader(const SectionHead& head, const unsigned char* body, size_t s
   } catch (const Error& error) {
     fail(Status::kBadData, "%s: header: %s", name.c_str(), error.text().c_str());
   }
-  for (const int64_t known :
-       {start.vertices, start.cells, start.front_width, start.front_span, start.front_cells,
-        start.faces})
+  for (const int64_t known : {start.vertices, start.cells, start.front_width, start.front_span,
+                              start.front_cells, start.faces})
     if (known < -1)
       fail(Status::kBadData, "%s: the header has a negative count, %lld", name.c_str(),
            static_cast<long long>(known));
