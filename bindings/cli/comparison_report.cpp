@@ -168,7 +168,8 @@ std::string shapesText(const tetstream_mesh_figures& a, const tetstream_mesh_fig
          line("aspect, largest", a.largest_aspect, b.largest_aspect, "") +
          faults("inverted cells", a.inverted_cells, b.inverted_cells) +
          faults("flat cells", a.flat_cells, b.flat_cells) +
-         faults("folded faces", a.folded_faces, b.folded_faces);
+         faults("folded faces", a.folded_faces, b.folded_faces) +
+         faults("duplicate cells", a.duplicate_cells, b.duplicate_cells);
 }
 
 std::string regionLine(const tetstream_region_comparison& r) {
@@ -224,12 +225,6 @@ std::string faceLabelsText(const ComparisonFigures& f) {
 
 // ---------------------------------------------------------------------------------- for programs
 
-void addNumbers(JsonText& json, const char* name, const double* numbers, int count) {
-  json.key(name).open('[');
-  for (int i = 0; i < count; ++i) json.value(numbers[i]);
-  json.close(']');
-}
-
 void addMesh(JsonText& json, const char* name, const tetstream_mesh_figures& m) {
   json.key(name).open('{');
   const auto add = [&](const char* key, auto value) { json.key(key).value(value); };
@@ -251,6 +246,7 @@ void addMesh(JsonText& json, const char* name, const tetstream_mesh_figures& m) 
   add("inverted_cells", m.inverted_cells);
   add("flat_cells", m.flat_cells);
   add("folded_faces", m.folded_faces);
+  add("duplicate_cells", m.duplicate_cells);
   add("least_angle", m.least_angle);
   add("largest_angle", m.largest_angle);
   add("mean_least_angle", m.mean_least_angle);
@@ -269,7 +265,7 @@ void addField(JsonText& json, const tetstream_field_comparison& f) {
   json.key("components").value(f.components);
   json.key("range").value(f.range);
   json.key("largest").value(f.largest);
-  addNumbers(json, "largest_place", f.largest_place, 3);
+  json.key("largest_place").values(f.largest_place, 3);
   json.key("largest_inside").value(f.largest_inside);
   json.key("cmse").value(f.cmse);
   json.key("rms").value(f.rms);
@@ -332,8 +328,8 @@ std::string comparisonJson(const ComparisonFigures& f) {
   json.key("rms_distance").value(i.rms_distance);
   json.key("distance_back").value(i.distance_back);
   json.key("rms_distance_back").value(i.rms_distance_back);
-  addNumbers(json, "distance_place", i.distance_place, 3);
-  addNumbers(json, "distance_back_place", i.distance_back_place, 3);
+  json.key("distance_place").values(i.distance_place, 3);
+  json.key("distance_back_place").values(i.distance_back_place, 3);
   json.key("regions").value(std::string_view(i.regions));
   json.key("seconds").value(i.seconds);
   json.key("peak_bytes").value(i.peak_bytes);

@@ -86,17 +86,6 @@ std::string infoText(const tetstream_stream_info& info, const FaceLabels& labels
   return text + faceLabelsText(labels) + frontText(front);
 }
 
-void addNumbers(JsonText& json, const char* name, const double* numbers, int32_t count) {
-  json.key(name);
-  if (!numbers) {
-    json.null();
-    return;
-  }
-  json.open('[');
-  for (int32_t i = 0; i < count; ++i) json.value(numbers[i]);
-  json.close(']');
-}
-
 void addColumn(JsonText& json, const tetstream_column& column) {
   json.key("name").value(std::string_view(column.name));
   json.key("components").value(column.components);
@@ -120,8 +109,8 @@ void addFields(JsonText& json, const tetstream_stream_info& info) {
     const Bounds bounds = boundsAt(info, first, field.components);
     json.open('{');
     addColumn(json, field);
-    addNumbers(json, "min", bounds.low, field.components);
-    addNumbers(json, "max", bounds.high, field.components);
+    json.key("min").values(bounds.low, field.components);
+    json.key("max").values(bounds.high, field.components);
     json.close('}');
     first += field.components;
   }
@@ -138,8 +127,8 @@ std::string infoJson(const Arguments& arguments, const tetstream_stream_info& in
   addCount(json, "vertices", info.vertex_count);
   addCount(json, "cells", info.cell_count);
   json.key("position_type").value(typeName(info.position_type));
-  addNumbers(json, "box_min", info.box_min, 3);
-  addNumbers(json, "box_max", info.box_max, 3);
+  json.key("box_min").values(info.box_min, 3);
+  json.key("box_max").values(info.box_max, 3);
   addFields(json, info);
   json.key("cell_arrays").open('[');
   for (int32_t i = 0; i < info.cell_data_count; ++i) {

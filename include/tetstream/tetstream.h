@@ -515,9 +515,9 @@ typedef struct tetstream_map_callbacks {
 TETSTREAM_API tetstream_status tetstream_simplifier_set_map(
     tetstream_simplifier *simplifier, const tetstream_map_callbacks *callbacks);
 /* The same into a file, as tetstream-formats(5) describes it: `format` is "tetmap" or "csv", or
- * NULL: by the path's ending. It is written under a temporary name beside `path`, and renamed when
- * it is complete, just before the mesh is. UNSUPPORTED for another format, IO if it cannot be
- * made. Since 0.1. */
+ * NULL: by the path's ending. It is written under a temporary name beside `path`; the files of a run
+ * are renamed when all of them are complete, and where one cannot be, none is. UNSUPPORTED for
+ * another format, IO if it cannot be made. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_set_map_file(tetstream_simplifier *simplifier,
                                                                  const char *path,
                                                                  const char *format);
@@ -758,6 +758,7 @@ typedef struct tetstream_mesh_figures {
   double share_below_1, share_below_5, share_below_10; /* of cells whose least one is below */
   double median_aspect, p99_aspect;  /* circumradius / (3 inradius): 1 is regular; within 1 % */
   double largest_aspect;             /* infinite if there is a flat cell */
+  int64_t duplicate_cells;      /* whose four vertices are those of one before */
 } tetstream_mesh_figures;
 
 /* The error of one nodal field that both meshes have. Of several components it is the norm of the

@@ -92,6 +92,7 @@ static tetstream_mesh_figures publicMesh(const MeshFigures& mesh) {
   out.median_aspect = s.median_aspect;
   out.p99_aspect = s.p99_aspect;
   out.largest_aspect = s.largest_aspect;
+  out.duplicate_cells = t.duplicate_cells;
   return out;
 }
 

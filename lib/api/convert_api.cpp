@@ -40,11 +40,11 @@ static void copyTo(tetstream_writer& w, tetstream_reader* reader, RunOptions run
   const Busy busy(w);
   try {
     w.laid_out = convertInto(output, *reader, run, progress);
+    output.complete();
   } catch (...) {
     output.stop(State::kBroken);
     throw;
   }
-  output.complete();
 }
 
 tetstream_status tetstream_convert(tetstream_reader* reader, tetstream_writer* writer,

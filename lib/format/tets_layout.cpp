@@ -65,11 +65,6 @@ void Box::add(const Box& other) {
 
 // ------------------------------------------------------------------------------------- header
 
-static void append(std::vector<unsigned char>& out, const void* data, size_t size) {
-  const unsigned char* bytes = static_cast<const unsigned char*>(data);
-  out.insert(out.end(), bytes, bytes + size);
-}
-
 static void appendRecord(std::vector<unsigned char>& out, const Column& column) {
   ColumnRecord record;
   record.type = static_cast<uint32_t>(column.type);

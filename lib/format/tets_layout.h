@@ -34,6 +34,11 @@ constexpr size_t alignUp(size_t bytes) {
   return (bytes + (kAlign - 1)) & ~(kAlign - 1);
 }
 
+inline void append(std::vector<unsigned char>& out, const void* data, size_t bytes) {
+  const unsigned char* in = static_cast<const unsigned char*>(data);
+  out.insert(out.end(), in, in + bytes);
+}
+
 // ------------------------------------------------------------------------------ section heads
 
 constexpr char kHeader[] = "HEAD", kChunk[] = "CHNK", kIndex[] = "INDX", kTotals[] = "STAT",

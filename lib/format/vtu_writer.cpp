@@ -11,14 +11,15 @@
 #include "row_spool.h"
 #include "status.h"
 #include "vtu_face_label.h"
+#include "vtu_file.h"
 #include "vtu_spool.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr unsigned char kTetra = 10, kTriangle = 5;  // VTK's numbers
-constexpr size_t kMadeAtOnce = 1024;                 // cells whose types and offsets are made
+constexpr unsigned char kTriangle = 5;  // as kTetra
+constexpr size_t kMadeAtOnce = 1024;    // cells whose types and offsets are made
 
 const char* nameOf(ScalarType type) {
   switch (type) {

@@ -102,6 +102,7 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   plans[1].mesh = "the simplified mesh";
   matchFields(original, simplified, plans);
   matchRegions(original, simplified, plans);
+  plans[0].drops_ids = plan.regions == "auto";
   const auto scan = [&](int which, size_t share) {
     const MeshScan::Budgets budgets = {{account_, plan.temp_dir, memory_ / kShares * share},
                                        {account_, plan.temp_dir, memory_ / kBoundaryParts}};
@@ -109,6 +110,15 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   };
   original_ = scan(0, kOriginalShare);
   simplified_ = scan(1, kSimplifiedShare);
+}
+
+void Comparison::readSimplified(Source& source, const Done& done) {
+  for (size_t i = 0; i < region_arrays_.size(); ++i) {
+    if (!original_->regions(i).dropped()) continue;
+    simplified_->regions(i).drop();
+    region_words_ = region_arrays_[i] + ": nearly all different, taken as ids";
+  }
+  simplified_->read(source, done);
 }
 
 // ---------------------------------------------------------------------------------- measuring
@@ -205,7 +215,8 @@ void Comparison::measureDistances(const Done& done) {
 
 void Comparison::compareRegions() {
   for (size_t i = 0; i < region_arrays_.size(); ++i) {
-    const RegionParts &ours = original_->regions(i), &theirs = simplified_->regions(i);
+    const RegionParts& ours = original_->regions(i);
+    const RegionParts& theirs = simplified_->regions(i);
     const bool is_wished = plan_.regions != "auto";
     if (ours.dropped() || (!is_wished && ours.regions().size() < 2)) continue;
     region_array_ = region_arrays_[i];

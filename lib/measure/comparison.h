@@ -50,7 +50,6 @@ struct MeshFigures {
   TopologyFigures topology;
   ShapeFigures shapes;
   double boundary_area = 0;
-  uint64_t temporary_bytes = 0;
 };
 
 struct RegionComparison {
@@ -78,8 +77,8 @@ class Comparison {
   Comparison(const Schema& original, const Schema& simplified, const ComparePlan& plan);
 
   void readOriginal(Source& source, const Done& done) { original_->read(source, done); }
-  void readSimplified(Source& source, const Done& done) { simplified_->read(source, done); }
-  void measure(const Done& done);  // once both were read
+  void readSimplified(Source& source, const Done& done);  // then
+  void measure(const Done& done);                         // once both were read
 
   // Then:
   const MeshFigures& original() const { return figures_[0]; }

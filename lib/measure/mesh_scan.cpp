@@ -37,7 +37,7 @@ MeshScan::MeshScan(const Schema& schema, const ScanPlan& plan, const Budgets& bu
       columns_(plan.fields.size()),
       labels_(plan.cell_arrays.size()) {
   for (size_t i = 0; i < plan.cell_arrays.size(); ++i)
-    regions_.push_back(std::make_unique<RegionParts>(account));
+    regions_.push_back(std::make_unique<RegionParts>(account, plan.drops_ids));
 }
 
 FaceFront::Events MeshScan::events() {

@@ -25,6 +25,7 @@ struct ScanPlan {
   std::string mesh;                 // "the original", for messages
   std::vector<size_t> fields;       // columns whose values are kept, all components
   std::vector<size_t> cell_arrays;  // integer columns that may label regions
+  bool drops_ids = false;           // those that number the cells
 };
 
 class MeshScan {
@@ -40,7 +41,7 @@ class MeshScan {
 
   const TopologyFigures& topology() { return faces_.figures(); }
   ShapeFigures shapes() const { return shapes_.figures(); }
-  const RegionParts& regions(size_t array) const { return *regions_[array]; }
+  RegionParts& regions(size_t array) { return *regions_[array]; }
   // Of each component that is kept, over the vertices that cells use.
   const std::vector<double>& lowest() const { return low_; }
   const std::vector<double>& highest() const { return high_; }

@@ -109,16 +109,10 @@ void Intake<S>::readColumn(size_t column, size_t row, uint32_t slot) {
          static_cast<unsigned long long>(batch_.first_vertex + row), c.name.c_str());
 }
 
-// By a quarter, or by what a memory budget still allows.
 template <class S>
 void Intake<S>::growVertices() {
   const size_t capacity = core_.window.mesh.vertexCapacity();
-  try {
-    core_.window.growVertices(capacity + capacity / 4 + 64);
-  } catch (const Error& error) {
-    if (error.status() != Status::kNoMemory) throw;
-    core_.window.growVertices(capacity + capacity / 64 + 16);
-  }
+  growArray(capacity, capacity / 4 + 64, [this](size_t n) { core_.window.growVertices(n); });
 }
 
 template <class S>

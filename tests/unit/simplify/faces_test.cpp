@@ -3,23 +3,16 @@
 
 #include <set>
 
-#include "simplify_testing.h"
+#include "ways_testing.h"
 
 namespace tetstream::test {
 namespace {
 
-using Place = std::array<double, 3>;
-
-Place placeOf(const TestMesh& mesh, int64_t v) {
-  const auto row = static_cast<size_t>(v);
-  return {mesh.position(row, 0), mesh.position(row, 1), mesh.position(row, 2)};
-}
-
-// A full grid of n^3 cubes whose sides are labelled.
+// A grid of n^3 cubes whose sides are labelled.
 struct Labelled {
   explicit Labelled(int cubes)
       : n{cubes, cubes, cubes},
-        mesh(inStreamOrder(fullGrid(cubes, cubes, cubes))),
+        mesh(inStreamOrder(shakenInside(cubes))),
         labels(sidesOf(mesh, n)) {}
   Labelled only(int64_t side) const {
     Labelled some = *this;
@@ -50,9 +43,10 @@ Faced simplified(const Labelled& in, const SimplifyOptions& options, size_t batc
 
 // The cells are all of one region: what comes out is labelled by its side, all of it is, and no
 // side has grown or shrunk.
-void expectLabelsKept(int64_t window, Mode mode, size_t batch_cells) {
+void expectLabelsKept(int64_t window, const Way& way, size_t batch_cells) {
   const Labelled in(slowRun() ? 4 : 6);
-  const Faced result = simplified(in, toRatio(0.25, window, mode), batch_cells);
+  const Faced result = simplified(in, way.toRatio(0.25, window), batch_cells);
+  expectFlips(result.report, way);
   EXPECT_EQ(result.report.limited_by, "");
   const FaceLabels& labels = result.out.faces;
   std::set<int64_t> sides;
@@ -67,9 +61,9 @@ void expectLabelsKept(int64_t window, Mode mode, size_t batch_cells) {
   EXPECT_LT(labels.size(), in.labels.size());
 }
 TEST(SimplifierFaces, KeepTheirLabels) {
-  for (Mode mode : kModes)
+  for (const Way& way : kWays)
     for (int64_t window : {0, 700})
-      for (size_t batch : {size_t{64}, size_t{4096}}) expectLabelsKept(window, mode, batch);
+      for (size_t batch : {size_t{64}, size_t{4096}}) expectLabelsKept(window, way, batch);
 }
 
 // Of one side only, so that the labels of the last one come when much of the mesh is gone already.
@@ -208,32 +202,48 @@ TEST(SimplifierFaces, AndRidgesFitTheMemory) {
   }
 }
 
-// Faces of one side, and one edge inside, are locked: their vertices are where they were.
+std::set<std::pair<Place, Place>> edgesOf(const TestMesh& mesh) {
+  std::set<std::pair<Place, Place>> edges;
+  for (size_t c = 0; c < mesh.cellCount(); ++c)
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t j = 0; j < 4; ++j)
+        edges.emplace(placeOf(mesh, mesh.cells[4 * c + i]), placeOf(mesh, mesh.cells[4 * c + j]));
+  return edges;
+}
+
+// Faces of one side, and edges inside, are locked: they are where they were.
 TEST(SimplifierLocks, KeepFacesAndEdges) {
   const int n[3] = {5, 5, 5};
-  const TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  const TestMesh mesh = shakenInside(5);
   FaceLabels low;
   for (const auto& [face, cells] : facesOf(mesh.cells))
-    if (cells == 1 && sideOf(mesh, face, n, 0.2) == 5) low[face] = 4;
+    if (cells == 1 && sideOf(mesh, face, n) == 5) low[face] = 4;
+  EXPECT_EQ(low.size(), 50u);
   FacedMesh faced(mesh, low);
   faced.locks.assign(low.size(), 1);
+  std::vector<int64_t> edges;
+  for (size_t c = 0; c < mesh.cellCount(); c += 25)
+    edges.insert(edges.end(), {mesh.cells[4 * c], mesh.cells[4 * c + 1]});
   BatchView batch = faced.view();
-  const int64_t edge[2] = {mesh.cells[400], mesh.cells[401]};
-  batch.edge_count = 1;
-  batch.locked_edges = edge;
-  Recorder out;
-  Simplifier simplifier(toRatio(0.3), out, {});
-  simplifier.begin(mesh.schema);
-  simplifier.put(batch);
-  simplifier.finish();
-  EXPECT_EQ(low.size(), 50u);
-  EXPECT_EQ(out.faces.size(), low.size());
-  std::set<Place> left;
-  for (size_t v = 0; v < out.mesh.vertexCount(); ++v)
-    left.insert(placeOf(out.mesh, static_cast<int64_t>(v)));
-  for (int64_t v : faced.corners) EXPECT_TRUE(left.count(placeOf(mesh, v)));
-  for (int64_t v : edge) EXPECT_TRUE(left.count(placeOf(mesh, v)));
-  EXPECT_GT(simplifier.report().collapses, 50);
+  batch.edge_count = edges.size() / 2;
+  batch.locked_edges = edges.data();
+  for (const Way& way : kWays) {
+    Recorder out;
+    Simplifier simplifier(way.toRatio(0.3), out, {});
+    simplifier.begin(mesh.schema);
+    simplifier.put(batch);
+    simplifier.finish();
+    EXPECT_EQ(out.faces.size(), low.size());
+    std::set<Place> left;
+    for (size_t v = 0; v < out.mesh.vertexCount(); ++v)
+      left.insert(placeOf(out.mesh, static_cast<int64_t>(v)));
+    for (int64_t v : faced.corners) EXPECT_TRUE(left.count(placeOf(mesh, v)));
+    const auto edges_left = edgesOf(out.mesh);
+    for (size_t i = 0; i < edges.size(); i += 2)
+      EXPECT_TRUE(edges_left.count({placeOf(mesh, edges[i]), placeOf(mesh, edges[i + 1])})) << i;
+    EXPECT_GT(simplifier.report().collapses, 50);
+    expectFlips(simplifier.report(), way);
+  }
 }
 
 }  // namespace
