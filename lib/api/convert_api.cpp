@@ -94,6 +94,9 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
         inspect(use.input(false, run.temp_dir), run, progressOf(progress, user));
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
     r.front = publicFront(found);
+    r.face_labels.clear();
+    for (const auto& [label, figures] : found.face_labels.labels())
+      r.face_labels.push_back({sizeof(tetstream_face_label_info), label, figures.faces});
     writeStruct(info, r.inspected->info());
     use.done();
   });

@@ -123,6 +123,20 @@ void Comparison::readSimplified(Source& source, const Done& done) {
 
 // ---------------------------------------------------------------------------------- measuring
 
+// By the original's labels, then those that only the simplified mesh has.
+template <class Pair, class Figures>
+static std::vector<Pair> pairByLabel(const std::map<int64_t, Figures>& ours,
+                                     const std::map<int64_t, Figures>& theirs) {
+  std::vector<Pair> pairs;
+  for (const auto& [label, figures] : ours) {
+    const auto found = theirs.find(label);
+    pairs.push_back({label, figures, found == theirs.end() ? Figures() : found->second});
+  }
+  for (const auto& [label, figures] : theirs)
+    if (!ours.count(label)) pairs.push_back({label, Figures(), figures});
+  return pairs;
+}
+
 double Comparison::diagonal() const {
   double square = 0;
   for (int k = 0; k < 3; ++k) square += (box_.high[k] - box_.low[k]) * (box_.high[k] - box_.low[k]);
@@ -154,6 +168,8 @@ void Comparison::measure(const Done& done) {
     field.range = std::sqrt(square);
   }
   compareRegions();
+  face_labels_ = pairByLabel<FaceLabelComparison>(original_->faceLabels().labels(),
+                                                  simplified_->faceLabels().labels());
   if (plan_.options.cut != "none") drawCut();
   measureFields([&](double share) { done(kOutsideEnd * share); });
   measureDistances([&](double share) { done(kOutsideEnd + (1 - kOutsideEnd) * share); });
@@ -204,13 +220,7 @@ void Comparison::compareRegions() {
     const bool is_wished = plan_.regions != "auto";
     if (ours.dropped() || (!is_wished && ours.regions().size() < 2)) continue;
     region_array_ = region_arrays_[i];
-    for (const auto& [label, figures] : ours.regions()) {
-      const auto found = theirs.regions().find(label);
-      regions_.push_back(
-          {label, figures, found == theirs.regions().end() ? RegionFigures() : found->second});
-    }
-    for (const auto& [label, figures] : theirs.regions())
-      if (!ours.regions().count(label)) regions_.push_back({label, RegionFigures(), figures});
+    regions_ = pairByLabel<RegionComparison>(ours.regions(), theirs.regions());
     break;
   }
   if (!region_array_.empty())

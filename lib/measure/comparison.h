@@ -57,6 +57,11 @@ struct RegionComparison {
   RegionFigures original, simplified;
 };
 
+struct FaceLabelComparison {
+  int64_t label;
+  FaceLabelFigures original, simplified;
+};
+
 // What the picture shows of one field.
 struct CutComparison {
   CutPlane plane;
@@ -86,6 +91,7 @@ class Comparison {
   const DistanceFigures& toSimplified() const { return distances_[0]; }
   const DistanceFigures& toOriginal() const { return distances_[1]; }
   const std::vector<RegionComparison>& regions() const { return regions_; }
+  const std::vector<FaceLabelComparison>& faceLabels() const { return face_labels_; }
   const std::string& regionArray() const { return region_array_; }  // empty: none
   const std::string& regionWords() const { return region_words_; }
   const CutComparison* cut() const { return cut_ ? &*cut_ : nullptr; }
@@ -114,6 +120,7 @@ class Comparison {
   VolumeSums volumes_;
   DistanceFigures distances_[2];
   std::vector<RegionComparison> regions_;
+  std::vector<FaceLabelComparison> face_labels_;
   std::string region_array_, region_words_;
   std::optional<CutComparison> cut_;
 };

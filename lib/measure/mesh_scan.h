@@ -1,6 +1,6 @@
 // measure: everything about one mesh that one reading of it tells, and its cells and its boundary
 // for what comes after. Depends on stream, mesh, face_front.h, cell_shapes.h, region_parts.h,
-// simplex_rows.h.
+// face_labels.h, simplex_rows.h.
 #pragma once
 
 #include <functional>
@@ -10,6 +10,7 @@
 
 #include "cell_shapes.h"
 #include "face_front.h"
+#include "face_labels.h"
 #include "front.h"
 #include "region_parts.h"
 #include "simplex_rows.h"
@@ -47,12 +48,14 @@ class MeshScan {
   SimplexRows& cells() { return cells_; }
   SimplexRows& boundary() { return boundary_; }
   double boundaryArea() const { return boundary_area_; }
+  const FaceLabels& faceLabels() const { return face_labels_; }
 
  private:
   static constexpr uint32_t kNone = 0xffffffffu;
   FaceFront::Events events();
   void takeVertices(const BatchView& batch);
   void takeCells(const BatchView& batch);
+  void takeFaces(const BatchView& batch);
   void addCell(const int64_t corners[4], size_t row);
   void use(uint32_t vertex);
   void finalize(int64_t vertex);
@@ -74,6 +77,7 @@ class MeshScan {
   uint64_t cells_seen_ = 0;
   SimplexRows cells_, boundary_;
   double boundary_area_ = 0;
+  FaceLabels face_labels_;
   std::vector<double> low_, high_, row_, positions_;
   std::vector<std::vector<double>> columns_;  // of one batch
   std::vector<std::vector<int64_t>> labels_;  // of one batch

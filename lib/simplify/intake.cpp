@@ -76,7 +76,6 @@ void Intake<S>::takeFaces() {
     }
     core_.window.faces.expect(slots[0], slots[1], slots[2], batch_.face_labels[row]);
   }
-  core_.exact_curves = true;
 }
 
 // note: locked ends are enough: an edge stays as it is while neither is merged or moved.
