@@ -400,14 +400,14 @@ template <class Mesh>
 void Collapser<Mesh>::handOverCellData(uint32_t v) {
   const int n = core_.plan.cell_means;
   for (const StarCell& dying : stars_.ring) {
+    // Its corners beside u and v.
+    const bool is_first = dying.t[0] == v;
+    const uint32_t a = dying.t[is_first ? 1 : 0], b = dying.t[is_first || dying.t[1] == v ? 2 : 1];
     uint32_t heirs[2];
     int count = 0;
     for (const Star* star : {&stars_.u, &stars_.v})
-      for (const StarCell& s : *star) {
-        int shared = 0;
-        for (uint32_t t : dying.t) shared += t != v && s.has(t);
-        if (shared == 2 && count < 2) heirs[count++] = s.cell();
-      }
+      for (const StarCell& s : *star)
+        if (s.has(a) & s.has(b) && count < 2) heirs[count++] = s.cell();
     const double* from = mesh_.cellMeans(dying.cell());
     for (int h = 0; h < count; ++h) {
       double* to = mesh_.cellMeans(heirs[h]);
