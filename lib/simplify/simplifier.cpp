@@ -153,6 +153,7 @@ class WindowedEngine final : public Simplifier::Engine {
     Ledger now = ledger();
     decimate(budget_->lastGoal(now));
     if (now.written == 0) survey(now.read);
+    selector_.reset();  // makes room for the output
     release_.write(0);
     release_.flush();
     if (tracer_) tracer_->flush();

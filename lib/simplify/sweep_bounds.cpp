@@ -15,6 +15,8 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // While the law of kDecay says that the goal is farther. A pass that leaves less than a third of
 // the cells leaves fine seams between coarse tiles.
 constexpr double kLargestStride = 16;
+// The same for the first pass, which still finds all cells that cost next to nothing.
+constexpr double kLargestStart = 40;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
 // of what is learnt from a pass for the next.
 constexpr double kFirstYield = 2, kLeastYield = 1, kLargestYield = 3;
@@ -53,7 +55,8 @@ double SweepBounds<S>::first(std::vector<float>& errors, const Goal& goal) const
   const auto place = static_cast<size_t>(share * static_cast<double>(errors.size() - 1));
   std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(place),
                    errors.end());
-  const double bound = errors[place] * (to_error ? 1 : distance(kHalf, goal));
+  const double bound =
+      errors[place] * (to_error ? 1 : std::min(distance(kHalf, goal), kLargestStart));
   return std::clamp<double>(bound, std::numeric_limits<float>::min(), kLargestBound);  // never 0
 }
 
