@@ -192,7 +192,7 @@ double SweepSelector<S>::firstBound() {
         if (std::isfinite(choices_.least(v))) errors.push_back(choices_.least(v));
     });
   }
-  return bounds_.first(errors);
+  return bounds_.first(errors, goal_);
 }
 
 // Until a round, whose seams lie elsewhere, finds nothing more.
