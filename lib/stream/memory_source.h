@@ -8,10 +8,10 @@
 namespace tetstream {
 
 // The whole mesh is one batch, whose arrays must live as long as the source; its finalizations are
-// not looked at. Vertex ids are checked when cells are read.
+// not looked at. Vertex ids are checked when cells are read; with `narrow_cells` they are int32.
 class MemorySource : public IndexedSource {
  public:
-  MemorySource(const Schema& schema, const BatchView& mesh);
+  MemorySource(const Schema& schema, const BatchView& mesh, bool narrow_cells = false);
   const Schema& schema() const override { return schema_; }
   bool randomAccess() const override { return true; }
   const uint8_t* locked() const override { return mesh_.locked; }
@@ -24,6 +24,7 @@ class MemorySource : public IndexedSource {
   Schema schema_;
   std::vector<const void*> fields_, cell_data_;
   BatchView mesh_;
+  bool narrow_cells_;
 };
 
 }  // namespace tetstream
