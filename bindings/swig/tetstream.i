@@ -16,6 +16,8 @@
 
 // ------------------------------------------------------------------------------------- names
 %rename("%(undercase)s", %$isfunction) "";
+%rename(set_int64) tetstream::swig::Options::setInt64;
+%rename(get_int64) tetstream::swig::Options::getInt64;
 %rename("%(strip:[TETSTREAM_])s", %$isconstant) "";
 %rename(OptionInfo) tetstream_option_info;
 %rename(Progress) tetstream_progress;
@@ -75,7 +77,6 @@ int32_t tetstream_option_count(void);
 %rename("$ignore", regextarget=1, fullname=1) "::handle$";
 %rename("$ignore", regextarget=1, fullname=1) "::callbacks$";
 %ignore tetstream::swig::StreamInfo::StreamInfo(const tetstream_stream_info &);
-%ignore tetstream::swig::StreamInfo::StreamInfo(const StreamInfo &);
 %ignore tetstream::swig::StreamInfo::info;
 %ignore tetstream::swig::StreamInfo::field;
 %ignore tetstream::swig::StreamInfo::cellData;

@@ -32,7 +32,7 @@ def _holding(name, array):
         if dtype.kind == ("f" if array.dtype.kind == "f" else "i") and numpy.can_cast(
                 array.dtype, dtype, "safe"):
             return dtype
-    if array.dtype.kind == "u" and (array.size == 0 or array.max() <= numpy.iinfo("i8").max):
+    if array.dtype.kind == "u" and (array.size == 0 or int(array.max()) < 2 ** 63):
         return numpy.dtype(numpy.int64)
     raise TypeError(f"{name}: float64 and int64 do not hold {array.dtype}")
 

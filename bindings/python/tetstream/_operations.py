@@ -111,7 +111,7 @@ class Comparison(Record):
 
     original, simplified: figures of each: cells, volume, components, least_angle, ...
     fields: dict of name to the error of the field: rms, rms_percent (of the range), largest, ...
-    regions: dict of label to figures.
+    regions: dict of label to figures; labels: what was taken as labels, in words.
     topology_kept, distance (between boundaries), outside_volume and the other members of
     tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
     """
@@ -149,7 +149,7 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
         figures, original=Record.copied(compared.get_mesh(core.ORIGINAL)),
         simplified=Record.copied(compared.get_mesh(core.SIMPLIFIED)),
         fields={field.name: field for field in fields},
-        regions={region.label: region for region in regions},
+        regions={region.label: region for region in regions}, labels=figures.regions,
         notes=[note for reader in readers for note in reader.notes], _core=compared)
 
 

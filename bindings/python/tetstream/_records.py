@@ -7,11 +7,12 @@ class Record(types.SimpleNamespace):
 
     @classmethod
     def copied(cls, struct, **more):
-        """The members of one of the library's structs, whose texts may not live as long."""
+        """The members of one of the library's structs, whose texts may not live as long; `more` has
+        members beside or in place of those."""
         kind = type(struct)
         names = (name for name in vars(kind)
                  if isinstance(vars(kind)[name], property) and name != "thisown")
-        return cls(**{name: getattr(struct, name) for name in names}, **more)
+        return cls(**{**{name: getattr(struct, name) for name in names}, **more})
 
 
 class Progress(Record):

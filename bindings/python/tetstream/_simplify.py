@@ -18,24 +18,25 @@ def _made_options(options, weights):
 class _Run:
     """One simplification."""
 
-    def __init__(self, options, weights, writer):
+    def __init__(self, options, weights, writer, depth):
         self.options = _made_options(options, weights)
         self.writer = writer
+        self.depth = depth  # of the caller's frame, for a warning
 
     def __call__(self, reader, progress, prepare=lambda simplifier: None):
         with _progress.told(progress) as tell:
             simplifier = core.Simplifier(self.options._handle, self.writer._handle, tell)
             prepare(simplifier)
             simplifier.run(reader._handle)
-        return _reported(simplifier, reader, self.writer)
+        return _reported(simplifier, self.depth, reader, self.writer)
 
 
-def _reported(simplifier, *handles):
+def _reported(simplifier, depth, *handles):
     report = _streams.noted(Report.copied(simplifier.get_report()), *handles)
     if report.limited_by:
         warnings.warn(f"the target of {report.target_cells} cells was missed, {report.cells_out} "
                       f"are left; limited by: {report.limited_by}", TargetMissedWarning,
-                      stacklevel=4)
+                      stacklevel=depth)
     return report
 
 
@@ -60,7 +61,7 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
     labelled, options = _with_regions(mesh, regions, options)
     points, cells, columns, cell_columns = _streams.mesh_columns(labelled)
     collector = core.MeshCollector(_streams._type("cells", cells.dtype))
-    run = _Run(options, weights, _streams.Writer(core.Writer.collect(collector)))
+    run = _Run(options, weights, _streams.Writer(core.Writer.collect(collector)), 5)
     reader = _streams.Reader._of_columns(labelled, points, cells, columns, cell_columns)
     mapped = core.MapCollector(len(points)) if vertex_map else None
     report = run(reader, progress,
@@ -149,7 +150,7 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
 
     # The options first: nothing is created for those that are refused.
     _made_options(options, weights)
-    run = _Run(options, weights, _streams.writer_of(target))
+    run = _Run(options, weights, _streams.writer_of(target), 4)
     return run(_streams.reader_of(source), progress, prepare)
 
 
@@ -192,4 +193,4 @@ def _pushed(schema, simplifier, writer, ready, batches):
         ready.clear()
     simplifier.finish()
     yield from ready
-    return _reported(simplifier, writer)
+    return _reported(simplifier, 3, writer)
