@@ -1,5 +1,5 @@
-// swig: arrays that cross between a language and the library. The language's typemaps know these two
-// classes; everything else is written with them.
+// swig: arrays that cross between a language and the library. The language's typemaps know these
+// two classes; everything else is written with them.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,9 @@ struct ArrayView {
   int32_t columns = 1;
 };
 
-// An array [rows][columns] that grows at its end and is handed over to the language, which frees it.
-// note: realloc moves large blocks by their pages, so growing takes no second copy of the mesh, and
-// pages that were never written take no memory.
+// An array [rows][columns] that grows at its end and is handed over to the language, which frees
+// it. note: realloc moves large blocks by their pages, so growing takes no second copy of the mesh,
+// and pages that were never written take no memory.
 class OwnedArray {
  public:
   OwnedArray() = default;

@@ -8,13 +8,21 @@ namespace tetstream::swig {
 
 // ------------------------------------------------------------------- what the handles share
 
-static const char* messageOf(const tetstream_options* h) { return tetstream_options_message(h); }
-static const char* messageOf(const tetstream_reader* h) { return tetstream_reader_message(h); }
-static const char* messageOf(const tetstream_writer* h) { return tetstream_writer_message(h); }
+static const char* messageOf(const tetstream_options* h) {
+  return tetstream_options_message(h);
+}
+static const char* messageOf(const tetstream_reader* h) {
+  return tetstream_reader_message(h);
+}
+static const char* messageOf(const tetstream_writer* h) {
+  return tetstream_writer_message(h);
+}
 static const char* messageOf(const tetstream_simplifier* h) {
   return tetstream_simplifier_message(h);
 }
-static const char* messageOf(const tetstream_diagram* h) { return tetstream_diagram_message(h); }
+static const char* messageOf(const tetstream_diagram* h) {
+  return tetstream_diagram_message(h);
+}
 static const char* messageOf(const tetstream_comparison* h) {
   return tetstream_comparison_message(h);
 }
@@ -359,8 +367,8 @@ void Simplifier::setLogFile(const char* path, const char* format) {
 }
 
 int32_t Simplifier::run(Reader& reader) {
-  return check(
-      inLibrary([&] { return tetstream_simplifier_run(handle_.get(), reader.handle()); }), handle_);
+  return check(inLibrary([&] { return tetstream_simplifier_run(handle_.get(), reader.handle()); }),
+               handle_);
 }
 
 void Simplifier::begin(const StreamInfo& info) {
@@ -475,8 +483,7 @@ tetstream_region_comparison Comparison::getRegion(int32_t index) const {
 }
 
 void Comparison::write(const char* path, const char* title) {
-  check(inLibrary([&] { return tetstream_comparison_write(handle_.get(), path, title); }),
-        handle_);
+  check(inLibrary([&] { return tetstream_comparison_write(handle_.get(), path, title); }), handle_);
 }
 
 // --------------------------------------------------------------------------------------- tables

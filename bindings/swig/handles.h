@@ -80,8 +80,8 @@ class Writer {
  public:
   static Writer* createFile(const char* path, const char* format);
   static Writer* createMemory(const char* format);
-  // `open` is called with a StreamInfo, `put` with a StreamBatch, `finish` with the StreamInfo again;
-  // any but put may be empty.
+  // `open` is called with a StreamInfo, `put` with a StreamBatch, `finish` with the StreamInfo
+  // again; any but put may be empty.
   static Writer* create(const Function& open, const Function& put, const Function& finish);
   // The collector must live as long as the writer.
   static Writer* collect(MeshCollector& collector);

@@ -15,17 +15,17 @@ class StreamBatch {
   StreamBatch(const tetstream_batch& batch, const StreamInfo& info);
 
   void clear();
-  void setPositions(const ArrayView& positions) { positions_ = positions; }      // [n][3]
-  void addField(const ArrayView& field) { fields_.push_back(field); }            // [n][components]
-  void setLocked(const ArrayView& locked) { locked_ = locked; }                  // [n] bytes
-  void setCells(const ArrayView& cells) { cells_ = cells; }                      // [m][4]
-  void setLastUses(const ArrayView& last_uses) { last_uses_ = last_uses; }       // [m] bytes
-  void addCellData(const ArrayView& data) { cell_data_.push_back(data); }        // [m][components]
-  void setFinalized(const ArrayView& finalized) { finalized_ = finalized; }      // [k]
-  void setFaces(const ArrayView& faces) { faces_ = faces; }                      // [f][3]
-  void setFaceLabels(const ArrayView& labels) { face_labels_ = labels; }         // [f]
-  void setLockedFaces(const ArrayView& locked) { locked_faces_ = locked; }       // [f] bytes
-  void setLockedEdges(const ArrayView& edges) { locked_edges_ = edges; }         // [e][2]
+  void setPositions(const ArrayView& positions) { positions_ = positions; }  // [n][3]
+  void addField(const ArrayView& field) { fields_.push_back(field); }        // [n][components]
+  void setLocked(const ArrayView& locked) { locked_ = locked; }              // [n] bytes
+  void setCells(const ArrayView& cells) { cells_ = cells; }                  // [m][4]
+  void setLastUses(const ArrayView& last_uses) { last_uses_ = last_uses; }   // [m] bytes
+  void addCellData(const ArrayView& data) { cell_data_.push_back(data); }    // [m][components]
+  void setFinalized(const ArrayView& finalized) { finalized_ = finalized; }  // [k]
+  void setFaces(const ArrayView& faces) { faces_ = faces; }                  // [f][3]
+  void setFaceLabels(const ArrayView& labels) { face_labels_ = labels; }     // [f]
+  void setLockedFaces(const ArrayView& locked) { locked_faces_ = locked; }   // [f] bytes
+  void setLockedEdges(const ArrayView& edges) { locked_edges_ = edges; }     // [e][2]
 
   ArrayView positions() const { return positions_; }
   ArrayView field(int32_t index) const;
@@ -40,8 +40,8 @@ class StreamBatch {
   ArrayView lockedEdges() const { return locked_edges_; }
 
   // The struct, which points to this and to the arrays. Throws Failure unless their types and
-  // shapes are those of `info` and agree with one another. Cells may be int32 where `cell_type` says
-  // so, else they are int64 as all ids are.
+  // shapes are those of `info` and agree with one another. Cells may be int32 where `cell_type`
+  // says so, else they are int64 as all ids are.
   tetstream_batch batch(const StreamInfo& info, int32_t cell_type = TETSTREAM_TYPE_INT64);
   int32_t cellType() const { return cells_.data ? cells_.type : TETSTREAM_TYPE_INT64; }
 

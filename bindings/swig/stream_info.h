@@ -1,5 +1,5 @@
-// swig: what a stream carries, and its batches, with checks that keep a language's arrays from being
-// read beyond their ends.
+// swig: what a stream carries, and its batches, with checks that keep a language's arrays from
+// being read beyond their ends.
 #pragma once
 
 #include <tetstream/tetstream.h>

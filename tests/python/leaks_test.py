@@ -28,7 +28,7 @@ class Leaks(unittest.TestCase):
         self.assertLess(resident() - before, ALLOWED)
 
     def test_calls_that_succeed(self):
-        points, cells, field = box(3)
+        points, cells, field = box(2)
         labels = halves(points, cells)
 
         def work():
