@@ -91,10 +91,12 @@ class Simplified(Mesh):
     """The result of a simplification: a Mesh, and
 
     report: what was done, a Report.
+    regions: [m], the labels, if some were given; else None.
     vertex_map: where the input's points went, a VertexMap, if it was asked for; else None.
     """
 
     report = None
+    regions = None
     vertex_map = None
 
 
