@@ -84,7 +84,7 @@ stage_full() {
 echo "== packages"
 bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev \
   libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy valgrind mandoc \
-  python3 || exit 1
+  python3 python3-dev python3-numpy swig || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"
   begin=$SECONDS

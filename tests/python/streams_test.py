@@ -129,7 +129,8 @@ class Generators(unittest.TestCase):
                                       {"f": ("f8", 3)}),
             "not int": (3, "float64", {}),
             "cells: .*4": (dict(points=points, cells=cells[:, :3]), "float64", {}),
-            "last_uses": (dict(points=points, cells=cells, last_uses=[1]), "float64", {}),
+            "last_uses: the shape": (dict(points=points, cells=cells, last_uses=[1]), "float64", {}),
+            "from 0 to 15": (dict(points=points, cells=cells[:1], last_uses=[16]), "float64", {}),
         }
         for sentence, (batch, kind, fields) in cases.items():
             with self.subTest(sentence), self.assertRaisesRegex((TypeError, ValueError), sentence):

@@ -83,6 +83,15 @@ def flags(name, values, rows):
     return _dense(array != 0, numpy.uint8)
 
 
+def bits(name, values, rows):
+    """[rows] of uint8, four bits each."""
+    array = _array(name, values)
+    _needs_shape(name, array, f"[{rows}]", array.shape == (rows,))
+    if array.dtype.kind == "f" or (array.size and not 0 <= array.min() <= array.max() <= 15):
+        raise BadArgument(f"{name}: integers from 0 to 15 are wanted")
+    return _dense(array, numpy.uint8)
+
+
 class Column:
     """A named array of a mesh as rows of one to nine numbers, and what it was before."""
 

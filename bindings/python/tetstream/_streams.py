@@ -88,7 +88,7 @@ class _Schema:
             put(target.set_cells, _arrays.wide_ids("cells", batch.cells, 4))
             self._put_columns(put, target.add_cell_data, batch.cell_data, self.cell_data, cells)
         if cells and batch.last_uses is not None:
-            put(target.set_last_uses, _needs("last_uses", batch.last_uses, numpy.uint8, (cells,)))
+            put(target.set_last_uses, _arrays.bits("last_uses", batch.last_uses, cells))
         for name, columns in (("finalized", 1), ("faces", 3), ("face_labels", 1),
                               ("locked_edges", 2)):
             value = getattr(batch, name)
@@ -107,7 +107,7 @@ class _Schema:
         for name, dtype, components in columns:
             if name not in arrays:
                 raise BadArgument(f'"{name}" was announced, and is not in the batch')
-            column = _arrays.Column(name, arrays[name], rows)
+            column = _arrays.Column(name, _numbers(arrays[name], dtype), rows)
             if column.components != components:
                 raise BadArgument(f'"{name}": {column.components} numbers in a row, {components} '
                                   "were announced")
@@ -138,6 +138,11 @@ def _rows(array, columns, dtype):
     return numpy.zeros((0, columns), dtype) if array is None else array
 
 
+def _numbers(values, dtype):
+    """Numbers that have no type yet, as those of a list, get the one that was announced."""
+    return values if isinstance(values, numpy.ndarray) else numpy.asarray(values, dtype)
+
+
 def _cast(name, array, dtype):
     if not numpy.can_cast(array.dtype, dtype, "safe"):
         raise TypeError(f"{name}: its numbers are {array.dtype}, {dtype} was announced")
@@ -145,7 +150,7 @@ def _cast(name, array, dtype):
 
 
 def _needs(name, values, dtype, shape):
-    array = numpy.asarray(values)
+    array = _numbers(values, dtype)
     if array.shape != shape:
         raise BadArgument(f"{name}: the shape is {array.shape}, {shape} is wanted")
     return _cast(name, array, dtype)
