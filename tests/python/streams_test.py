@@ -115,9 +115,27 @@ class Generators(unittest.TestCase):
         points, cells, field = self.mesh
         result = tetstream.simplify(points, cells, {"f": field}, ratio=0.2)
         memory = Writer.memory("tets")
-        tetstream.convert(tetstream._mesh.batches_of(result), memory)
+        tetstream.convert(Reader.stream(result), memory)
         again = tetstream.read(Reader.memory(memory.getbytes(), "tets"))
         self.same(again, result)
+
+    def test_labelled_faces_and_locked_edges_go_along(self):
+        points, cells, field = self.mesh
+        bottom = points[:, 2] == 0
+        faces = numpy.array([[p for p in cell if bottom[p]] for cell in cells
+                             if bottom[cell].sum() == 3])
+        edge = [[p for p in face if points[p, 0] == 0] for face in faces]
+        edge = [pair for pair in edge if len(pair) == 2]
+        mesh = tetstream.Mesh(points, cells, {"f": field}, faces=faces,
+                              face_labels=numpy.full(len(faces), 7), locked_edges=edge,
+                              locked_faces=numpy.arange(len(faces)) < 2)
+        result = self.simplified(Reader.stream(mesh))
+        self.assertLess(len(result.cells), 0.5 * len(cells))
+        self.assertEqual(set(result.face_labels), {7})
+        numpy.testing.assert_allclose(result.points[result.faces][..., 2], 0, atol=1e-4)
+        kept = {tuple(p) for p in result.points}
+        self.assertLessEqual({tuple(p) for p in points[numpy.array(edge)].reshape(-1, 3)}, kept)
+        self.assertLessEqual({tuple(p) for p in points[faces[:2]].reshape(-1, 3)}, kept)
 
     def test_what_was_announced_must_come(self):
         points, cells, field = self.mesh
@@ -233,41 +251,54 @@ class Progress(unittest.TestCase):
 
 
 class Interrupt(unittest.TestCase):
-    """Ctrl-C, in the middle of what would take long."""
+    """Ctrl-C, while the main thread is in the midst of C++."""
 
     def interrupted(self, work):
-        """Within a second of this thread's time, however busy the machine is."""
-        sent = []
+        """`work` is given a function of progress. Within a second of this thread's time, however
+        busy the machine is."""
+        clock = time.pthread_getcpuclockid(threading.get_ident())
+        begun, sent = threading.Event(), []
 
         def press():
+            begun.wait()
+            time.sleep(0.02)
             sent.append(time.clock_gettime(clock))
             os.kill(os.getpid(), signal.SIGINT)
 
-        clock = time.pthread_getcpuclockid(threading.get_ident())
-        timer = threading.Timer(0.4, press)
-        timer.start()
-        try:
-            with self.assertRaises(KeyboardInterrupt):
-                work()
-        finally:
-            timer.cancel()
-            timer.join()
+        def progress(told):
+            if told.phase != "order":
+                begun.set()
+
+        key = threading.Thread(target=press)
+        key.start()
+        with self.assertRaises(KeyboardInterrupt):
+            work(progress)
+            time.sleep(5)  # it was not interrupted: the signal comes here, and far too late
+            self.fail("the run came to its end")
+        key.join()
         self.assertLess(time.clock_gettime(clock) - sent[0], 1)
 
     def test_ends_a_stream(self):
-        self.interrupted(lambda: tetstream.simplify_file(
-            Reader.generate("fluid", 1e8), Writer.batches(lambda batch: None), ratio=0.01))
+        put = []
+        self.interrupted(lambda progress: tetstream.simplify_file(
+            Reader.generate("fluid", 1e8), Writer.batches(put.append), ratio=0.01,
+            progress=progress))
+        self.assertLess(sum(len(batch.cells) for batch in put), 1e6)
 
     def test_ends_an_inspection(self):
-        self.interrupted(lambda: tetstream.info(Reader.generate("fluid", 1e9)))
+        self.interrupted(
+            lambda progress: tetstream.info(Reader.generate("fluid", 1e9), progress=progress))
 
     def test_ends_a_run_on_arrays(self):
-        points, cells, field = box(30)
-        copies = 40  # boxes that do not touch
-        points = numpy.concatenate([points + [2 * i, 0, 0] for i in range(copies)])
-        cells = numpy.concatenate([cells + i * (len(points) // copies) for i in range(copies)])
-        self.interrupted(lambda: tetstream.simplify(points, cells, {"f": numpy.tile(field, copies)},
-                                                    ratio=0.01))
+        mesh = tetstream.read(Reader.generate("fluid", 5e5))
+        ended = []
+
+        def work(progress):
+            mesh.simplify(ratio=0.01, progress=progress)
+            ended.append(True)
+
+        self.interrupted(work)
+        self.assertEqual(ended, [])
 
 
 class Threads(unittest.TestCase):

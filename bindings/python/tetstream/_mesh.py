@@ -37,9 +37,9 @@ class Mesh:
     def write(self, path, format=None, **properties):
         """Writes a file, whose cells and points have the order that they have here. `format` and
         `properties` as in Writer.file."""
-        from ._streams import Writer
         from ._operations import convert
-        return convert(batches_of(self), Writer.file(path, format, **properties))
+        from ._streams import Reader, Writer
+        return convert(Reader.stream(self), Writer.file(path, format, **properties))
 
     def to_pyvista(self):
         """A pyvista.UnstructuredGrid. Needs pyvista."""
@@ -141,7 +141,7 @@ def _last_uses(cells, points):
 
 
 def batches_of(mesh):
-    """A Reader of the mesh as a stream: in its own order, finalized where it can be."""
+    """Reader.stream of a Mesh."""
     from ._streams import Batch, Reader
     points = _arrays.points(mesh.points)
     cells = _arrays.wide_ids("cells", mesh.cells, 4)

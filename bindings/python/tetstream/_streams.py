@@ -181,8 +181,8 @@ def _notes(handle):
 class Reader:
     """Where a mesh comes from. It serves one run.
 
-    Made by Reader.file, Reader.memory, Reader.mesh, Reader.generate and Reader.batches; functions
-    that read also take a path, or a Mesh, in its place.
+    Made by Reader.file, Reader.memory, Reader.mesh, Reader.stream, Reader.generate and
+    Reader.batches; functions that read also take a path, or a Mesh, in its place.
     """
 
     def __init__(self, handle, *kept):
@@ -237,6 +237,12 @@ class Reader:
         if mesh.locked_edges is not None:
             put(batch.set_locked_edges, _arrays.wide_ids("locked_edges", mesh.locked_edges, 2))
         return cls(core.Reader.open_mesh(info, batch), kept)
+
+    @classmethod
+    def stream(cls, mesh):
+        """A Mesh as a stream: its points and cells come in the order that they have, finalized where
+        they can be. Labelled faces and locked edges come first, and all points with them."""
+        return _mesh.batches_of(mesh)
 
     @classmethod
     def generate(cls, kind, cells, seed=1):
