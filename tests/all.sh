@@ -52,7 +52,7 @@ stage_format() {
 }
 
 stage_lint() {
-  printf '%s\n' lib/*/*.cpp bindings/cli/*.cpp |
+  printf '%s\n' lib/*/*.cpp bindings/cli/*.cpp bindings/swig/*.cpp |
     xargs -P "$jobs" -n 4 clang-tidy --quiet -p build/release 2>&1 |
     sed '/warnings\? generated\.$/d'
 }

@@ -178,9 +178,9 @@ static PyObject* copyOf(const ArrayView& view) {
   const int axes = shapeOf(view.rows, view.columns, shape);
   PyObject* const array = PyArray_SimpleNew(axes, shape, numpyType(view.type));
   if (array && view.rows > 0)
-    std::memcpy(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)), view.data,
-                static_cast<size_t>(view.rows) * static_cast<size_t>(view.columns) *
-                    sizeOfType(view.type));
+    std::memcpy(
+        PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)), view.data,
+        static_cast<size_t>(view.rows) * static_cast<size_t>(view.columns) * sizeOfType(view.type));
   return array;
 }
 

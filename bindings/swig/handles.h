@@ -44,6 +44,9 @@ class Options {
 // What a reader is made of is kept by it, but for arrays, which the language keeps.
 class Reader {
  public:
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader();
   static Reader* openFile(const char* path, const char* format);
   static Reader* openMemory(const ArrayView& bytes, const char* format);
   static Reader* openMesh(const StreamInfo& info, StreamBatch& mesh);
@@ -62,22 +65,19 @@ class Reader {
  private:
   struct Source;
   Reader();
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
   // Creates the handle; throws what went wrong.
   template <class Create>
   static Reader* made(std::unique_ptr<Reader> reader, Create&& create);
 
- public:
-  ~Reader();
-
- private:
   std::unique_ptr<Source> source_;
   Handle<tetstream_reader> handle_;
 };
 
 class Writer {
  public:
+  Writer(const Writer&) = delete;
+  Writer& operator=(const Writer&) = delete;
+  ~Writer();
   static Writer* createFile(const char* path, const char* format);
   static Writer* createMemory(const char* format);
   // `open` is called with a StreamInfo, `put` with a StreamBatch, `finish` with the StreamInfo
@@ -98,15 +98,9 @@ class Writer {
  private:
   struct Target;
   Writer();
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
   template <class Create>
   static Writer* made(std::unique_ptr<Writer> writer, Create&& create);
 
- public:
-  ~Writer();
-
- private:
   std::unique_ptr<Target> target_;
   Handle<tetstream_writer> handle_;
 };

@@ -1,7 +1,7 @@
 """The simplification: of arrays, of files, of streams."""
 import warnings
 
-from . import _mesh, _options, _progress, _streams, core
+from . import _arrays, _mesh, _options, _progress, _streams, core
 from ._records import Report
 from .errors import TargetMissedWarning
 
@@ -15,23 +15,17 @@ def _made_options(options, weights):
     return _options.made(options, weights)
 
 
-class _Run:
-    """One simplification."""
-
-    def __init__(self, options, weights, writer, depth):
-        self.options = _made_options(options, weights)
-        self.writer = writer
-        self.depth = depth  # of the caller's frame, for a warning
-
-    def __call__(self, reader, progress, prepare=lambda simplifier: None):
-        with _progress.told(progress) as tell:
-            simplifier = core.Simplifier(self.options._handle, self.writer._handle, tell)
-            prepare(simplifier)
-            simplifier.run(reader._handle)
-        return _reported(simplifier, self.depth, reader, self.writer)
+def _run(options, reader, writer, progress, prepare, depth):
+    """One simplification; `prepare` is called with the simplifier before. The Report."""
+    with _progress.told(progress) as tell:
+        simplifier = core.Simplifier(options._handle, writer._handle, tell)
+        prepare(simplifier)
+        simplifier.run(reader._handle)
+    return _reported(simplifier, depth, reader, writer)
 
 
 def _reported(simplifier, depth, *handles):
+    """The Report; a missed target is a warning at the frame of the caller, `depth` frames up."""
     report = _streams.noted(Report.copied(simplifier.get_report()), *handles)
     if report.limited_by:
         warnings.warn(f"the target of {report.target_cells} cells was missed, {report.cells_out} "
@@ -59,14 +53,18 @@ def _with_regions(mesh, regions, options):
 def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progress=None, **options):
     """tetstream.simplify of a Mesh."""
     labelled, options = _with_regions(mesh, regions, options)
+    made = _made_options(options, weights)
     points, cells, columns, cell_columns = _streams.mesh_columns(labelled)
-    collector = core.MeshCollector(_streams._type("cells", cells.dtype))
-    run = _Run(options, weights, _streams.Writer(core.Writer.collect(collector)), 5)
+    collector = core.MeshCollector(_arrays.TYPES[cells.dtype])
     reader = _streams.Reader._of_columns(labelled, points, cells, columns, cell_columns)
+    writer = _streams.Writer(core.Writer.collect(collector))
     mapped = core.MapCollector(len(points)) if vertex_map else None
-    report = run(reader, progress,
-                 (lambda simplifier: simplifier.set_map(mapped)) if vertex_map else
-                 (lambda simplifier: None))
+
+    def prepare(simplifier):
+        if vertex_map:
+            simplifier.set_map(mapped)
+
+    report = _run(made, reader, writer, progress, prepare, 5)
     result = _mesh.collected(collector, columns, cell_columns, _mesh.Simplified)
     result.report = report
     if labelled is not mesh:
@@ -148,10 +146,9 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
         if log_file is not None:
             simplifier.set_log_file(log_file, None)
 
-    # The options first: nothing is created for those that are refused.
-    _made_options(options, weights)
-    run = _Run(options, weights, _streams.writer_of(target), 4)
-    return run(_streams.reader_of(source), progress, prepare)
+    # The options first, then the source: nothing is created where one of them is refused.
+    made, reader = _made_options(options, weights), _streams.reader_of(source)
+    return _run(made, reader, _streams.writer_of(target), progress, prepare, 4)
 
 
 @_options.documented()

@@ -13,8 +13,8 @@ namespace tetstream::test {
 namespace {
 
 TEST(CountedCells, ComeByTheirHighestRank) {
-  const TestMesh mesh = makeMesh(ScalarType::kFloat64, std::vector<double>(18, 0.0),
-                                 {0, 1, 2, 3, 1, 2, 3, 4, 0, 1, 2, 3, 2, 3, 4, 5});
+  TestMesh mesh = makeMesh(ScalarType::kFloat64, std::vector<double>(18, 0.0),
+                           {0, 1, 2, 3, 1, 2, 3, 4, 0, 1, 2, 3, 2, 3, 4, 5});
   MemorySource source(mesh.schema, mesh.view());
   Account account;
   Array<uint32_t> ranks(account, 6);
@@ -29,7 +29,7 @@ TEST(CountedCells, ComeByTheirHighestRank) {
 }
 
 TEST(CountedCells, TakeFourBytesACellAndFourAVertex) {
-  const TestMesh mesh = shuffled(fullGrid(9, 9, 9), 1);
+  TestMesh mesh = shuffled(fullGrid(9, 9, 9), 1);
   MemorySource source(mesh.schema, mesh.view());
   Account others, account;
   Array<uint32_t> ranks(others, mesh.vertexCount());
@@ -41,7 +41,7 @@ TEST(CountedCells, TakeFourBytesACellAndFourAVertex) {
 }
 
 TEST(CountedCells, ServeWhatFitsTheMemory) {
-  const TestMesh mesh = fullGrid(4, 4, 4);
+  TestMesh mesh = fullGrid(4, 4, 4);
   const MemorySource source(mesh.schema, mesh.view());
   const size_t bytes = 4 * (mesh.cellCount() + 2 * mesh.vertexCount() + 1);
   EXPECT_TRUE(CountedCells::serves(source, bytes));
