@@ -65,10 +65,29 @@ def _write(path, files):
         wheel.writestr(f"{info}/RECORD", "".join(record) + f"{info}/RECORD,,\n")
 
 
-def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+def _tag():
     version = f"cp{sys.version_info.major}{sys.version_info.minor}"
-    tag = f"{version}-{version}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
-    name = f"tetstream-{_version()}-{tag}.whl"
+    return f"{version}-{version}-{re.sub('[-.]', '_', sysconfig.get_platform())}"
+
+
+def _info():
+    """What a wheel says of itself: pairs of name and bytes."""
+    about = f"Wheel-Version: 1.0\nGenerator: tetstream\nRoot-Is-Purelib: false\nTag: {_tag()}\n"
+    return [("METADATA", _metadata().encode()), ("WHEEL", about.encode()),
+            ("LICENSE", (ROOT / "LICENSE").read_bytes())]
+
+
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """So that nobody has to build the package to know its name."""
+    folder = f"tetstream-{_version()}.dist-info"
+    os.mkdir(os.path.join(metadata_directory, folder))
+    for name, data in _info():
+        pathlib.Path(metadata_directory, folder, name).write_bytes(data)
+    return folder
+
+
+def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    name = f"tetstream-{_version()}-{_tag()}.whl"
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
         build = (config_settings or {}).get("build-dir")
@@ -76,9 +95,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                            scratch / "staging")
         files = [(f"tetstream/{path.name}", path.read_bytes()) for path in
                  sorted(package.iterdir()) if path.is_file()]
-        about = f"Wheel-Version: 1.0\nGenerator: tetstream\nRoot-Is-Purelib: false\nTag: {tag}\n"
-        files += [("INFO/METADATA", _metadata().encode()), ("INFO/WHEEL", about.encode()),
-                  ("INFO/LICENSE", (ROOT / "LICENSE").read_bytes())]
+        files += [("INFO/" + entry, data) for entry, data in _info()]
         _write(os.path.join(wheel_directory, name), files)
     return name
 
