@@ -125,6 +125,15 @@ class Arrays(unittest.TestCase):
         kept = result.points[result.locked]
         self.assertEqual({tuple(p) for p in kept}, {tuple(p) for p in points[locked]})
 
+    def test_labelled_faces_go_along(self):
+        points, cells, field = box(5)
+        faces = numpy.array([[p for p in cell if points[p, 2] == 0] for cell in cells
+                             if (points[cell, 2] == 0).sum() == 3])
+        result = tetstream.simplify(points, cells, {"f": field}, faces=faces,
+                                    face_labels=numpy.full(len(faces), 7), ratio=0.3)
+        self.assertEqual(set(result.face_labels), {7})
+        numpy.testing.assert_allclose(result.points[result.faces][..., 2], 0, atol=1e-4)
+
     def test_a_vertex_map_carries_linear_fields_back(self):
         points, cells, field = box(6)
         linear = points @ [1.0, -2, 3]
