@@ -191,6 +191,8 @@ typedef struct tetstream_column {
 
 #define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
                                       and ordered by the library before it is streamed */
+#define TETSTREAM_STREAM_INT32_CELLS 2 /* of tetstream_reader_open_mesh alone: `cells` of the batch
+                                          points to int32_t. Since 0.1 */
 
 /* What a stream carries. Counts that are not known are -1 where the library gives them, and -1 or 0
  * where it takes them. The arrays are read during the call only. */

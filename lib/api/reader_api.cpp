@@ -63,12 +63,15 @@ tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,
                                             const tetstream_batch* mesh,
                                             tetstream_reader** reader) {
   return guardCreate(__func__, reader, [&](tetstream_reader& r) {
-    Schema schema = schemaOf(readStruct(info, "info"));
+    tetstream_stream_info stream = readStruct(info, "info");
+    const bool narrow = (stream.flags & TETSTREAM_STREAM_INT32_CELLS) != 0;
+    stream.flags &= ~static_cast<uint32_t>(TETSTREAM_STREAM_INT32_CELLS);
+    const Schema schema = schemaOf(stream);
     tetstream_batch batch = readStruct(mesh, "mesh");
     batch.last_uses = nullptr;
     batch.finalized_count = 0;
     const BatchView view = BatchChecker(schema).view(batch);
-    r.input.indexed = std::make_unique<MemorySource>(schema, view);
+    r.input.indexed = std::make_unique<MemorySource>(schema, view, narrow);
     openReader(r);
   });
 }
