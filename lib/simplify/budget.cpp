@@ -22,15 +22,14 @@ constexpr double kFirstError = 0.7, kBackOff = 0.6;
 // Share of a correction that is made at once, and the largest step.
 constexpr double kDamping = 0.7, kLargestChange = 4;
 
-// For reductions stronger than this a bound is approached in passes: at 0.02 four of them took 10 %
-// of the RMS error, and 5 % more time; at 0.1 they change nothing.
-constexpr double kStrong = 12;
+// A bound is approached in so many passes for reductions stronger than this, where it takes 10 % of
+// the RMS error and 5 % more time, and changes nothing at 0.1; and where nobody knows what is to
+// come, since a window may be far simpler than the one before.
 constexpr int kApproaches = 4;
-// Where nobody knows what is to come, a window gives up this share of its cells at most for others:
-// a stream is seldom as it began. It is approached from farther below, since a window may be far
-// simpler than the one before.
+constexpr double kStrong = 12;
+// Such a window gives up this share of its cells at most for others: a stream is seldom as it
+// began.
 constexpr double kGivenUp = 0.1;
-constexpr int kApproachesUnknown = 8;
 // With less the target is missed more often than without.
 constexpr double kLeastFronts = 1.5;
 
@@ -101,8 +100,8 @@ bool CommonBound::spreads(const Ledger& ledger) const {
 }
 
 int CommonBound::approaches(const Ledger& ledger) const {
-  if (spreads(ledger)) return kApproachesUnknown;
-  return countsCells() && !is_tight_ && total(ledger) > kStrong * wanted(ledger) ? kApproaches : 0;
+  const bool is_strong = total(ledger) > kStrong * wanted(ledger);
+  return spreads(ledger) || (countsCells() && !is_tight_ && is_strong) ? kApproaches : 0;
 }
 
 // About the same ratio all along the stream. `due`: cells out that the cells seen should leave.
