@@ -15,6 +15,9 @@ Output::Output(const tetstream_writer_callbacks& callbacks) : callbacks_(callbac
   needPlace(reinterpret_cast<const void*>(callbacks_.put), "the callback put");
 }
 
+Output::Output(const Format& format, const std::string& path)
+    : format_(&format), bytes_(createFile(path, &files_)) {}
+
 Output::Output(const Format& format, std::unique_ptr<ByteSink> bytes)
     : format_(&format), bytes_(std::move(bytes)) {}
 
@@ -102,6 +105,7 @@ Sink& Output::sink() {
 }
 
 void Output::complete() {
+  files_.commit();
   state_ = State::kFinished;
   sink_.reset();
 }
@@ -111,6 +115,7 @@ void Output::stop(State state) noexcept {
   state_ = state;
   sink_.reset();
   bytes_.reset();
+  files_.forget();
 }
 
 const std::vector<unsigned char>& Output::memory() const {

@@ -16,7 +16,7 @@ tetstream_status tetstream_writer_create_file(const char* path, const char* form
   return guardCreate(__func__, writer, [&](tetstream_writer& w) {
     needPlace(path, "path");
     const Format& found = writtenFormat(format ? format : "", path);
-    w.output = std::make_shared<Output>(found, createFile(path));
+    w.output = std::make_shared<Output>(found, std::string(path));
   });
 }
 
