@@ -97,7 +97,7 @@ std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& 
   const Target target = targetOf(schema, options);
   if (followsPaper(options.mode) || options.uniform_ratio)
     return std::make_unique<UniformRatio>(target, schema.cell_count);
-  return std::make_unique<CommonBound>(target, schema.cell_count, pilot);
+  return std::make_unique<CommonBound>(target, schema.cell_count, pilot, options.memory_bytes > 0);
 }
 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:

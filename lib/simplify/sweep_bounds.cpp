@@ -28,8 +28,9 @@ constexpr double kFirstShare = 0.4, kHalf = 0.5, kFirstShareToError = 0.01;
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
 template <class S>
-void SweepBounds<S>::forget() {
+double SweepBounds<S>::start(double first_bound, int approaches) {
   yield_ = kFirstYield;
+  return std::min(std::ldexp(first_bound, -approaches), kLargestBound);
 }
 
 template <class S>
