@@ -12,12 +12,13 @@ static std::string textOrEmpty(const char* text) {
 
 // Opens the bytes as `format` and reads the header.
 static void openBytes(tetstream_reader& reader, const Format& format,
-                      std::unique_ptr<ByteSource> bytes) {
+                      std::unique_ptr<ByteSource> bytes, const std::string& path = "") {
   if (!format.open)
     fail(Status::kUnsupported, "the format \"%s\" is written, but not read", format.name);
   if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), "");
   ReadOptions options;
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
+  options.path = path;
   reader.input = format.open(std::move(bytes), options);
   openReader(reader);
 }
@@ -36,7 +37,7 @@ tetstream_status tetstream_reader_open_file(const char* path, const char* format
   return guardCreate(__func__, reader, [&](tetstream_reader& r) {
     needPlace(path, "path");
     const Format& found = needFormat(textOrEmpty(format), path);
-    openBytes(r, found, openFile(path));
+    openBytes(r, found, openFile(path), path);
   });
 }
 

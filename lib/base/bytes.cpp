@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -289,6 +291,11 @@ SpoolFile::~SpoolFile() {
 void SpoolFile::append(const void* data, size_t size) {
   writeFully(fd_, data, size, name_);
   size_ += size;
+}
+
+void SpoolFile::writeAt(uint64_t offset, const void* data, size_t size) {
+  writeFullyAt(fd_, offset, data, size, name_);
+  size_ = std::max(size_, offset + size);
 }
 
 void SpoolFile::readAt(uint64_t offset, void* out, size_t size) {

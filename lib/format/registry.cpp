@@ -32,6 +32,9 @@ static const Format kFormats[] = {
      true,
      openSvb,
      createSvb},
+ {"mesh",".mesh","MEDIT text, with .sol beside it",{true, -1, true}, true, true, openMedit, nullptr},
+ {"meshb",".meshb","MEDIT binary, with .sol beside it",{true, -1, true}, true, true, openMedit, nullptr},
+    {"msh", ".msh", "Gmsh 2.2 and 4.1", {true, -1, true}, true, true, openMsh, nullptr},
 };
 
 const Format* formats(size_t* count) {

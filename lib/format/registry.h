@@ -14,12 +14,16 @@ namespace tetstream {
 struct ReadOptions {
   std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
   std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
+  std::string path;    // of a file; empty: the bytes come from elsewhere, nothing lies beside them
+  bool split = false;  // hexahedra, prisms and pyramids into tetrahedra; else they are errors
 };
 
 struct WriteOptions {
   std::string temp_dir;
   std::function<void(const std::string&)> note;
+  std::string path;         // as for reading
   bool compress = true;     // .tets: zstd where built in; .vtu: zlib
+  bool binary = true;       // .msh
   bool post_order = false;  // .sva, .svb
 };
 
@@ -52,6 +56,8 @@ const Format& needFormat(const std::string& name, const std::string& path);
 Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openMedit(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);

@@ -62,6 +62,9 @@ class RoundingIndexedSource final : public IndexedSource {
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
     in_.readCellData(column, first, count, out);
   }
+  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
+    in_.readFaces(first, count, corners, labels);
+  }
   void readOrigins(uint64_t first, size_t count, int64_t* out) override {
     in_.readOrigins(first, count, out);
   }

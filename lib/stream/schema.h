@@ -28,6 +28,7 @@ struct Schema {
   // What is known beforehand; -1 or empty where it is not.
   int64_t vertex_count = -1;
   int64_t cell_count = -1;
+  int64_t face_count = -1;   // labelled faces
   int64_t front_width = -1;  // vertices active at once, at most
   int64_t front_span = -1;   // highest minus lowest active vertex + 1, at most
   int64_t front_cells = -1;  // cells read that touch a vertex not yet finalized, at most

@@ -34,7 +34,8 @@ class IndexedSource {
   virtual const Schema& schema() const = 0;
   // Whether single rows in any order are as cheap as sequential ones.
   virtual bool randomAccess() const { return false; }
-  // Per point, non-zero: never moved; null where there are none.
+  // Per point, non-zero: never moved, as a point, or as one of an edge or a face that is locked; null
+  // where there are none.
   virtual const uint8_t* locked() const { return nullptr; }
   // Whether the points have come out of another order; then readOrigins tells their ranks there.
   virtual bool hasOrigins() const { return false; }
@@ -43,6 +44,8 @@ class IndexedSource {
   virtual void readField(size_t column, uint64_t first, size_t count, void* out) = 0;
   virtual void readCells(uint64_t first, size_t count, int64_t* out) = 0;
   virtual void readCellData(size_t column, uint64_t first, size_t count, void* out) = 0;
+  // Labelled faces, of which the schema knows the number: three points each.
+  virtual void readFaces(uint64_t, size_t, int64_t* /* corners */, int64_t* /* labels */) {}
   virtual void readOrigins(uint64_t first, size_t count, int64_t* out) {
     for (size_t i = 0; i < count; ++i) out[i] = static_cast<int64_t>(first + i);
   }

@@ -1,0 +1,42 @@
+#include "msh_mesh.h"
+
+#include "status.h"
+
+namespace tetstream {
+
+void MshMesh::beginNodes() {
+  if (intake) file.failBad("a second section of nodes");
+  intake = std::make_unique<MeshIntake>(file, options, hints.position_type);
+  intake->addLabels(hints.physical.c_str());
+  intake->addLabels(hints.entity.c_str());
+}
+
+void MshMesh::endNodes() {
+  int64_t twice;
+  if (!points.finish(&twice)) file.failBad("node " + std::to_string(twice) + " is there twice");
+}
+
+void MshMesh::addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity) {
+  if (face_labels == FaceLabels::kUndecided)
+    face_labels = group != 0 ? FaceLabels::kGroups : FaceLabels::kEntities;
+  const int64_t label = face_labels == FaceLabels::kGroups ? group : entity;
+  if (label == 0) return intake->leaveOut("triangles without a label");
+  intake->addFace(kind, corners, label);
+}
+
+void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group,
+                      int64_t entity) {
+  const int dimension = dimensionOf(kind.shape);
+  if (dimension < 2) return intake->leaveOut(dimension == 0 ? "points" : "lines");
+  int64_t corners[8];
+  for (int k = 0; k < cornersOf(kind.shape); ++k)
+    if (!points.find(nodes[k], &corners[k]))
+      file.failBad("element " + std::to_string(tag) + " uses node " + std::to_string(nodes[k]) +
+                   ", which is not there");
+  if (dimension == 2) return addFace(kind, corners, group, entity);
+  const int64_t labels[] = {group, entity};
+  const auto first = static_cast<int64_t>(intake->mesh().cellCount());
+  cells.add(tag, first, static_cast<int64_t>(intake->addCell(kind, corners, labels, tag)));
+}
+
+}  // namespace tetstream
