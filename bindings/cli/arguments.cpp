@@ -134,6 +134,8 @@ void Parser::addOut(CLI::App* command) {
   addProperty("--compress", "compress", "yes|no", "Compress OUT (tets, vtu)");
   addProperty("--vertex-order", "order", "pre|post",
               "Vertices before or after their cells (sva, svb)");
+  addProperty("--encoding", "encoding", "binary|text", "Numbers of OUT (msh)");
+  addProperty("--msh-version", "version", "4.1|2.2", "Version of OUT's format (msh)");
 }
 
 void Parser::addFormat(CLI::App* command) {

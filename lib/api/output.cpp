@@ -15,8 +15,10 @@ Output::Output(const tetstream_writer_callbacks& callbacks) : callbacks_(callbac
   needPlace(reinterpret_cast<const void*>(callbacks_.put), "the callback put");
 }
 
-Output::Output(const Format& format, std::unique_ptr<ByteSink> bytes)
-    : format_(&format), bytes_(std::move(bytes)) {}
+Output::Output(const Format& format, std::unique_ptr<ByteSink> bytes, const std::string& path)
+    : format_(&format), bytes_(std::move(bytes)) {
+  options_.path = path;
+}
 
 Output::Output(const Format& format) : format_(&format), in_memory_(true) {
   bytes_ = createMemory(memory_);
@@ -44,6 +46,8 @@ struct Property {
 constexpr Property kProperties[] = {
     {"compress", "yes", "no", {"tets", "vtu", nullptr}, &WriteOptions::compress},
     {"order", "post", "pre", {"sva", "svb", nullptr}, &WriteOptions::post_order},
+    {"encoding", "binary", "text", {"msh", nullptr, nullptr}, &WriteOptions::binary},
+    {"version", "4.1", "2.2", {"msh", nullptr, nullptr}, &WriteOptions::newest},
 };
 
 }  // namespace

@@ -22,7 +22,8 @@ const Format& writtenFormat(const std::string& name, const std::string& path);
 class Output final : public Sink {
  public:
   explicit Output(const tetstream_writer_callbacks& callbacks);
-  Output(const Format& format, std::unique_ptr<ByteSink> bytes);
+  // `path` where they go to a file.
+  Output(const Format& format, std::unique_ptr<ByteSink> bytes, const std::string& path = "");
   explicit Output(const Format& format);  // into memory
   // `options_` and the sink point into the object.
   Output(const Output&) = delete;

@@ -1,4 +1,5 @@
 // api: readers of the public header.
+#include "compressed_bytes.h"
 #include "generate.h"
 #include "handles.h"
 #include "memory_source.h"
@@ -15,10 +16,11 @@ static void openBytes(tetstream_reader& reader, const Format& format,
                       std::unique_ptr<ByteSource> bytes, const std::string& path = "") {
   if (!format.open)
     fail(Status::kUnsupported, "the format \"%s\" is written, but not read", format.name);
+  bytes = unwrapped(std::move(bytes));
   if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), "");
   ReadOptions options;
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
-  options.path = path;
+  wrappingOf(path, &options.path);
   reader.input = format.open(std::move(bytes), options);
   openReader(reader);
 }

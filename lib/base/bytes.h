@@ -37,6 +37,9 @@ std::unique_ptr<ByteSource> openDescriptor(int fd, const std::string& name);
 std::unique_ptr<ByteSource> openMemory(const void* data, size_t size, const std::string& name);
 // Another reading of a seekable source, from its first byte on; borrows it.
 std::unique_ptr<ByteSource> readAgain(ByteSource& source);
+// A source whose first bytes were read already, all of it again.
+std::unique_ptr<ByteSource> withPrefix(std::vector<unsigned char> prefix,
+                                       std::unique_ptr<ByteSource> rest);
 // A seekable source with the same bytes: itself, or a copy spooled to an unnamed temporary file.
 std::unique_ptr<ByteSource> makeSeekable(std::unique_ptr<ByteSource> source,
                                          const std::string& temp_dir);

@@ -12,7 +12,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr const char* kReference = "medit:ref";  // as others call it, too
 constexpr size_t kMostNodes = 27;
 
 class MeditReader {
@@ -25,8 +24,8 @@ class MeditReader {
                 scan_.binary() && scan_.version() == 1 ? ScalarType::kFloat32
                                                        : ScalarType::kFloat64) {
     const bool wide = scan_.version() == 4;
-    intake_.addLabels(kReference, wide);
-    intake_.addPointLabels(kReference, wide);
+    intake_.addLabels(kMeditReference, wide);
+    intake_.addPointLabels(kMeditReference, wide);
   }
 
   std::unique_ptr<IndexedSource> read() {

@@ -91,7 +91,8 @@ std::string withExtension(const std::string& path, const char* extension) {
 }
 
 std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path, std::string* path) {
-  for (const char* extension : {".sol", ".solb"}) {
+  const bool binary = mesh_path.size() > 6 && mesh_path.compare(mesh_path.size() - 6, 6, ".meshb") == 0;
+  for (const char* extension : {binary ? ".solb" : ".sol", binary ? ".sol" : ".solb"}) {
     *path = withExtension(mesh_path, extension);
     if (exists(*path)) return openFile(*path);
   }

@@ -35,7 +35,7 @@ void readMshHint(std::string_view line, MshHints* hints) {
   const auto name = [&line] { return std::string(line.empty() ? line : line.substr(1)); };
   if (what == "physical" || what == "geometrical") {
     std::string text = name();
-    if (text.empty() || text.size() > 255) return;
+    if (text.size() > 255) return;
     (what == "physical" ? hints->physical : hints->entity) = std::move(text);
     return;
   }

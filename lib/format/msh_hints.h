@@ -2,7 +2,7 @@
 // names that the format cannot hold. Depends on schema.h.
 //
 //   tetstream position float32
-//   tetstream physical NAME       the cell data that the groups of volumes hold
+//   tetstream physical NAME       the cell data that the groups of volumes hold; no name: none
 //   tetstream geometrical NAME    the same for the entities
 //   tetstream field int32 NAME    the type of a $NodeData
 //   tetstream cells float32 NAME  the type of an $ElementData

@@ -7,8 +7,14 @@ namespace tetstream {
 void MshMesh::beginNodes() {
   if (intake) file.failBad("a second section of nodes");
   intake = std::make_unique<MeshIntake>(file, options, hints.position_type);
-  intake->addLabels(hints.physical.c_str());
-  intake->addLabels(hints.entity.c_str());
+  const auto addLabels = [this](const std::string& name) {
+    if (name.empty()) return;
+    const auto type = hints.cell_data.find(name);
+    intake->addLabels(name.c_str(),
+                      type != hints.cell_data.end() && type->second == ScalarType::kInt64);
+  };
+  addLabels(hints.physical);
+  if (hints.entity != hints.physical) addLabels(hints.entity);
 }
 
 void MshMesh::endNodes() {
@@ -34,7 +40,8 @@ void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t 
       file.failBad("element " + std::to_string(tag) + " uses node " + std::to_string(nodes[k]) +
                    ", which is not there");
   if (dimension == 2) return addFace(kind, corners, group, entity);
-  const int64_t labels[] = {group, entity};
+  const int64_t both[] = {group, entity};
+  const int64_t* labels = hints.physical.empty() ? both + 1 : both;
   const auto first = static_cast<int64_t>(intake->mesh().cellCount());
   cells.add(tag, first, static_cast<int64_t>(intake->addCell(kind, corners, labels, tag)));
 }

@@ -23,7 +23,8 @@ struct WriteOptions {
   std::function<void(const std::string&)> note;
   std::string path;         // as for reading
   bool compress = true;     // .tets: zstd where built in; .vtu: zlib
-  bool binary = true;       // .msh
+  bool binary = true;       // .msh: else text
+  bool newest = true;       // .msh: 4.1, else 2.2
   bool post_order = false;  // .sva, .svb
 };
 
@@ -47,7 +48,8 @@ struct Format {
 
 const Format* formats(size_t* count);
 const Format* findFormat(const std::string& name);    // null: no such format
-const Format* formatOfPath(const std::string& path);  // by extension; null: unknown
+// By extension, after which .gz or .zst may follow; null: unknown.
+const Format* formatOfPath(const std::string& path);
 // As above, but throw kUnsupported with a sentence that lists what there is. `name` may be empty:
 // then the path's extension decides.
 const Format& needFormat(const std::string& name, const std::string& path);
@@ -62,6 +64,9 @@ Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMesh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMeshb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createTets(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 
 }  // namespace tetstream
