@@ -170,6 +170,12 @@ void Parser::addTraces(CLI::App* command) {
 
 void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
   const std::string name = info.name;
+  if (info.id == TETSTREAM_OPTION_SPLIT) {
+    command->add_flag_callback(
+        "--" + name, [this, name] { arguments_.options.values.emplace_back(name, "yes"); },
+        info.text);
+    return;
+  }
   command
       ->add_option_function<std::string>(
           "--" + name,
@@ -184,7 +190,8 @@ void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info
 void Parser::addStreamOptions(CLI::App* command) {
   for (const tetstream_option_info& info : optionTable())
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
-        info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER)
+        info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
+        info.id == TETSTREAM_OPTION_SPLIT)
       addTableOption(command, info);
 }
 
@@ -339,7 +346,8 @@ void Parser::addCompare() {
     }
     if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
         info.id == TETSTREAM_OPTION_SEED || info.id == TETSTREAM_OPTION_REGIONS ||
-        info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR)
+        info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
+        info.id == TETSTREAM_OPTION_SPLIT)
       addTableOption(command, info);
   }
   addReport(command);

@@ -78,7 +78,7 @@ class SpoolFile {
   SpoolFile& operator=(const SpoolFile&) = delete;
   void append(const void* data, size_t size);
   void writeAt(uint64_t offset, const void* data, size_t size);  // a gap before it reads as zeros
-  void readAt(uint64_t offset, void* out, size_t size);          // throws when there are fewer bytes
+  void readAt(uint64_t offset, void* out, size_t size);  // throws when there are fewer bytes
   uint64_t size() const { return size_; }
   int descriptor() const { return fd_; }
 

@@ -32,8 +32,7 @@ constexpr Faces kPyramidFaces = {
 constexpr Faces kPrismFaces = {
     5, {{0, 1, 2, -1}, {3, 5, 4, -1}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}};
 constexpr Faces kHexaFaces = {
-    6,
-    {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}};
+    6, {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}};
 
 const Faces& facesOf(CellShape shape) {
   if (shape == CellShape::kPyramid) return kPyramidFaces;

@@ -107,8 +107,7 @@ bool FileScan::lineEnds() {
 }
 
 std::string FileScan::place() const {
-  return name() +
-         (binary_ ? ": byte " + countText(offset()) : ": line " + countText(line_));
+  return name() + (binary_ ? ": byte " + countText(offset()) : ": line " + countText(line_));
 }
 
 void FileScan::failHere(Status status, const std::string& text) const {
@@ -224,8 +223,7 @@ void FileScan::skipPast(std::string_view mark) {
 
 void FileScan::skipTo(uint64_t place, const char* what) {
   while (offset() < place) {
-    if (at_ == filled_ && !refill())
-      failBad(std::string("the file ends within ") + what);
+    if (at_ == filled_ && !refill()) failBad(std::string("the file ends within ") + what);
     at_ += static_cast<size_t>(std::min<uint64_t>(filled_ - at_, place - offset()));
   }
 }

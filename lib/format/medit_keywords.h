@@ -1,5 +1,5 @@
-// format: the keywords of MEDIT's files that are read or written: their names in text, their numbers
-// in binary. Depends on cell_kinds.h.
+// format: the keywords of MEDIT's files that are read or written: their names in text, their
+// numbers in binary. Depends on cell_kinds.h.
 #pragma once
 
 #include <cstdint>

@@ -20,9 +20,9 @@ class MeditReader {
       : scan_(std::move(bytes)),
         options_(options),
         // note: text of version 1 is written with a double's digits by many.
-        intake_(scan_.file(), options,
-                scan_.binary() && scan_.version() == 1 ? ScalarType::kFloat32
-                                                       : ScalarType::kFloat64) {
+        intake_(
+            scan_.file(), options,
+            scan_.binary() && scan_.version() == 1 ? ScalarType::kFloat32 : ScalarType::kFloat64) {
     const bool wide = scan_.version() == 4;
     intake_.addLabels(kMeditReference, wide);
     intake_.addPointLabels(kMeditReference, wide);

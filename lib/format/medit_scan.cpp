@@ -23,8 +23,7 @@ MeditScan::MeditScan(std::unique_ptr<ByteSource> bytes)
   }
   version_ = static_cast<int>(numbers_.integer(4, "the version"));
   if (version_ < 1 || version_ > 4)
-    file_.failHere(Status::kUnsupported,
-                   textOf("version %d; 1 to 4 are read", version_));
+    file_.failHere(Status::kUnsupported, textOf("version %d; 1 to 4 are read", version_));
   integer_bytes_ = version_ == 4 ? 8 : 4;
   real_bytes_ = version_ == 1 ? 4 : 8;
   place_bytes_ = version_ >= 3 ? 8 : 4;
@@ -76,8 +75,8 @@ void MeditScan::skip() {
 }
 
 uint64_t MeditScan::rows(size_t integers, size_t reals, const char* what) {
-  const size_t least = binary() ? integers * integer_bytes_ + reals * real_bytes_
-                                : 2 * (integers + reals);
+  const size_t least =
+      binary() ? integers * integer_bytes_ + reals * real_bytes_ : 2 * (integers + reals);
   return numbers_.count(integer_bytes_, least, what);
 }
 

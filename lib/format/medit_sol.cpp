@@ -71,9 +71,8 @@ void MeditSolutions::readFile(std::unique_ptr<ByteSource> bytes, MeshIntake& int
     if (section.number == kMeditDimension) {
       const int64_t dimension = scan.small("the dimension");
       if (dimension != 3)
-        scan.file().failHere(Status::kUnsupported,
-                             textOf("dimension %lld; only 3 is read",
-                                    static_cast<long long>(dimension)));
+        scan.file().failHere(Status::kUnsupported, textOf("dimension %lld; only 3 is read",
+                                                          static_cast<long long>(dimension)));
     } else if (section.number == kMeditSolAtVertices || section.number == kMeditSolAtTetrahedra) {
       read(scan, intake, rows, section.number == kMeditSolAtTetrahedra);
     } else {
@@ -91,7 +90,8 @@ std::string withExtension(const std::string& path, const char* extension) {
 }
 
 std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path, std::string* path) {
-  const bool binary = mesh_path.size() > 6 && mesh_path.compare(mesh_path.size() - 6, 6, ".meshb") == 0;
+  const bool binary =
+      mesh_path.size() > 6 && mesh_path.compare(mesh_path.size() - 6, 6, ".meshb") == 0;
   for (const char* extension : {binary ? ".solb" : ".sol", binary ? ".sol" : ".solb"}) {
     *path = withExtension(mesh_path, extension);
     if (exists(*path)) return openFile(*path);

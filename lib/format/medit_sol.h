@@ -27,7 +27,8 @@ class MeditSolutions {
 
 constexpr const char* kMeditReference = "medit:ref";  // labels, as others call them, too
 
-// PATH.sol or PATH.solb for PATH.mesh, PATH.solb or PATH.sol for PATH.meshb; null: neither is there.
+// PATH.sol or PATH.solb for PATH.mesh, PATH.solb or PATH.sol for PATH.meshb; null: neither is
+// there.
 std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path, std::string* path);
 // Whatever PATH ends with, another ending.
 std::string withExtension(const std::string& path, const char* extension);

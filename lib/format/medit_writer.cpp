@@ -15,8 +15,7 @@ namespace {
 // A file of sections: text, or binary with the place of the next section at the head of each.
 class MeditOut {
  public:
-  MeditOut(ByteSink& bytes, bool binary, int version)
-      : out_(bytes, binary), version_(version) {
+  MeditOut(ByteSink& bytes, bool binary, int version) : out_(bytes, binary), version_(version) {
     if (!binary) {
       out_.text("MeshVersionFormatted " + std::to_string(version) + "\n\nDimension 3\n");
       return;
@@ -189,9 +188,8 @@ class MeditWriter final : public MeshCollector {
         },
         [&](uint64_t cell, const unsigned char* row) {
           putCorners(out, row, 4);
-          out.integer(cell_reference_ < 0
-                          ? 0
-                          : cellLabel(static_cast<size_t>(cell_reference_), cell));
+          out.integer(cell_reference_ < 0 ? 0
+                                          : cellLabel(static_cast<size_t>(cell_reference_), cell));
           out.endRow();
         });
   }
@@ -211,7 +209,8 @@ class MeditWriter final : public MeshCollector {
       int64_t corners[3], face_label;
       mesh_->readFaces(i, 1, corners, &face_label);
       if (version_ != 4 && face_label != static_cast<int32_t>(face_label))
-        fail(Status::kUnsupported, "%s: face %llu has the label %lld, which takes more than 32 bits",
+        fail(Status::kUnsupported,
+             "%s: face %llu has the label %lld, which takes more than 32 bits",
              bytes().name().c_str(), static_cast<unsigned long long>(i),
              static_cast<long long>(face_label));
       for (int64_t corner : corners) out.integer(corner + 1);
@@ -265,8 +264,9 @@ class MeditWriter final : public MeshCollector {
     noteNames(schema.fields, point_reference_, "fields");
     noteNames(schema.cell_data, cell_reference_, "cell data");
     if (options().path.empty())
-      return note("fields and cell data are left out: they go to a .sol file beside the mesh, and "
-                  "it is not written to a file");
+      return note(
+          "fields and cell data are left out: they go to a .sol file beside the mesh, and "
+          "it is not written to a file");
     const std::string path = withExtension(options().path, binary_ ? ".solb" : ".sol");
     const std::unique_ptr<ByteSink> beside = createFile(path);
     MeditOut out(*beside, binary_, version_);

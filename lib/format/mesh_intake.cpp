@@ -86,8 +86,7 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
   mesh_->appendCells(made[0], count);
   for (size_t k = 0; k < labels_.size(); ++k) {
     takeLabel(labels_[k], labels[k], "cell", number);
-    for (size_t i = 0; i < count; ++i)
-      mesh_->appendCellData(labels_[k].column, labels_[k].row, 1);
+    for (size_t i = 0; i < count; ++i) mesh_->appendCellData(labels_[k].column, labels_[k].row, 1);
   }
   return count;
 }
@@ -110,9 +109,17 @@ size_t MeshIntake::addData(const Column& column, bool of_cells) {
   return data_.size() - 1;
 }
 
+size_t MeshIntake::addCellNumbers(const std::string& name) {
+  const size_t data = addData({name, 1, ScalarType::kFloat64}, true);
+  data_[data]->maybe_integers = true;
+  return data;
+}
+
 void MeshIntake::putData(size_t data, uint64_t row, const double* values) {
   Data& d = *data_[data];
   const auto count = static_cast<size_t>(d.column.components);
+  d.maybe_integers = d.maybe_integers && *values >= INT32_MIN && *values <= INT32_MAX &&
+                     *values == std::trunc(*values);
   if (d.column.type == ScalarType::kFloat64) return d.rows.put(row, values);
   int64_t rounded[kMaxComponents];  // room for any type
   if (d.column.type == ScalarType::kFloat32) {
@@ -134,6 +141,16 @@ void MeshIntake::putData(size_t data, uint64_t row, const double* values) {
   d.rows.put(row, rounded);
 }
 
+// In place: each is read before it is written over.
+static void toIntegers(std::vector<unsigned char>& rows, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    double value;
+    std::memcpy(&value, rows.data() + i * sizeof value, sizeof value);
+    const auto integer = static_cast<int32_t>(value);
+    std::memcpy(rows.data() + i * sizeof integer, &integer, sizeof integer);
+  }
+}
+
 void MeshIntake::copyData() {
   std::vector<unsigned char> rows;
   for (auto& d : data_) {
@@ -143,11 +160,13 @@ void MeshIntake::copyData() {
       note("\"" + d->column.name + "\" has no value at " +
            plural(count - d->rows.given(), d->of_cells ? "tetrahedra" : "points") +
            ", where it is taken as 0");
+    if (d->maybe_integers) d->column.type = ScalarType::kInt32;
     const size_t column = d->of_cells ? mesh_->addCellData(d->column) : mesh_->addField(d->column);
-    rows.resize(kAtOnce * d->column.bytesPerRow());
+    rows.resize(kAtOnce * d->rows.rowBytes());
     for (uint64_t at = 0; at < count; at += kAtOnce) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, count - at));
       d->rows.read(at, n, rows.data());
+      if (d->maybe_integers) toIntegers(rows, n);
       if (d->of_cells)
         mesh_->appendCellData(column, rows.data(), n);
       else
@@ -168,9 +187,10 @@ void MeshIntake::checkCorners() {
     mesh_->readCells(at, n, rows.data());
     for (size_t i = 0; i < 4 * n; ++i)
       if (rows[i] >= points)
-        fail(Status::kBadData, "%s: tetrahedron %llu uses point %lld, counted from 0; there are %lld",
-             name_.c_str(), static_cast<unsigned long long>(at + i / 4),
-             static_cast<long long>(rows[i]), static_cast<long long>(points));
+        fail(Status::kBadData,
+             "%s: tetrahedron %llu uses point %lld, counted from 0; there are %lld", name_.c_str(),
+             static_cast<unsigned long long>(at + i / 4), static_cast<long long>(rows[i]),
+             static_cast<long long>(points));
   }
   fail(Status::kBadData, "%s: a cell or face uses point %lld, counted from 0; there are %lld",
        name_.c_str(), static_cast<long long>(largest_corner_), static_cast<long long>(points));
@@ -213,8 +233,9 @@ std::unique_ptr<IndexedSource> MeshIntake::finish() {
   if (mesh_->cellCount() == 0 && mesh_->pointCount() > 0)
     fail(Status::kUnsupported, "%s: there are points, but no tetrahedron", name_.c_str());
   if (quadratic_ > 0)
-    note(plural(quadratic_, "cells of higher order are read by their corners: what lies between "
-                            "is left out"));
+    note(plural(quadratic_,
+                "cells of higher order are read by their corners: what lies between "
+                "is left out"));
   if (split_ > 0) note(plural(split_, "cells that are no tetrahedra are split into them"));
   for (const auto& [things, count] : left_out_) note(plural(count, things + " are left out"));
   return std::move(mesh_);

@@ -41,6 +41,8 @@ class MeshIntake {
 
   // Rows of fields, or of cell data, in any order.
   size_t addData(const Column& column, bool of_cells);
+  // Of float64: becomes int32 if all values are such integers.
+  size_t addCellNumbers(const std::string& name);
   void putData(size_t data, uint64_t row, const double* values);
 
   // After the last: checks that every corner is a point, writes the data, tells what was left out.
@@ -49,14 +51,14 @@ class MeshIntake {
  private:
   struct Labels {
     size_t column;
-    bool wide, any;  // any: not all are 0
+    bool wide, any;                         // any: not all are 0
     alignas(int64_t) unsigned char row[8];  // the last one, as it is stored
   };
   struct Data {
     Data(const Column& c, bool cells, const std::string& temp_dir)
         : column(c), of_cells(cells), rows(c.bytesPerRow(), temp_dir) {}
     Column column;
-    bool of_cells;
+    bool of_cells, maybe_integers = false;
     ScatteredRows rows;
   };
   void takeLabel(Labels& labels, int64_t label, const char* of, int64_t number);

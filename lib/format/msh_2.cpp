@@ -9,10 +9,9 @@ namespace tetstream {
 namespace {
 
 constexpr size_t kInt = 4, kDouble = 8;
-constexpr int64_t kMostTags = 4096;       // of one element: groups and partitions
-constexpr int64_t kMostNodes = 125;       // of one element
+constexpr int64_t kMostTags = 4096;  // of one element: groups and partitions
+constexpr int64_t kMostNodes = 125;  // of one element
 constexpr size_t kRowsAtOnce = 256;
-
 
 void addElement(MshMesh& mesh, CellKind kind, int64_t tag, const int64_t* tags, size_t tag_count,
                 const int64_t* nodes) {

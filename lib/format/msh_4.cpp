@@ -70,9 +70,8 @@ uint64_t rowsOfBlock(MshMesh& mesh, uint64_t left, const char* what) {
 
 void checkRead(MshMesh& mesh, uint64_t left, const char* what) {
   if (left == 0) return;
-  mesh.file.failBad(
-      textOf("the blocks hold %llu %s less than there should be",
-             static_cast<unsigned long long>(left), what));
+  mesh.file.failBad(textOf("the blocks hold %llu %s less than there should be",
+                           static_cast<unsigned long long>(left), what));
 }
 
 void checkTag(MshMesh& mesh, int64_t tag) {
@@ -109,8 +108,7 @@ void readPositions(MshMesh& mesh, uint64_t count, size_t parameters) {
 void readEntities4(MshMesh& mesh, bool partitioned) {
   if (partitioned) {
     mesh.numbers.integer(mesh.size_bytes, "the number of partitions");
-    const uint64_t ghosts =
-        mesh.numbers.count(mesh.size_bytes, 2, "the number of ghost entities");
+    const uint64_t ghosts = mesh.numbers.count(mesh.size_bytes, 2, "the number of ghost entities");
     skipIntegers(mesh, 2 * ghosts, "a ghost entity");
   }
   uint64_t counts[4];

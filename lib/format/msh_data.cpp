@@ -62,11 +62,11 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
     cells_finished_ = true;
   }
   const bool kept = head.components <= kMaxComponents;
-  if (!kept) mesh.intake->leaveOut("components of \"" + head.name + "\"",
-                                   static_cast<uint64_t>(head.components));
-  const size_t data = kept ? dataFor(mesh, head.name, head.step, of_cells,
-                                     static_cast<int>(head.components))
-                           : 0;
+  if (!kept)
+    mesh.intake->leaveOut("components of \"" + head.name + "\"",
+                          static_cast<uint64_t>(head.components));
+  const size_t data =
+      kept ? dataFor(mesh, head.name, head.step, of_cells, static_cast<int>(head.components)) : 0;
   std::vector<double> values(static_cast<size_t>(head.components));
   TagTable& tags = of_cells ? mesh.cells : mesh.points;
   for (int64_t i = 0; i < head.rows; ++i) {
@@ -99,8 +99,8 @@ size_t MshData::dataFor(MshMesh& mesh, const std::string& name, int64_t step, bo
       return b.of_cells == of_cells && b.column == candidate;
     });
   };
-  while (isUsed(unique) || (of_cells && (unique == mesh.hints.physical ||
-                                         unique == mesh.hints.entity)))
+  while (isUsed(unique) ||
+         (of_cells && (unique == mesh.hints.physical || unique == mesh.hints.entity)))
     unique += "'";
   const auto& hints = of_cells ? mesh.hints.cell_data : mesh.hints.fields;
   const size_t data = mesh.intake->addData({unique, components, typeOf(hints, name)}, of_cells);

@@ -28,9 +28,7 @@ class MshLabels {
   // Cell arrays that have become groups and entities; none: there is no such array.
   const std::optional<size_t>& groups() const { return group_column_; }
   const std::optional<size_t>& entities() const { return entity_column_; }
-  bool isLabel(size_t column) const {
-    return column == group_column_ || column == entity_column_;
-  }
+  bool isLabel(size_t column) const { return column == group_column_ || column == entity_column_; }
   const std::map<std::pair<int64_t, int64_t>, MshEntity>& volumes() const { return volumes_; }
   const std::set<int32_t>& surfaces() const { return surfaces_; }  // tag and group are the label
   uint64_t facesLeftOut() const { return faces_left_out_; }

@@ -29,11 +29,11 @@ struct MshMesh {
   bool version_4 = false;
   size_t size_bytes = 8;  // of a count in version 4
   MshHints hints;
-  std::unique_ptr<MeshIntake> intake;  // from the nodes on
-  TagTable points, cells;              // by Gmsh's tags, as ranks
+  std::unique_ptr<MeshIntake> intake;                    // from the nodes on
+  TagTable points, cells;                                // by Gmsh's tags, as ranks
   std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
   std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
-  uint64_t further_groups = 0;  // that entities are in beside their first
+  uint64_t further_groups = 0;                           // that entities are in beside their first
   // What labels faces: physical groups, unless the first face has none.
   enum class FaceLabels { kUndecided, kGroups, kEntities } face_labels = FaceLabels::kUndecided;
 

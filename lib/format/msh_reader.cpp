@@ -118,9 +118,8 @@ class MshReader {
     for (const auto& [key, name] : mesh_.names) {
       if (key.first < 2) continue;
       if (++shown > kShownNames) continue;
-      text += std::string(text.empty() ? "" : ", ") +
-              (key.first == 3 ? "cells " : "faces ") + std::to_string(key.second) + " " +
-              quoted(name);
+      text += std::string(text.empty() ? "" : ", ") + (key.first == 3 ? "cells " : "faces ") +
+              std::to_string(key.second) + " " + quoted(name);
     }
     if (shown > kShownNames) text += " and " + std::to_string(shown - kShownNames) + " more";
     if (shown > 0)

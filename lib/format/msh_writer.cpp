@@ -66,8 +66,7 @@ class MshWriter final : public MeshCollector {
       fail(Status::kUnsupported,
            "%s: %llu points and %llu elements: Gmsh's format %s holds 2147483647 at most",
            bytes().name().c_str(), static_cast<unsigned long long>(points()),
-           static_cast<unsigned long long>(elements()),
-           options().newest ? "4.1 with data" : "2.2");
+           static_cast<unsigned long long>(elements()), options().newest ? "4.1 with data" : "2.2");
   }
 
   size_t elementData() const {
@@ -94,7 +93,8 @@ class MshWriter final : public MeshCollector {
 
   void writeHead() {
     section("MeshFormat");
-    out_->text(std::string(options().newest ? "4.1" : "2.2") + (out_->binary() ? " 1 8\n" : " 0 8\n"));
+    out_->text(std::string(options().newest ? "4.1" : "2.2") +
+               (out_->binary() ? " 1 8\n" : " 0 8\n"));
     if (out_->binary()) {
       out_->integer<int32_t>(1);
       out_->text("\n");
@@ -163,9 +163,8 @@ class MshWriter final : public MeshCollector {
     sizeRow({blocks, points(), blocks, points()});
     if (blocks > 0) {
       out_->integer<int32_t>(3);
-      out_->integer<int32_t>(labels_->volumes().empty()
-                                 ? 1
-                                 : labels_->volumes().begin()->second.tag);
+      out_->integer<int32_t>(labels_->volumes().empty() ? 1
+                                                        : labels_->volumes().begin()->second.tag);
       out_->integer<int32_t>(0);
       sizeRow({points()});
       for (uint64_t i = 1; i <= points(); ++i) sizeRow({i});
@@ -256,8 +255,7 @@ class MshWriter final : public MeshCollector {
 
   void putElement2(int32_t kind, uint64_t tag, MshEntity entity, const int64_t* corners,
                    size_t count) {
-    if (out_->binary())
-      return putElement<int32_t>(tag, {entity.group, entity.tag}, corners, count);
+    if (out_->binary()) return putElement<int32_t>(tag, {entity.group, entity.tag}, corners, count);
     putElement<int32_t>(tag, {kind, 2, entity.group, entity.tag}, corners, count);
   }
 
@@ -280,7 +278,8 @@ class MshWriter final : public MeshCollector {
   // A run of elements of one entity is a block. The first pass counts the runs' lengths, of which
   // there may be as many as elements: they go to a spool.
   struct Runs {
-    explicit Runs(const std::string& temp_dir) : lengths(sizeof(uint64_t), temp_dir, {2, 1 << 16}) {}
+    explicit Runs(const std::string& temp_dir)
+        : lengths(sizeof(uint64_t), temp_dir, {2, 1 << 16}) {}
     RowSpool lengths;
     int32_t tag = 0;
     uint64_t length = 0;
@@ -361,10 +360,9 @@ class MshWriter final : public MeshCollector {
                 [&](uint64_t first, size_t n, void* out) { mesh_->readField(c, first, n, out); });
     for (size_t c = 0; c < schema.cell_data.size(); ++c)
       if (!labels_->isLabel(c))
-        writeData("ElementData", schema.cell_data[c], cells(), labels_->faces() + 1,
-                  [&](uint64_t first, size_t n, void* out) {
-                    mesh_->readCellData(c, first, n, out);
-                  });
+        writeData(
+            "ElementData", schema.cell_data[c], cells(), labels_->faces() + 1,
+            [&](uint64_t first, size_t n, void* out) { mesh_->readCellData(c, first, n, out); });
   }
 
   MeshSpool* mesh_ = nullptr;

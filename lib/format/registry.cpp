@@ -57,6 +57,15 @@ static const Format kFormats[] = {
      true,
      openMedit,
      createMeshb},
+    {"tetgen",
+     ".node .ele",
+     "TetGen: points in .node, cells in .ele, faces in .face",
+     {true, -1, true},
+     false,
+     false,
+     openTetgen,
+     nullptr},
+    {"su2", ".su2", "SU2", {true, -1, true}, true, false, openSu2, nullptr},
 };
 
 const Format* formats(size_t* count) {

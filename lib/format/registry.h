@@ -47,7 +47,7 @@ struct Format {
 };
 
 const Format* formats(size_t* count);
-const Format* findFormat(const std::string& name);    // null: no such format
+const Format* findFormat(const std::string& name);  // null: no such format
 // By extension, after which .gz or .zst may follow; null: unknown.
 const Format* formatOfPath(const std::string& path);
 // As above, but throw kUnsupported with a sentence that lists what there is. `name` may be empty:
@@ -59,6 +59,8 @@ Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openSu2(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openMedit(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);

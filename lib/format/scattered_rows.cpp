@@ -23,8 +23,7 @@ void ScatteredRows::flush() {
 void ScatteredRows::finish(uint64_t rows) {
   flush();
   const unsigned char zero = 0;
-  if (rows > 0 && file_.size() < rows * row_bytes_)
-    file_.writeAt(rows * row_bytes_ - 1, &zero, 1);
+  if (rows > 0 && file_.size() < rows * row_bytes_) file_.writeAt(rows * row_bytes_ - 1, &zero, 1);
   run_ = {};
 }
 

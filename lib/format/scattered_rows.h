@@ -19,6 +19,7 @@ class ScatteredRows {
     file_.readAt(first * row_bytes_, out, count * row_bytes_);
   }
   uint64_t given() const { return given_; }
+  size_t rowBytes() const { return row_bytes_; }
 
  private:
   void flush();

@@ -82,8 +82,7 @@ bool TagTable::finish(int64_t* twice) {
     merge();
     runs_ = {};
   } else {
-    std::sort(runs_.begin(), runs_.end(),
-              [](const Run& a, const Run& b) { return a.tag < b.tag; });
+    std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.tag < b.tag; });
   }
   for (uint64_t i = 1; i < runs(); ++i) {
     const Run before = runAt(i - 1);

@@ -46,10 +46,10 @@ class TagTable {
 
   std::string temp_dir_;
   std::vector<Run> runs_;
-  std::unique_ptr<SpoolFile> chunks_;       // sorted, each of kHeldRuns
-  std::unique_ptr<RowSpool> spool_;         // all runs, sorted
-  std::vector<int64_t> samples_;            // the tag of every kSampledRuns-th run in it
-  uint64_t at_ = 0;                         // of the run last found
+  std::unique_ptr<SpoolFile> chunks_;  // sorted, each of kHeldRuns
+  std::unique_ptr<RowSpool> spool_;    // all runs, sorted
+  std::vector<int64_t> samples_;       // the tag of every kSampledRuns-th run in it
+  uint64_t at_ = 0;                    // of the run last found
   Run last_;
 };
 

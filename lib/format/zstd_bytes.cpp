@@ -41,8 +41,7 @@ class ZstdSource final : public WrappedSource {
       checkZstd(hint, name());
       take(from.pos);
       within_ = hint != 0;
-      if (!more && to.pos == 0 && within_)
-        failWrapped("the file ends within its compressed data");
+      if (!more && to.pos == 0 && within_) failWrapped("the file ends within its compressed data");
     }
     return to.pos;
   }

@@ -34,8 +34,8 @@ class IndexedSource {
   virtual const Schema& schema() const = 0;
   // Whether single rows in any order are as cheap as sequential ones.
   virtual bool randomAccess() const { return false; }
-  // Per point, non-zero: never moved, as a point, or as one of an edge or a face that is locked; null
-  // where there are none.
+  // Per point, non-zero: never moved, as a point, or as one of an edge or a face that is locked;
+  // null where there are none.
   virtual const uint8_t* locked() const { return nullptr; }
   // Whether the points have come out of another order; then readOrigins tells their ranks there.
   virtual bool hasOrigins() const { return false; }
