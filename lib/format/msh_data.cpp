@@ -9,6 +9,7 @@ namespace tetstream {
 namespace {
 
 constexpr size_t kInt = 4, kDouble = 8;
+constexpr size_t kMostName = 255, kMostSuffix = 32;
 constexpr size_t kMostComponents = 512;  // what a row may have to be passed over
 
 // What stands before the values.
@@ -36,7 +37,7 @@ DataHead readHead(MshMesh& mesh, bool of_cells) {
     if (i == 3) head.partition = value;
   }
   if (head.name.empty()) head.name = of_cells ? "cell data" : "data";
-  if (head.name.size() > 200) head.name.resize(200);
+  if (head.name.size() > kMostName) head.name.resize(kMostName);
   const auto row_bytes = static_cast<uint64_t>(
       mesh.numbers.binary() ? kInt + kDouble * static_cast<size_t>(head.components)
                             : 2 + 2 * static_cast<size_t>(head.components));
@@ -93,15 +94,17 @@ size_t MshData::dataFor(MshMesh& mesh, const std::string& name, int64_t step, bo
     if (block.step == step && block.components == components) return block.data;
     taken = true;
   }
-  std::string unique = taken ? name + ":" + std::to_string(step) : name;
   const auto isUsed = [&](const std::string& candidate) {
-    return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block& b) {
-      return b.of_cells == of_cells && b.column == candidate;
-    });
+    return (of_cells && (candidate == mesh.hints.physical || candidate == mesh.hints.entity)) ||
+           std::any_of(blocks_.begin(), blocks_.end(), [&](const Block& b) {
+             return b.of_cells == of_cells && b.column == candidate;
+           });
   };
-  while (isUsed(unique) ||
-         (of_cells && (unique == mesh.hints.physical || unique == mesh.hints.entity)))
-    unique += "'";
+  std::string unique = name;
+  const std::string stem = name.substr(0, kMostName - kMostSuffix);
+  if (taken) unique = stem + ":" + std::to_string(step);
+  for (size_t i = 2; isUsed(unique); ++i)
+    unique = stem + ":" + std::to_string(step) + "." + std::to_string(i);
   const auto& hints = of_cells ? mesh.hints.cell_data : mesh.hints.fields;
   const size_t data = mesh.intake->addData({unique, components, typeOf(hints, name)}, of_cells);
   blocks_.push_back({name, unique, step, of_cells, components, data});

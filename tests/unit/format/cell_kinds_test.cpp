@@ -54,8 +54,8 @@ TEST(CellKinds, NeighboursAgreeOnTheirFacesWhateverTheNumbers) {
                                                at(x, y + 1, z)};
           const std::vector<int64_t> top = {at(x, y, z + 1), at(x + 1, y, z + 1),
                                             at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)};
-          // Some as a hexahedron, some as two prisms, whose common face is inside.
-          if ((x + y) % 2 == 0) {
+          // Rows along y of hexahedra and of pairs of prisms, whose triangles meet in the rows.
+          if ((x + z) % 2 == 0) {
             split(CellShape::kHexa,
                   {bottom[0], bottom[1], bottom[2], bottom[3], top[0], top[1], top[2], top[3]},
                   cells);

@@ -1,6 +1,8 @@
 // Gmsh's files: every version and encoding, tags at will, groups, data, and what is wrong.
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "indexed_testing.h"
 
 namespace tetstream {
@@ -195,7 +197,7 @@ TEST(Msh, SaysWhatIsWrongAndWhere) {
       {head + "$Nodes\n1\n1 0 zero 0\n", "line 6: \"zero\" is no number"},
       {head + "$Nodes\n1\n1 0 nan 0\n", "is not a finite number"},
       {nodes + "$Elements\n1\n1 4 2 0 0 5 5 5 6\n$EndElements\n",
-       "line 9: element 1 uses node 6, which is not there"},
+       "line 10: element 1 uses node 6, which is not there"},
       {nodes + "$Elements\n1\n1 140 2 0 0 5 5 5 5\n$EndElements\n", "element of type 140"},
       {nodes + "$Elements\n9999999999\n", "elements cannot be in the"},
       {nodes, "no tetrahedron"},
