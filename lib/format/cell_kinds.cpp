@@ -6,20 +6,6 @@ namespace tetstream {
 
 namespace {
 
-struct Shape {
-  const char* name;
-  int dimension, corners;
-};
-
-constexpr Shape kShapes[] = {
-    {"point", 0, 1},       {"line", 1, 2},    {"triangle", 2, 3}, {"quadrilateral", 2, 4},
-    {"tetrahedron", 3, 4}, {"pyramid", 3, 5}, {"prism", 3, 6},    {"hexahedron", 3, 8},
-};
-
-const Shape& shapeOf(CellShape shape) {
-  return kShapes[static_cast<size_t>(shape)];
-}
-
 // The faces of a cell, counter-clockwise seen from within; the fourth corner of a triangle is -1.
 struct Faces {
   size_t count;
@@ -42,16 +28,10 @@ const Faces& facesOf(CellShape shape) {
 
 }  // namespace
 
-int cornersOf(CellShape shape) {
-  return shapeOf(shape).corners;
-}
-
-int dimensionOf(CellShape shape) {
-  return shapeOf(shape).dimension;
-}
-
 const char* nameOf(CellShape shape) {
-  return shapeOf(shape).name;
+  constexpr const char* names[] = {"point",       "line",    "triangle", "quadrilateral",
+                                   "tetrahedron", "pyramid", "prism",    "hexahedron"};
+  return names[static_cast<int>(shape)];
 }
 
 size_t splitFace(CellShape shape, const int64_t* corners, int64_t (*out)[3]) {

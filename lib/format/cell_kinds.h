@@ -15,8 +15,14 @@ struct CellKind {
   int nodes;
 };
 
-int cornersOf(CellShape shape);
-int dimensionOf(CellShape shape);
+constexpr int cornersOf(CellShape shape) {
+  constexpr int corners[] = {1, 2, 3, 4, 4, 5, 6, 8};
+  return corners[static_cast<int>(shape)];
+}
+constexpr int dimensionOf(CellShape shape) {
+  constexpr int dimensions[] = {0, 1, 2, 2, 3, 3, 3, 3};
+  return dimensions[static_cast<int>(shape)];
+}
 const char* nameOf(CellShape shape);  // "hexahedron"
 
 constexpr size_t kMostSplit = 6;  // tetrahedra of one cell

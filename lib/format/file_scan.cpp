@@ -16,7 +16,7 @@ constexpr size_t kBufferBytes = 1 << 18;
 // longest word.
 constexpr size_t kAhead = 1024;
 
-bool isBlank(char c) {
+inline bool isBlank(char c) {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r';
 }
 
@@ -133,6 +133,26 @@ int64_t FileScan::integer(const char* what) {
   if (!parseInteger(found, &value)) failWord(found, what);
   at_ += found.size();
   return value;
+}
+
+// Plain digits are read here, within what is in the buffer; all else takes the longer way.
+void FileScan::integers(int64_t* out, size_t count, const char* what) {
+  constexpr std::ptrdiff_t kMostDigits = 18;
+  for (size_t i = 0; i < count; ++i) {
+    while (isBlank(buffer_[at_])) line_ += buffer_[at_++] == '\n';
+    const char* begin = buffer_.data() + at_;
+    const char* digit = begin;
+    uint64_t value = 0;
+    for (unsigned d; (d = static_cast<unsigned>(*digit - '0')) < 10; ++digit)
+      value = 10 * value + d;
+    if (filled_ - at_ < kAhead || digit == begin || digit - begin > kMostDigits ||
+        !isBlank(*digit)) {
+      out[i] = integer(what);
+      continue;
+    }
+    at_ += static_cast<size_t>(digit - begin);
+    out[i] = static_cast<int64_t>(value);
+  }
 }
 
 int64_t FileScan::integer(const char* what, int64_t least, int64_t most) {

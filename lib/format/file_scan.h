@@ -32,6 +32,8 @@ class FileScan {
   int64_t integer(const char* what);
   int64_t integer(const char* what, int64_t least, int64_t most);
   double real(const char* what);
+  // Many in a row, which is faster.
+  void integers(int64_t* out, size_t count, const char* what);
   // A text between quotes, or a word.
   std::string text(const char* what);
   void expect(const char* word);

@@ -81,7 +81,7 @@ class MeditReader {
     const auto nodes = static_cast<size_t>(kind.nodes);
     const uint64_t count = scan_.rows(nodes + 1, 0, section.name.c_str());
     if (section.number == kMeditTetrahedra) {
-      rows_.first_tetrahedron = intake_.mesh().cellCount();
+      rows_.first_tetrahedron = intake_.cellCount();
       rows_.tetrahedra = count;
     }
     int64_t row[kMostNodes + 1];

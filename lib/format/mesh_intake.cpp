@@ -36,22 +36,24 @@ void MeshIntake::addPointLabels(const char* name, bool wide) {
   point_labels_.push_back({mesh_->addField({name, 1, type}), wide, false, {}});
 }
 
-void MeshIntake::takeLabel(Labels& labels, int64_t label, const char* of, int64_t number) {
+void MeshIntake::takeLabel(Labels& labels, int64_t label, size_t count, const char* of,
+                           int64_t number) {
   const auto narrow = static_cast<int32_t>(label);
   if (!labels.wide && narrow != label)
     file_.failHere(Status::kUnsupported, "label " + std::to_string(label) + " of " + of + " " +
                                              std::to_string(number) + " has more than 32 bits");
   labels.any = labels.any || label != 0;
-  if (labels.wide)
-    std::memcpy(labels.row, &label, sizeof label);
-  else
-    std::memcpy(labels.row, &narrow, sizeof narrow);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&label);
+  if (!labels.wide) bytes = reinterpret_cast<const unsigned char*>(&narrow);
+  for (size_t i = 0; i < count; ++i)
+    labels.held.insert(labels.held.end(), bytes, bytes + (labels.wide ? 8 : 4));
 }
 
 void MeshIntake::labelPoint(int64_t label) {
   Labels& labels = point_labels_.front();
-  takeLabel(labels, label, "point", static_cast<int64_t>(mesh_->pointCount()));
-  mesh_->appendField(labels.column, labels.row, 1);
+  takeLabel(labels, label, 1, "point", static_cast<int64_t>(mesh_->pointCount()));
+  mesh_->appendField(labels.column, labels.held.data(), 1);
+  labels.held.clear();
 }
 
 void MeshIntake::note(const std::string& text) {
@@ -83,12 +85,21 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
   split_ += kind.shape != CellShape::kTetra;
   for (int c = 0; c < cornersOf(kind.shape); ++c)
     largest_corner_ = std::max(largest_corner_, corners[c]);
-  mesh_->appendCells(made[0], count);
-  for (size_t k = 0; k < labels_.size(); ++k) {
-    takeLabel(labels_[k], labels[k], "cell", number);
-    for (size_t i = 0; i < count; ++i) mesh_->appendCellData(labels_[k].column, labels_[k].row, 1);
-  }
+  held_cells_.insert(held_cells_.end(), made[0], made[0] + 4 * count);
+  for (size_t k = 0; k < labels_.size(); ++k)
+    takeLabel(labels_[k], labels[k], count, "cell", number);
+  if (held_cells_.size() >= 4 * kAtOnce) writeHeld();
   return count;
+}
+
+void MeshIntake::writeHeld() {
+  const size_t count = held_cells_.size() / 4;
+  mesh_->appendCells(held_cells_.data(), count);
+  held_cells_.clear();
+  for (Labels& labels : labels_) {
+    mesh_->appendCellData(labels.column, labels.held.data(), count);
+    labels.held.clear();
+  }
 }
 
 void MeshIntake::addFace(CellKind kind, const int64_t* corners, int64_t label) {
@@ -222,6 +233,7 @@ void MeshIntake::takeFaces() {
 }
 
 std::unique_ptr<IndexedSource> MeshIntake::finish() {
+  writeHeld();
   copyData();
   for (size_t k = labels_.size(); k-- > 0;)  // a label that nobody has
     if (!labels_[k].any) mesh_->removeCellData(labels_[k].column);

@@ -20,6 +20,7 @@ class MeshIntake {
   MeshIntake(const FileScan& file, const ReadOptions& options, ScalarType position_type);
 
   MeshSpool& mesh() { return *mesh_; }
+  uint64_t cellCount() const { return mesh_->cellCount() + held_cells_.size() / 4; }
   // Integer cell data, int32 unless `wide`; before the first cell.
   void addLabels(const char* name, bool wide = false);
 
@@ -51,8 +52,8 @@ class MeshIntake {
  private:
   struct Labels {
     size_t column;
-    bool wide, any;                         // any: not all are 0
-    alignas(int64_t) unsigned char row[8];  // the last one, as it is stored
+    bool wide, any;                   // any: not all are 0
+    std::vector<unsigned char> held;  // rows, as they are stored
   };
   struct Data {
     Data(const Column& c, bool cells, const std::string& temp_dir)
@@ -61,7 +62,8 @@ class MeshIntake {
     bool of_cells, maybe_integers = false;
     ScatteredRows rows;
   };
-  void takeLabel(Labels& labels, int64_t label, const char* of, int64_t number);
+  void takeLabel(Labels& labels, int64_t label, size_t count, const char* of, int64_t number);
+  void writeHeld();
   void checkCorners();
   void takeFaces();
   void copyData();
@@ -71,6 +73,7 @@ class MeshIntake {
   std::string name_;
   std::unique_ptr<MeshSpool> mesh_;
   std::vector<Labels> labels_, point_labels_;
+  std::vector<int64_t> held_cells_;  // some, which are written together
   RowSpool faces_;  // three points and a label; only those of cells go into the mesh
   std::vector<std::unique_ptr<Data>> data_;
   std::map<std::string, uint64_t> left_out_;

@@ -27,11 +27,15 @@ CellKind needKind(MshMesh& mesh, int64_t number) {
 void readTextElements(MshMesh& mesh, uint64_t count) {
   int64_t tags[kMostTags], nodes[kMostNodes];
   for (uint64_t i = 0; i < count; ++i) {
-    const int64_t tag = mesh.file.integer("the number of an element", 1, INT64_MAX / 2);
-    const CellKind kind = needKind(mesh, mesh.file.integer("the type of an element"));
-    const int64_t tag_count = mesh.file.integer("the number of tags", 0, kMostTags);
-    for (int64_t t = 0; t < tag_count; ++t) tags[t] = mesh.file.integer("a tag of an element");
-    for (int k = 0; k < kind.nodes; ++k) nodes[k] = mesh.file.integer("a node of an element");
+    int64_t head[3];  // number, type, tags
+    mesh.file.integers(head, 3, "an element");
+    const CellKind kind = needKind(mesh, head[1]);
+    if (head[0] < 0 || head[0] > INT64_MAX / 2 || head[2] < 0 || head[2] > kMostTags)
+      mesh.file.failBad(textOf("element %lld has %lld tags", static_cast<long long>(head[0]),
+                               static_cast<long long>(head[2])));
+    const int64_t tag = head[0], tag_count = head[2];
+    mesh.file.integers(tags, static_cast<size_t>(tag_count), "a tag of an element");
+    mesh.file.integers(nodes, static_cast<size_t>(kind.nodes), "a node of an element");
     addElement(mesh, kind, tag, tags, static_cast<size_t>(tag_count), nodes);
   }
 }
@@ -75,6 +79,8 @@ void readNodes2(MshMesh& mesh) {
   for (uint64_t i = 0; i < count; ++i) {
     double position[3];
     const int64_t tag = mesh.numbers.integer(kInt, "the number of a node");
+    if (tag < 0 || tag > INT64_MAX / 2)
+      mesh.file.failBad(textOf("node %lld", static_cast<long long>(tag)));
     mesh.numbers.reals(position, 3, kDouble, "the position of a node");
     mesh.points.add(tag, static_cast<int64_t>(i));
     mesh.intake->addPoint(position);

@@ -42,7 +42,7 @@ void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t 
   if (dimension == 2) return addFace(kind, corners, group, entity);
   const int64_t both[] = {group, entity};
   const int64_t* labels = hints.physical.empty() ? both + 1 : both;
-  const auto first = static_cast<int64_t>(intake->mesh().cellCount());
+  const auto first = static_cast<int64_t>(intake->cellCount());
   cells.add(tag, first, static_cast<int64_t>(intake->addCell(kind, corners, labels, tag)));
 }
 

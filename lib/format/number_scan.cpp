@@ -40,7 +40,7 @@ void readBinary(FileScan& file, bool swapped, Wide* out, size_t count, size_t wi
 
 void NumberScan::integers(int64_t* out, size_t count, size_t width, const char* what) {
   if (binary_) return readBinary<int32_t, int64_t>(file_, swapped_, out, count, width, what);
-  for (size_t i = 0; i < count; ++i) out[i] = file_.integer(what);
+  file_.integers(out, count, what);
 }
 
 void NumberScan::reals(double* out, size_t count, size_t width, const char* what) {

@@ -14,7 +14,8 @@ constexpr size_t kFaceWords = 4;
 MeshSpool::MeshSpool(ScalarType position_type, const std::string& temp_dir)
     : temp_dir_(temp_dir),
       positions_(3 * sizeOf(position_type), temp_dir, kInSequence),
-      cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
+      cells_(4 * sizeof(int32_t), temp_dir, kInSequence),
+      wide_cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
       faces_(kFaceWords * sizeof(int64_t), temp_dir, kInSequence),
       locked_(account_) {
   schema_.position_type = position_type;
@@ -36,6 +37,23 @@ static void removeAt(std::vector<Column>& columns, std::vector<std::unique_ptr<R
                      size_t column) {
   columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(column));
   spools.erase(spools.begin() + static_cast<std::ptrdiff_t>(column));
+}
+
+void MeshSpool::appendCells(const int64_t* rows, size_t count) {
+  constexpr size_t kAtOnce = 1024;
+  int32_t narrow[4 * kAtOnce];
+  for (size_t n; count > 0; rows += 4 * n, count -= n) {
+    n = std::min(count, kAtOnce);
+    bool fits = wide_cells_.rows() == 0;
+    for (size_t k = 0; k < 4 * n; ++k) {
+      narrow[k] = static_cast<int32_t>(rows[k]);
+      fits = fits && narrow[k] == rows[k];
+    }
+    if (fits)
+      cells_.append(narrow, n);
+    else
+      wide_cells_.append(rows, n);
+  }
 }
 
 void MeshSpool::removeField(size_t column) {
@@ -73,10 +91,10 @@ void MeshSpool::checkRows(const std::vector<Column>& columns, const Spools& spoo
 void MeshSpool::finish() {
   checkSchema(schema_);
   checkRows(schema_.fields, fields_, positions_.rows());
-  checkRows(schema_.cell_data, cell_data_, cells_.rows());
+  checkRows(schema_.cell_data, cell_data_, cellCount());
   schema_.vertex_count = static_cast<int64_t>(positions_.rows());
-  schema_.cell_count = static_cast<int64_t>(cells_.rows());
-  for (RowSpool* spool : {&positions_, &cells_}) spool->finish();
+  schema_.cell_count = static_cast<int64_t>(cellCount());
+  for (RowSpool* spool : {&positions_, &cells_, &wide_cells_}) spool->finish();
   for (Spools* spools : {&fields_, &cell_data_})
     for (auto& spool : *spools) spool->finish();
 }
@@ -101,7 +119,15 @@ void MeshSpool::readField(size_t column, uint64_t first, size_t count, void* out
 }
 
 void MeshSpool::readCells(uint64_t first, size_t count, int64_t* out) {
-  readRows(cells_, 4 * sizeof(int64_t), first, count, out);
+  for (size_t i = 0; i < count; ++i, out += 4) {
+    const uint64_t cell = first + i;
+    if (cell >= cells_.rows()) {
+      std::memcpy(out, wide_cells_.row(cell - cells_.rows()), 4 * sizeof(int64_t));
+      continue;
+    }
+    const auto* narrow = static_cast<const int32_t*>(cells_.row(cell));
+    std::copy_n(narrow, 4, out);
+  }
 }
 
 void MeshSpool::readCellData(size_t column, uint64_t first, size_t count, void* out) {

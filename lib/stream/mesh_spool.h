@@ -24,7 +24,7 @@ class MeshSpool : public IndexedSource {
   void removeField(size_t column);
   void removeCellData(size_t column);
   void appendPositions(const void* rows, size_t count) { positions_.append(rows, count); }
-  void appendCells(const int64_t* rows, size_t count) { cells_.append(rows, count); }
+  void appendCells(const int64_t* rows, size_t count);
   void appendField(size_t column, const void* rows, size_t count) {
     fields_[column]->append(rows, count);
   }
@@ -34,7 +34,7 @@ class MeshSpool : public IndexedSource {
   void appendFace(const int64_t corners[3], int64_t label);
   void lock(uint64_t point);  // of those that came
   uint64_t pointCount() const { return positions_.rows(); }
-  uint64_t cellCount() const { return cells_.rows(); }
+  uint64_t cellCount() const { return cells_.rows() + wide_cells_.rows(); }
   uint64_t faceCount() const { return faces_.rows(); }
   // Before anything is read. Every column has its rows then; faces may follow, up to their own end.
   void finish();
@@ -54,7 +54,8 @@ class MeshSpool : public IndexedSource {
 
   Schema schema_;
   std::string temp_dir_;
-  RowSpool positions_, cells_, faces_;  // a face: three points and its label
+  // Cells as int32 up to the first point that needs more. A face: three points and its label.
+  RowSpool positions_, cells_, wide_cells_, faces_;
   Spools fields_, cell_data_;
   Account account_;
   Array<uint8_t> locked_;  // per point, if any is: in memory
