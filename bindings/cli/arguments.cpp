@@ -42,6 +42,16 @@ Failure usageFailure(std::string sentence, const std::string& command) {
   return {kUsage, sentence + "; see `" + name + " --help`"};
 }
 
+// A word that has to be there.
+void addArgument(CLI::App* command, const char* name, std::string& word, const char* text) {
+  command->add_option(name, word, text)->required()->option_text(" ");
+}
+
+CLI::Option* addWord(CLI::App* command, const char* name, std::string& word, const char* value,
+                     const char* text) {
+  return command->add_option(name, word, text)->option_text(value);
+}
+
 // The words of the command line, as CLI11 is told about them.
 class Parser {
  public:
@@ -108,18 +118,13 @@ CLI::App* Parser::addCommand(const char* name, const char* text, Arguments::Comm
 }
 
 void Parser::addIn(CLI::App* command) {
-  command->add_option("IN", arguments_.in.path, "The mesh: a file, or - for standard input")
-      ->required()
-      ->option_text(" ");
-  command
-      ->add_option("--format-in", arguments_.in.format, "Format of IN (its extension, tets for -)")
-      ->option_text("NAME");
+  addArgument(command, "IN", arguments_.in.path, "The mesh: a file, or - for standard input");
+  addWord(command, "--format-in", arguments_.in.format, "NAME",
+          "Format of IN (its extension, tets for -)");
 }
 
 void Parser::addOut(CLI::App* command) {
-  command->add_option("OUT", arguments_.out.path, "The result: a file, or - for standard output")
-      ->required()
-      ->option_text(" ");
+  addArgument(command, "OUT", arguments_.out.path, "The result: a file, or - for standard output");
   const auto addProperty = [&](const char* flag, const char* property, const char* values,
                                const char* text) {
     command
@@ -139,15 +144,13 @@ void Parser::addOut(CLI::App* command) {
 }
 
 void Parser::addFormat(CLI::App* command) {
-  command
-      ->add_option("--format", format_,
-                   "Format of what is -, or of OUT if nothing is (default tets)")
-      ->option_text("NAME");
+  addWord(command, "--format", format_, "NAME",
+          "Format of what is -, or of OUT if nothing is (default tets)");
 }
 
 void Parser::addReport(CLI::App* command) {
-  command->add_option("--report", arguments_.report, "Form of the closing report (default text)")
-      ->option_text("text|json")
+  addWord(command, "--report", arguments_.report, "text|json",
+          "Form of the closing report (default text)")
       ->check(CLI::IsMember({"text", "json"}));
 }
 
@@ -158,14 +161,10 @@ void Parser::addProgress(CLI::App* command) {
 }
 
 void Parser::addTraces(CLI::App* command) {
-  command
-      ->add_option("--map", arguments_.map.path,
-                   "Tell where each vertex of IN lies in OUT: FILE.tetmap, FILE.csv, - (csv)")
-      ->option_text("FILE");
-  command
-      ->add_option("--collapse-log", arguments_.log.path,
-                   "Tell every collapse, in order: FILE.tetlog, FILE.csv, - (csv)")
-      ->option_text("FILE");
+  addWord(command, "--map", arguments_.map.path, "FILE",
+          "Tell where each vertex of IN lies in OUT: FILE.tetmap, FILE.csv, - (csv)");
+  addWord(command, "--collapse-log", arguments_.log.path, "FILE",
+          "Tell every collapse, in order: FILE.tetlog, FILE.csv, - (csv)");
 }
 
 void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
@@ -222,13 +221,9 @@ void Parser::addSimplify() {
 void Parser::addInfo() {
   CLI::App* command = addCommand("info", "Say what a mesh holds, how large and how coherent it is",
                                  Arguments::Command::kInfo);
-  command->add_option("FILE", arguments_.in.path, "The mesh: a file, or - for standard input")
-      ->required()
-      ->option_text(" ");
-  command
-      ->add_option("--format,--format-in", arguments_.in.format,
-                   "Format of FILE (its extension, tets for -)")
-      ->option_text("NAME");
+  addArgument(command, "FILE", arguments_.in.path, "The mesh: a file, or - for standard input");
+  addWord(command, "--format,--format-in", arguments_.in.format, "NAME",
+          "Format of FILE (its extension, tets for -)");
   command->add_flag("--json", arguments_.json, "Print one JSON object");
   addStreamOptions(command);
   addProgress(command);
@@ -259,13 +254,9 @@ void Parser::addLayout() {
 void Parser::addGenerate() {
   CLI::App* command =
       addCommand("generate", "Make a mesh to try things with", Arguments::Command::kGenerate);
-  command
-      ->add_option(
-          "KIND", arguments_.kind,
-          "fluid: a box of 1 x 1 x 4; ball: a unit ball; fluid+stress, ball+stress: with a "
-          "tensor field, too")
-      ->required()
-      ->option_text(" ");
+  addArgument(command, "KIND", arguments_.kind,
+              "fluid: a box of 1 x 1 x 4; ball: a unit ball; fluid+stress, ball+stress: with a "
+              "tensor field, too");
   addOut(command);
   for (tetstream_option_info info : optionTable()) {
     if (info.id == TETSTREAM_OPTION_CELLS) {
@@ -287,9 +278,7 @@ void Parser::addDiagram() {
   CLI::App* command = addCommand("diagram", "Draw how good the order of a mesh stream is",
                                  Arguments::Command::kDiagram);
   addIn(command);
-  command->add_option("OUT", arguments_.out.path, "The picture: a file, FILE.svg or FILE.png")
-      ->required()
-      ->option_text(" ");
+  addArgument(command, "OUT", arguments_.out.path, "The picture: a file, FILE.svg or FILE.png");
   command->add_flag("--sweep", arguments_.sweep,
                     "Draw the mesh at four moments instead: written away, in core, to come");
   addTitle(command, "What stands above it (default: IN's name)");
@@ -305,7 +294,7 @@ void Parser::addDiagram() {
 }
 
 void Parser::addTitle(CLI::App* command, const char* text) {
-  command->add_option("--title", arguments_.title, text)->option_text("TEXT");
+  addWord(command, "--title", arguments_.title, "TEXT", text);
 }
 
 void Parser::addFields(CLI::App* command, const char* text, const char* value) {
@@ -318,26 +307,16 @@ void Parser::addCompare() {
   CLI::App* command =
       addCommand("compare", "Measure how well a simplified mesh follows its original",
                  Arguments::Command::kCompare);
-  command
-      ->add_option("ORIGINAL", arguments_.in.path, "The original: a file, or - for standard input")
-      ->required()
-      ->option_text(" ");
-  command->add_option("SIMPLIFIED", arguments_.second.path, "The simplified mesh, likewise")
-      ->required()
-      ->option_text(" ");
-  command
-      ->add_option("--format-in", arguments_.in.format,
-                   "Format of ORIGINAL (its extension, tets for -)")
-      ->option_text("NAME");
-  command
-      ->add_option("--format", arguments_.second.format,
-                   "Format of SIMPLIFIED (its extension, tets for -)")
-      ->option_text("NAME");
+  addArgument(command, "ORIGINAL", arguments_.in.path,
+              "The original: a file, or - for standard input");
+  addArgument(command, "SIMPLIFIED", arguments_.second.path, "The simplified mesh, likewise");
+  addWord(command, "--format-in", arguments_.in.format, "NAME",
+          "Format of ORIGINAL (its extension, tets for -)");
+  addWord(command, "--format", arguments_.second.format, "NAME",
+          "Format of SIMPLIFIED (its extension, tets for -)");
   addFields(command, "Compare this field (default: all that both have); may be repeated", "NAME");
-  command
-      ->add_option("--picture", arguments_.out.path,
-                   "Draw a cut through both, the error on it and its spread: FILE.png or FILE.svg")
-      ->option_text("FILE");
+  addWord(command, "--picture", arguments_.out.path, "FILE",
+          "Draw a cut through both, the error on it and its spread: FILE.png or FILE.svg");
   addTitle(command, "What stands above the picture (default: the files' names)");
   for (tetstream_option_info info : optionTable()) {
     if (info.id == TETSTREAM_OPTION_CUT) {
@@ -356,7 +335,7 @@ void Parser::addCompare() {
 
 void Parser::addHelp() {
   CLI::App* command = addCommand("help", "Show the help of a command", Arguments::Command::kText);
-  command->add_option("COMMAND", help_about_, "Its name")->option_text(" ");
+  addWord(command, "COMMAND", help_about_, " ", "Its name");
 }
 
 std::string Parser::helpOf(const std::string& command) {

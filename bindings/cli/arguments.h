@@ -22,11 +22,13 @@ struct Arguments {
   std::string report;                  // "text", "json"; empty: not asked for
   Place map, log;                      // simplify; no path: not asked for
   bool json = false;                   // info
-  std::string title;                   // diagram, compare; empty: the names of the files
+  std::string title;                   // diagram, compare
   int32_t columns = 1200, rows = 800;  // diagram: of the raster
   bool sweep = false;                  // diagram: that page
   bool quiet = false;                  // no bar, no notes, no report that was not asked for
   bool always_progress = false;        // a bar, or lines, wherever standard error goes
+
+  std::string titleOr(const std::string& names) const { return title.empty() ? names : title; }
 };
 
 // Throws Failure if the words make no command.

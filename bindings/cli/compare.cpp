@@ -5,16 +5,6 @@
 
 namespace tetstream::cli {
 
-static std::string nameOf(const Place& place) {
-  if (place.isStandard()) return "standard input";
-  return place.path.substr(place.path.find_last_of('/') + 1);
-}
-
-static std::string titleOf(const Arguments& arguments) {
-  if (!arguments.title.empty()) return arguments.title;
-  return nameOf(arguments.in) + " and " + nameOf(arguments.second);
-}
-
 static Comparison createComparison(const Arguments& arguments) {
   OptionWords words = arguments.options;
   const bool draws = !arguments.out.path.empty();
@@ -46,8 +36,9 @@ ExitCode compare(const Arguments& arguments) {
   printNotes(arguments, simplified.get(), nullptr);
   check(status, comparison.get());
   if (!arguments.out.path.empty())
-    check(tetstream_comparison_write(comparison.get(), arguments.out.path.c_str(),
-                                     titleOf(arguments).c_str()),
+    check(tetstream_comparison_write(
+              comparison.get(), arguments.out.path.c_str(),
+              arguments.titleOr(arguments.in.name() + " and " + arguments.second.name()).c_str()),
           comparison.get());
   if (!arguments.quiet || !arguments.report.empty()) {
     const ComparisonFigures figures = figuresOf(comparison.get());

@@ -28,6 +28,12 @@ ComparisonFigures figuresOf(const tetstream_comparison* comparison) {
     region.struct_size = sizeof region;
     check(tetstream_comparison_get_region(comparison, i, &region), comparison);
   }
+  f.face_labels.resize(static_cast<size_t>(f.info.face_label_count));
+  for (int32_t i = 0; i < f.info.face_label_count; ++i) {
+    tetstream_face_label_comparison& label = f.face_labels[static_cast<size_t>(i)];
+    label.struct_size = sizeof label;
+    check(tetstream_comparison_get_face_label(comparison, i, &label), comparison);
+  }
   return f;
 }
 
@@ -35,7 +41,7 @@ ComparisonFigures figuresOf(const tetstream_comparison* comparison) {
 
 namespace {
 
-constexpr size_t kMostRegions = 40;  // lines of them; JSON has all
+constexpr size_t kMostLabels = 40;  // lines of regions, and of faces; JSON has all
 
 std::string number(double value) {
   return std::isinf(value) ? "infinite" : textOf("%.6g", value);
@@ -162,7 +168,8 @@ std::string shapesText(const tetstream_mesh_figures& a, const tetstream_mesh_fig
          line("aspect, largest", a.largest_aspect, b.largest_aspect, "") +
          faults("inverted cells", a.inverted_cells, b.inverted_cells) +
          faults("flat cells", a.flat_cells, b.flat_cells) +
-         faults("folded faces", a.folded_faces, b.folded_faces);
+         faults("folded faces", a.folded_faces, b.folded_faces) +
+         faults("duplicate cells", a.duplicate_cells, b.duplicate_cells);
 }
 
 std::string regionLine(const tetstream_region_comparison& r) {
@@ -176,6 +183,15 @@ std::string regionLine(const tetstream_region_comparison& r) {
               number(r.original_volume), number(r.simplified_volume), note);
 }
 
+template <class Row>
+std::string linesOf(const std::vector<Row>& rows, std::string (*line)(const Row&)) {
+  std::string text;
+  for (size_t i = 0; i < std::min(kMostLabels, rows.size()); ++i) text += line(rows[i]);
+  if (rows.size() > kMostLabels)
+    text += textOf("  and %zu more, which --report json tells\n", rows.size() - kMostLabels);
+  return text;
+}
+
 std::string regionsText(const ComparisonFigures& f) {
   if (f.regions.empty()) return "regions: " + oneLine(f.info.regions) + "\n";
   size_t lost = 0, changed = 0;
@@ -183,23 +199,31 @@ std::string regionsText(const ComparisonFigures& f) {
     lost += r.simplified_cells == 0;
     changed += r.original_parts != r.simplified_parts;
   }
-  std::string text =
+  const std::string text =
       "regions, " + oneLine(f.info.regions) +
       textOf(": %zu, %zu lost, parts changed in %zu\n", f.regions.size(), lost, changed);
-  for (size_t i = 0; i < std::min(kMostRegions, f.regions.size()); ++i)
-    text += regionLine(f.regions[i]);
-  if (f.regions.size() > kMostRegions)
-    text += textOf("  and %zu more, which --report json tells\n", f.regions.size() - kMostRegions);
-  return text;
+  return text + linesOf(f.regions, regionLine);
+}
+
+std::string faceLabelLine(const tetstream_face_label_comparison& l) {
+  std::string note =
+      textOf("%+.3g %%", percentOf(l.simplified_area - l.original_area, l.original_area));
+  if (l.simplified_faces == 0) note = "LOST";
+  if (l.original_faces == 0) note = "NEW";
+  return both(textOf("area of %lld", static_cast<long long>(l.label)).c_str(),
+              number(l.original_area), number(l.simplified_area), note);
+}
+
+// Nothing where there are none: most meshes have none.
+std::string faceLabelsText(const ComparisonFigures& f) {
+  if (f.face_labels.empty()) return "";
+  size_t lost = 0;
+  for (const auto& l : f.face_labels) lost += l.simplified_faces == 0;
+  return textOf("labels of faces: %zu, %zu lost\n", f.face_labels.size(), lost) +
+         linesOf(f.face_labels, faceLabelLine) + "\n";
 }
 
 // ---------------------------------------------------------------------------------- for programs
-
-void addNumbers(JsonText& json, const char* name, const double* numbers, int count) {
-  json.key(name).open('[');
-  for (int i = 0; i < count; ++i) json.value(numbers[i]);
-  json.close(']');
-}
 
 void addMesh(JsonText& json, const char* name, const tetstream_mesh_figures& m) {
   json.key(name).open('{');
@@ -222,6 +246,7 @@ void addMesh(JsonText& json, const char* name, const tetstream_mesh_figures& m) 
   add("inverted_cells", m.inverted_cells);
   add("flat_cells", m.flat_cells);
   add("folded_faces", m.folded_faces);
+  add("duplicate_cells", m.duplicate_cells);
   add("least_angle", m.least_angle);
   add("largest_angle", m.largest_angle);
   add("mean_least_angle", m.mean_least_angle);
@@ -240,7 +265,7 @@ void addField(JsonText& json, const tetstream_field_comparison& f) {
   json.key("components").value(f.components);
   json.key("range").value(f.range);
   json.key("largest").value(f.largest);
-  addNumbers(json, "largest_place", f.largest_place, 3);
+  json.key("largest_place").values(f.largest_place, 3);
   json.key("largest_inside").value(f.largest_inside);
   json.key("cmse").value(f.cmse);
   json.key("rms").value(f.rms);
@@ -263,12 +288,22 @@ void addRegion(JsonText& json, const tetstream_region_comparison& r) {
   json.close('}');
 }
 
+void addFaceLabel(JsonText& json, const tetstream_face_label_comparison& l) {
+  json.open('{');
+  json.key("label").value(l.label);
+  json.key("original_faces").value(l.original_faces);
+  json.key("simplified_faces").value(l.simplified_faces);
+  json.key("original_area").value(l.original_area);
+  json.key("simplified_area").value(l.simplified_area);
+  json.close('}');
+}
+
 }  // namespace
 
 std::string comparisonText(const ComparisonFigures& f) {
   return meshesText(f.original, f.simplified) + "\n" + fieldsText(f) + "\n" + boundaryText(f) +
          "\n" + topologyText(f) + "\n" + shapesText(f.original, f.simplified) + "\n" +
-         regionsText(f) + "\n" +
+         regionsText(f) + "\n" + faceLabelsText(f) +
          row("time", textOf("%.2f s, %s cells/s", f.info.seconds,
                             shortCount(static_cast<double>(f.original.cells) /
                                        std::max(f.info.seconds, 1e-9))
@@ -282,6 +317,7 @@ std::string comparisonJson(const ComparisonFigures& f) {
   json.open('{');
   json.key("field_count").value(i.field_count);
   json.key("region_count").value(i.region_count);
+  json.key("face_label_count").value(i.face_label_count);
   json.key("topology_kept").value(i.topology_kept != 0);
   json.key("is_exact").value(i.is_exact != 0);
   json.key("samples").value(i.samples);
@@ -292,8 +328,8 @@ std::string comparisonJson(const ComparisonFigures& f) {
   json.key("rms_distance").value(i.rms_distance);
   json.key("distance_back").value(i.distance_back);
   json.key("rms_distance_back").value(i.rms_distance_back);
-  addNumbers(json, "distance_place", i.distance_place, 3);
-  addNumbers(json, "distance_back_place", i.distance_back_place, 3);
+  json.key("distance_place").values(i.distance_place, 3);
+  json.key("distance_back_place").values(i.distance_back_place, 3);
   json.key("regions").value(std::string_view(i.regions));
   json.key("seconds").value(i.seconds);
   json.key("peak_bytes").value(i.peak_bytes);
@@ -304,6 +340,9 @@ std::string comparisonJson(const ComparisonFigures& f) {
   json.close(']');
   json.key("labels").open('[');
   for (const auto& region : f.regions) addRegion(json, region);
+  json.close(']');
+  json.key("face_labels").open('[');
+  for (const auto& label : f.face_labels) addFaceLabel(json, label);
   json.close(']');
   return json.close('}').take();
 }

@@ -14,6 +14,7 @@ struct ComparisonFigures {
   tetstream_mesh_figures original, simplified;
   std::vector<tetstream_field_comparison> fields;
   std::vector<tetstream_region_comparison> regions;
+  std::vector<tetstream_face_label_comparison> face_labels;
 };
 
 ComparisonFigures figuresOf(const tetstream_comparison* comparison);

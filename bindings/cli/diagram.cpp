@@ -3,13 +3,6 @@
 
 namespace tetstream::cli {
 
-// The name of the file alone.
-static std::string titleOf(const Arguments& arguments) {
-  if (!arguments.title.empty()) return arguments.title;
-  if (arguments.in.isStandard()) return "standard input";
-  return arguments.in.path.substr(arguments.in.path.find_last_of('/') + 1);
-}
-
 static Diagram createDiagram(const Arguments& arguments, const tetstream_options* options) {
   tetstream_diagram* handle = nullptr;
   const tetstream_status status =
@@ -33,7 +26,7 @@ ExitCode diagram(const Arguments& arguments) {
   printNotes(arguments, reader.get(), nullptr);
   check(status, drawn.get());
   check(tetstream_diagram_write(drawn.get(), page, arguments.out.path.c_str(),
-                                titleOf(arguments).c_str()),
+                                arguments.titleOr(arguments.in.name()).c_str()),
         drawn.get());
   return kOk;
 }

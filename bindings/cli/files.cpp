@@ -16,6 +16,10 @@ namespace tetstream::cli {
 
 static constexpr const char* kStandardFormat = "tets";  // of "-": the one that holds everything
 
+std::string Place::name() const {
+  return isStandard() ? "standard input" : path.substr(path.find_last_of('/') + 1);
+}
+
 [[noreturn]] static void failSystem(const std::string& path, const char* what) {
   const int error = errno;
   throw Failure{kIo, textOf("%s: cannot %s: %s", path.c_str(), what, std::strerror(error))};

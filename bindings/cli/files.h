@@ -12,6 +12,7 @@ struct Place {
   std::string path;
   std::string format;  // empty: by the path's extension, or tets for "-"
   bool isStandard() const { return path == "-"; }
+  std::string name() const;  // the file's alone, without its folders
 };
 
 // A property of the output's format, as for tetstream_writer_set.

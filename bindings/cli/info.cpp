@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "commands.h"
 #include "json.h"
 #include "text.h"
@@ -5,6 +7,16 @@
 namespace tetstream::cli {
 
 namespace {
+
+using FaceLabels = std::vector<tetstream_face_label_info>;
+
+FaceLabels faceLabelsOf(tetstream_reader* reader) {
+  FaceLabels labels;
+  tetstream_face_label_info label = {sizeof label, 0, 0};
+  for (int32_t i = 0; tetstream_reader_get_face_label(reader, i, &label) == TETSTREAM_OK; ++i)
+    labels.push_back(label);
+  return labels;
+}
 
 // Bounds of `count` numbers of the box, from `first`; none if the box is not known.
 struct Bounds {
@@ -40,7 +52,21 @@ std::string frontText(const tetstream_front_info& front) {
          row("window", countText(front.window_cells) + " cells for a simplification");
 }
 
-std::string infoText(const tetstream_stream_info& info, const tetstream_front_info& front) {
+constexpr size_t kMostLabels = 40;  // lines of them; JSON has all
+
+std::string faceLabelsText(const FaceLabels& labels) {
+  std::string text;
+  for (size_t i = 0; i < std::min(kMostLabels, labels.size()); ++i)
+    text += row("face label", textOf("%lld, ", static_cast<long long>(labels[i].label)) +
+                                  countText(labels[i].faces) + " faces");
+  if (labels.size() > kMostLabels)
+    text +=
+        row("face label", textOf("and %zu more, which --json tells", labels.size() - kMostLabels));
+  return text;
+}
+
+std::string infoText(const tetstream_stream_info& info, const FaceLabels& labels,
+                     const tetstream_front_info& front) {
   const bool indexed = (info.flags & TETSTREAM_STREAM_INDEXED) != 0;
   std::string text =
       row("kind", indexed ? "indexed mesh; the front is that of its order here" : "mesh stream") +
@@ -56,18 +82,8 @@ std::string infoText(const tetstream_stream_info& info, const tetstream_front_in
   }
   for (int32_t i = 0; i < info.cell_data_count; ++i)
     text += row("cell array", columnText(info.cell_data[i]));
-  return text + frontText(front);
-}
-
-void addNumbers(JsonText& json, const char* name, const double* numbers, int32_t count) {
-  json.key(name);
-  if (!numbers) {
-    json.null();
-    return;
-  }
-  json.open('[');
-  for (int32_t i = 0; i < count; ++i) json.value(numbers[i]);
-  json.close(']');
+  if (info.face_count > 0) text += row("faces", countText(info.face_count) + ", labelled");
+  return text + faceLabelsText(labels) + frontText(front);
 }
 
 void addColumn(JsonText& json, const tetstream_column& column) {
@@ -93,8 +109,8 @@ void addFields(JsonText& json, const tetstream_stream_info& info) {
     const Bounds bounds = boundsAt(info, first, field.components);
     json.open('{');
     addColumn(json, field);
-    addNumbers(json, "min", bounds.low, field.components);
-    addNumbers(json, "max", bounds.high, field.components);
+    json.key("min").values(bounds.low, field.components);
+    json.key("max").values(bounds.high, field.components);
     json.close('}');
     first += field.components;
   }
@@ -102,7 +118,8 @@ void addFields(JsonText& json, const tetstream_stream_info& info) {
 }
 
 std::string infoJson(const Arguments& arguments, const tetstream_stream_info& info,
-                     const tetstream_front_info& front, const std::vector<std::string>& notes) {
+                     const FaceLabels& labels, const tetstream_front_info& front,
+                     const std::vector<std::string>& notes) {
   JsonText json;
   json.open('{');
   json.key("file").value(std::string_view(arguments.in.path));
@@ -110,13 +127,22 @@ std::string infoJson(const Arguments& arguments, const tetstream_stream_info& in
   addCount(json, "vertices", info.vertex_count);
   addCount(json, "cells", info.cell_count);
   json.key("position_type").value(typeName(info.position_type));
-  addNumbers(json, "box_min", info.box_min, 3);
-  addNumbers(json, "box_max", info.box_max, 3);
+  json.key("box_min").values(info.box_min, 3);
+  json.key("box_max").values(info.box_max, 3);
   addFields(json, info);
   json.key("cell_arrays").open('[');
   for (int32_t i = 0; i < info.cell_data_count; ++i) {
     json.open('{');
     addColumn(json, info.cell_data[i]);
+    json.close('}');
+  }
+  json.close(']');
+  addCount(json, "faces", info.face_count);
+  json.key("face_labels").open('[');
+  for (const tetstream_face_label_info& label : labels) {
+    json.open('{');
+    json.key("label").value(label.label);
+    json.key("faces").value(label.faces);
     json.close('}');
   }
   json.close(']');
@@ -150,8 +176,9 @@ ExitCode info(const Arguments& arguments) {
   tetstream_front_info front = {};
   front.struct_size = sizeof front;
   check(tetstream_reader_get_front(reader.get(), &front), reader.get());
-  printOut(arguments.json ? infoJson(arguments, found, front, notesOf(reader.get()))
-                          : infoText(found, front));
+  const FaceLabels labels = faceLabelsOf(reader.get());
+  printOut(arguments.json ? infoJson(arguments, found, labels, front, notesOf(reader.get()))
+                          : infoText(found, labels, front));
   return exitCodeOf(status);
 }
 

@@ -21,6 +21,13 @@ void JsonText::separate() {
   first_ = false;
 }
 
+JsonText& JsonText::values(const double* numbers, int32_t count) {
+  if (!numbers) return null();
+  open('[');
+  for (int32_t i = 0; i < count; ++i) value(numbers[i]);
+  return close(']');
+}
+
 JsonText& JsonText::raw(std::string_view word) {
   separate();
   text_ += word;

@@ -14,8 +14,9 @@ class JsonText {
   JsonText& open(char bracket);   // '{' or '['
   JsonText& close(char bracket);  // '}' or ']'
   JsonText& key(std::string_view name);
-  JsonText& value(std::string_view text);  // bytes that are no UTF-8 become U+FFFD
-  JsonText& value(double number);          // null if it is not finite
+  JsonText& value(std::string_view text);                  // bytes that are no UTF-8 become U+FFFD
+  JsonText& value(double number);                          // null if it is not finite
+  JsonText& values(const double* numbers, int32_t count);  // an array; without numbers null
   JsonText& null() { return raw("null"); }
   template <class Integer>
   requires std::is_integral_v<Integer> JsonText& value(Integer number) {

@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "commands.h"
 #include "report.h"
 #include "text.h"
@@ -21,12 +23,20 @@ static void needTarget(const Arguments& arguments, const tetstream_options* opti
                   "--error E (percent of the fields' range)"};
 }
 
+// Whatever the words, as long as the file's name is not that of another one.
+static bool isSame(const Place& a, const Place& b) {
+  if (a.isStandard() || b.isStandard()) return a.path == b.path;
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(a.path, ignored) ==
+         std::filesystem::weakly_canonical(b.path, ignored);
+}
+
 // Mesh, map and log go to three places.
 static void needPlaces(const Arguments& arguments) {
   const Place* const places[] = {&arguments.out, &arguments.map, &arguments.log};
   for (const Place* const& a : places)
     for (const Place* const* b = places; *b != a; ++b)
-      if (!a->path.empty() && a->path == (*b)->path)
+      if (!a->path.empty() && isSame(*a, **b))
         throw Failure{kUsage, a->isStandard() ? "only one of OUT, --map and --collapse-log can be -"
                                               : textOf("%s: two things cannot be written there",
                                                        a->path.c_str())};

@@ -210,6 +210,7 @@ typedef struct tetstream_stream_info {
                                         sets the window. */
   const double *box_min; /* x y z and each component of each field, in order; NULL: not known */
   const double *box_max;
+  int64_t face_count;    /* labelled faces; with the option `memory` their place is kept free */
 } tetstream_stream_info;
 
 /* Events, some thousands at a time: the batch's vertices, then its cells in order, each with the
@@ -229,9 +230,10 @@ typedef struct tetstream_batch {
   const void *const *cell_data; /* one pointer per cell array: [cell_count][components] */
   int64_t finalized_count;
   const int64_t *finalized;     /* vertices that no later cell uses */
-  /* Labelled faces of cells, on the boundary or between regions, and what
-     must stay. They come at the latest with the batch in which the first of their vertices gets its
-     last use or is finalized. Curves between faces of different labels are kept like ridges. */
+  /* Labelled faces of cells, on the boundary or between regions, each once, and what must stay.
+     They come at the latest with the batch in which the first of their vertices gets its last use
+     or is finalized; in an indexed mesh, anywhere. Curves between faces of different labels are
+     kept like ridges. What is locked comes out as locked vertices. */
   int64_t face_count;
   const int64_t *faces;         /* [face_count][3] vertex ids */
   const int64_t *face_labels;   /* [face_count] */
@@ -301,8 +303,9 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory_with(const void *dat
                                                                  const tetstream_options *options,
                                                                  tetstream_reader **reader);
 /* An indexed mesh in arrays of the caller's, which must stay as they are until the reader is
- * destroyed: `mesh` is one batch that holds everything; its last_uses and finalized are not looked
- * at. Counts of `info` are not looked at either. Since 0.1. */
+ * destroyed: `mesh` is one batch that holds everything, labelled faces and what is locked, too; its
+ * last_uses and finalized are not looked at. Counts of `info` are not looked at either. Since 0.1.
+ */
 TETSTREAM_API tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info *info,
                                                           const tetstream_batch *mesh,
                                                           tetstream_reader **reader);
@@ -340,6 +343,19 @@ typedef struct tetstream_front_info {
 /* The front as `inspect` found it. BAD_STATE before. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_get_front(tetstream_reader *reader,
                                                           tetstream_front_info *front);
+
+/* The labelled faces of one label. Members may be added at the end. */
+typedef struct tetstream_face_label_info {
+  size_t struct_size; /* in: sizeof(tetstream_face_label_info) */
+  int64_t label;
+  int64_t faces;
+} tetstream_face_label_info;
+
+/* The labels of faces as `inspect` found them, by label: row `index`. BAD_ARGUMENT past the end,
+ * BAD_STATE before. There are none where more than 65536 labels number the faces. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_get_face_label(tetstream_reader *reader,
+                                                               int32_t index,
+                                                               tetstream_face_label_info *label);
 
 /* -------------------------------------------------------------------------------- writer */
 
@@ -514,9 +530,9 @@ typedef struct tetstream_map_callbacks {
 TETSTREAM_API tetstream_status tetstream_simplifier_set_map(
     tetstream_simplifier *simplifier, const tetstream_map_callbacks *callbacks);
 /* The same into a file, as tetstream-formats(5) describes it: `format` is "tetmap" or "csv", or
- * NULL: by the path's ending. It is written under a temporary name beside `path`, and renamed when
- * it is complete, just before the mesh is. UNSUPPORTED for another format, IO if it cannot be
- * made. Since 0.1. */
+ * NULL: by the path's ending. It is written under a temporary name beside `path`; the files of a run
+ * are renamed when all of them are complete, and where one cannot be, none is. UNSUPPORTED for
+ * another format, IO if it cannot be made. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_set_map_file(tetstream_simplifier *simplifier,
                                                                  const char *path,
                                                                  const char *format);
@@ -732,6 +748,7 @@ typedef struct tetstream_comparison_info {
   const char *regions;         /* what was taken as region labels, in words */
   double seconds;              /* that `read` took */
   uint64_t peak_bytes;         /* of the arrays that the memory option bounds */
+  int32_t face_label_count;
 } tetstream_comparison_info;
 
 /* The figures of one mesh. Members may be added at the end. */
@@ -756,6 +773,7 @@ typedef struct tetstream_mesh_figures {
   double share_below_1, share_below_5, share_below_10; /* of cells whose least one is below */
   double median_aspect, p99_aspect;  /* circumradius / (3 inradius): 1 is regular; within 1 % */
   double largest_aspect;             /* infinite if there is a flat cell */
+  int64_t duplicate_cells;      /* whose four vertices are those of one before */
 } tetstream_mesh_figures;
 
 /* The error of one nodal field that both meshes have. Of several components it is the norm of the
@@ -784,6 +802,14 @@ typedef struct tetstream_region_comparison {
   int64_t original_parts, simplified_parts; /* sets of cells joined through faces */
 } tetstream_region_comparison;
 
+/* The labelled faces of one label. Members may be added at the end. */
+typedef struct tetstream_face_label_comparison {
+  size_t struct_size;
+  int64_t label;
+  int64_t original_faces, simplified_faces; /* 0: the label is not there */
+  double original_area, simplified_area;
+} tetstream_face_label_comparison;
+
 /* The options are copied; NULL: the defaults. Those count that count for `inspect`, and `samples`,
  * `seed`, `cut`, `regions` and fields that were added: only these are compared, those of weight 0
  * left out. Since 0.1. */
@@ -802,8 +828,8 @@ TETSTREAM_API tetstream_status tetstream_comparison_read(tetstream_comparison *c
                                                          tetstream_progress_callback progress,
                                                          void *user);
 /* The figures, once both were read; BAD_STATE before. BAD_ARGUMENT for an index past the end or a
- * `mesh` other than TETSTREAM_ORIGINAL and _SIMPLIFIED. Regions come by label, those that only the
- * simplified mesh has last. Since 0.1. */
+ * `mesh` other than TETSTREAM_ORIGINAL and _SIMPLIFIED. Regions and labels of faces come by label,
+ * those that only the simplified mesh has last. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_comparison_get_info(
     const tetstream_comparison *comparison, tetstream_comparison_info *info);
 TETSTREAM_API tetstream_status tetstream_comparison_get_mesh(
@@ -812,6 +838,8 @@ TETSTREAM_API tetstream_status tetstream_comparison_get_field(
     const tetstream_comparison *comparison, int32_t index, tetstream_field_comparison *field);
 TETSTREAM_API tetstream_status tetstream_comparison_get_region(
     const tetstream_comparison *comparison, int32_t index, tetstream_region_comparison *region);
+TETSTREAM_API tetstream_status tetstream_comparison_get_face_label(
+    const tetstream_comparison *comparison, int32_t index, tetstream_face_label_comparison *label);
 /* Draws a page, once both were read with the option `cut`: a cut through both meshes, coloured by
  * the first field that was compared, the error on it, how the error is spread over the volume, and
  * the figures. SVG or PNG by the path's extension; the file takes its name when it is complete.

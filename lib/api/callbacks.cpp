@@ -20,7 +20,7 @@ void CallbackSource::open() {
   info.struct_size = sizeof info;
   info.vertex_count = info.cell_count = -1;
   info.front_width = info.front_span = info.front_cells = -1;
-  callBack("reader's open", [&] { return callbacks_.open(callbacks_.user, &info); });
+  callBack("reader", "open", [&] { return callbacks_.open(callbacks_.user, &info); });
   schema_ = schemaOf(info);
   indexed_ = (info.flags & TETSTREAM_STREAM_INDEXED) != 0;
   checker_.emplace(schema_);
@@ -30,7 +30,7 @@ bool CallbackSource::next(BatchView& batch) {
   if (ended_) return false;
   tetstream_batch filled = {};
   filled.struct_size = sizeof filled;
-  callBack("reader's next", [&] { return callbacks_.next(callbacks_.user, &filled); });
+  callBack("reader", "next", [&] { return callbacks_.next(callbacks_.user, &filled); });
   batch = checker_->view(filled);
   ended_ = batch.vertex_count == 0 && batch.cell_count == 0 && batch.finalized_count == 0;
   return !ended_;
@@ -38,25 +38,13 @@ bool CallbackSource::next(BatchView& batch) {
 
 // -------------------------------------------------------------------------------------- writer
 
-CallbackSink::~CallbackSink() {
-  if (begun_) closeQuietly(callbacks_.close, callbacks_.user);
-}
-
 void CallbackSink::begin(const Schema& schema) {
   const PublicSchema shown(schema, false);
-  begun_ = true;
-  if (!callbacks_.open) return;
-  callBack("writer's open", [&] { return callbacks_.open(callbacks_.user, &shown.info()); });
+  taker_.open(&shown.info());
 }
 
 void CallbackSink::put(const BatchView& batch) {
-  const tetstream_batch shown = publicBatch(batch);
-  callBack("writer's put", [&] { return callbacks_.put(callbacks_.user, &shown); });
-}
-
-void CallbackSink::finish() {
-  if (!callbacks_.finish) return;
-  callBack("writer's finish", [&] { return callbacks_.finish(callbacks_.user); });
+  taker_.put(publicBatch(batch));
 }
 
 }  // namespace tetstream

@@ -9,17 +9,17 @@
 
 namespace tetstream {
 
-// Runs one callback that returns 0 to go on. Throws kCallback, naming it, when it returns another
-// value or lets an exception out.
+// Runs one callback of `whose` that returns 0 to go on. Throws kCallback, naming it, when it
+// returns another value or lets an exception out.
 template <class Call>
-void callBack(const char* name, Call&& call) {
+void callBack(const char* whose, const char* name, Call&& call) {
   int32_t value = 0;
   try {
     value = call();
   } catch (...) {
-    fail(Status::kCallback, "an exception left the %s callback", name);
+    fail(Status::kCallback, "an exception left the %s's %s callback", whose, name);
   }
-  if (value != 0) fail(Status::kCallback, "the %s callback returned %d", name, value);
+  if (value != 0) fail(Status::kCallback, "the %s's %s callback returned %d", whose, name, value);
 }
 
 // An exception out of `close` has nowhere to go: what was to be said about the stream was said.
@@ -30,6 +30,39 @@ void closeQuietly(Close close, void* user) noexcept {
   } catch (...) {
   }
 }
+
+// A table of the caller's that takes something: a writer, a map, a log. `close` is called once if
+// `open` was or would have been, by the destructor.
+template <class Callbacks>
+class Taker {
+ public:
+  Taker(const Callbacks& callbacks, const char* whose) : callbacks_(callbacks), whose_(whose) {}
+  ~Taker() {
+    if (opened_) closeQuietly(callbacks_.close, callbacks_.user);
+  }
+  Taker(const Taker&) = delete;
+  Taker& operator=(const Taker&) = delete;
+
+  template <class... Info>
+  void open(const Info*... info) {
+    opened_ = true;
+    if (!callbacks_.open) return;
+    callBack(whose_, "open", [&] { return callbacks_.open(callbacks_.user, info...); });
+  }
+  template <class Shown>
+  void put(const Shown& shown) {
+    callBack(whose_, "put", [&] { return callbacks_.put(callbacks_.user, &shown); });
+  }
+  void finish() {
+    if (!callbacks_.finish) return;
+    callBack(whose_, "finish", [&] { return callbacks_.finish(callbacks_.user); });
+  }
+
+ private:
+  Callbacks callbacks_;
+  const char* whose_;
+  bool opened_ = false;
+};
 
 // A reader of the caller's. `close` is called once if `open` was, here or by the destructor.
 class CallbackSource final : public Source {
@@ -50,19 +83,16 @@ class CallbackSource final : public Source {
   std::optional<BatchChecker> checker_;
 };
 
-// A writer of the caller's. `close` is called once if `begin` was, by the destructor.
 class CallbackSink final : public Sink {
  public:
-  explicit CallbackSink(const tetstream_writer_callbacks& callbacks) : callbacks_(callbacks) {}
-  ~CallbackSink() override;
-
+  explicit CallbackSink(const tetstream_writer_callbacks& callbacks)
+      : taker_(callbacks, "writer") {}
   void begin(const Schema& schema) override;
   void put(const BatchView& batch) override;
-  void finish() override;
+  void finish() override { taker_.finish(); }
 
  private:
-  tetstream_writer_callbacks callbacks_;
-  bool begun_ = false;
+  Taker<tetstream_writer_callbacks> taker_;
 };
 
 }  // namespace tetstream

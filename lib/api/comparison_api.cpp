@@ -57,6 +57,7 @@ static tetstream_comparison_info publicInfo(const tetstream_comparison& c) {
   out.regions = found.regionWords().c_str();
   out.seconds = c.seconds;
   out.peak_bytes = found.peakBytes();
+  out.face_label_count = static_cast<int32_t>(found.faceLabels().size());
   return out;
 }
 
@@ -91,6 +92,7 @@ static tetstream_mesh_figures publicMesh(const MeshFigures& mesh) {
   out.median_aspect = s.median_aspect;
   out.p99_aspect = s.p99_aspect;
   out.largest_aspect = s.largest_aspect;
+  out.duplicate_cells = t.duplicate_cells;
   return out;
 }
 
@@ -120,6 +122,16 @@ static tetstream_region_comparison publicRegion(const RegionComparison& region) 
   out.simplified_volume = region.simplified.volume;
   out.original_parts = region.original.parts;
   out.simplified_parts = region.simplified.parts;
+  return out;
+}
+
+static tetstream_face_label_comparison publicFaceLabel(const FaceLabelComparison& label) {
+  tetstream_face_label_comparison out = {};
+  out.label = label.label;
+  out.original_faces = label.original.faces;
+  out.simplified_faces = label.simplified.faces;
+  out.original_area = label.original.area;
+  out.simplified_area = label.simplified.area;
   return out;
 }
 
@@ -189,6 +201,16 @@ tetstream_status tetstream_comparison_get_region(const tetstream_comparison* com
     checkStruct(region, "region");
     needState(c, State::kFinished);
     writeStruct(region, publicRegion(rowOf(c.found->regions(), index, "region")));
+  });
+}
+
+tetstream_status tetstream_comparison_get_face_label(const tetstream_comparison* comparison,
+                                                     int32_t index,
+                                                     tetstream_face_label_comparison* label) {
+  return guard(__func__, comparison, [&](const tetstream_comparison& c) {
+    checkStruct(label, "label");
+    needState(c, State::kFinished);
+    writeStruct(label, publicFaceLabel(rowOf(c.found->faceLabels(), index, "label of faces")));
   });
 }
 

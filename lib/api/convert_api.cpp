@@ -40,11 +40,11 @@ static void copyTo(tetstream_writer& w, tetstream_reader* reader, RunOptions run
   const Busy busy(w);
   try {
     w.laid_out = convertInto(output, *reader, run, progress);
+    output.complete();
   } catch (...) {
     output.stop(State::kBroken);
     throw;
   }
-  output.complete();
 }
 
 tetstream_status tetstream_convert(tetstream_reader* reader, tetstream_writer* writer,
@@ -94,6 +94,9 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
         inspect(use.input(false, run.temp_dir), run, progressOf(progress, user));
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
     r.front = publicFront(found);
+    r.face_labels.clear();
+    for (const auto& [label, figures] : found.face_labels.labels())
+      r.face_labels.push_back({sizeof(tetstream_face_label_info), label, figures.faces});
     writeStruct(info, r.inspected->info());
     use.done();
   });

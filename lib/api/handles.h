@@ -28,7 +28,8 @@ struct tetstream_reader : tetstream::Handle {
   tetstream::CallbackSource* callbacks = nullptr;  // input.stream, where that is the caller's
   std::unique_ptr<const tetstream::PublicSchema> known;
   std::unique_ptr<const tetstream::PublicSchema> inspected;
-  tetstream_front_info front = {};  // once inspected
+  tetstream_front_info front = {};                     // once inspected
+  std::vector<tetstream_face_label_info> face_labels;  // likewise
   std::list<std::string> notes;
 };
 

@@ -1,5 +1,6 @@
 #include "output.h"
 
+#include "compressed_bytes.h"
 #include "rounding_source.h"
 
 namespace tetstream {
@@ -15,10 +16,13 @@ Output::Output(const tetstream_writer_callbacks& callbacks) : callbacks_(callbac
   needPlace(reinterpret_cast<const void*>(callbacks_.put), "the callback put");
 }
 
-Output::Output(const Format& format, std::unique_ptr<ByteSink> bytes, const std::string& path)
-    : format_(&format), bytes_(std::move(bytes)) {
-  options_.path = path;
+Output::Output(const Format& format, const std::string& path) : format_(&format) {
+  const Wrapping wrapping = wrappingOf(path, &options_.path);
+  bytes_ = wrapped(createFile(path, &files_), wrapping);
 }
+
+Output::Output(const Format& format, std::unique_ptr<ByteSink> bytes)
+    : format_(&format), bytes_(std::move(bytes)) {}
 
 Output::Output(const Format& format) : format_(&format), in_memory_(true) {
   bytes_ = createMemory(memory_);
@@ -106,6 +110,7 @@ Sink& Output::sink() {
 }
 
 void Output::complete() {
+  files_.commit();
   state_ = State::kFinished;
   sink_.reset();
 }
@@ -115,6 +120,7 @@ void Output::stop(State state) noexcept {
   state_ = state;
   sink_.reset();
   bytes_.reset();
+  files_.forget();
 }
 
 const std::vector<unsigned char>& Output::memory() const {

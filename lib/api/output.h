@@ -9,6 +9,7 @@
 
 #include "callbacks.h"
 #include "guard.h"
+#include "joint_files.h"
 #include "registry.h"
 
 namespace tetstream {
@@ -22,8 +23,8 @@ const Format& writtenFormat(const std::string& name, const std::string& path);
 class Output final : public Sink {
  public:
   explicit Output(const tetstream_writer_callbacks& callbacks);
-  // `path` where they go to a file.
-  Output(const Format& format, std::unique_ptr<ByteSink> bytes, const std::string& path = "");
+  Output(const Format& format, const std::string& path);
+  Output(const Format& format, std::unique_ptr<ByteSink> bytes);
   explicit Output(const Format& format);  // into memory
   // `options_` and the sink point into the object.
   Output(const Output&) = delete;
@@ -43,7 +44,9 @@ class Output final : public Sink {
   void begin(const Schema& schema) override { sink().begin(schema); }
   void put(const BatchView& batch) override { sink().put(batch); }
   void finish() override { sink().finish(); }
-  void complete();
+  // The files that get their names when the output is complete: its own, and its run's others.
+  JointFiles& files() { return files_; }
+  void complete();                  // throws kIo
   void stop(State state) noexcept;  // kBroken or kDestroyed, unless it is one of them already
 
  private:
@@ -54,6 +57,7 @@ class Output final : public Sink {
   tetstream_writer_callbacks callbacks_ = {};
   bool in_memory_ = false;
   std::vector<unsigned char> memory_;
+  JointFiles files_;
   std::unique_ptr<ByteSink> bytes_;
   WriteOptions options_;
   std::list<std::string> notes_;

@@ -94,10 +94,6 @@ tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,
     batch.last_uses = nullptr;
     batch.finalized_count = 0;
     const BatchView view = BatchChecker(schema).view(batch);
-    if (view.face_count + view.edge_count > 0)
-      fail(Status::kUnsupported,
-           "a mesh in memory has no order, and labelled faces and locked edges cannot be ordered "
-           "yet: push them in batches, or lock vertices");
     r.input.indexed = std::make_unique<MemorySource>(schema, view);
     openReader(r);
   });
@@ -134,6 +130,18 @@ tetstream_status tetstream_reader_get_front(tetstream_reader* reader, tetstream_
     checkStruct(front, "front");
     if (!r.inspected) fail(Status::kBadState, "the reader was not inspected");
     writeStruct(front, r.front);
+  });
+}
+
+tetstream_status tetstream_reader_get_face_label(tetstream_reader* reader, int32_t index,
+                                                 tetstream_face_label_info* label) {
+  return guard(__func__, reader, [&](tetstream_reader& r) {
+    checkStruct(label, "label");
+    if (!r.inspected) fail(Status::kBadState, "the reader was not inspected");
+    if (index < 0 || static_cast<size_t>(index) >= r.face_labels.size())
+      fail(Status::kBadArgument, "there is no label of faces %d, there are %zu", index,
+           r.face_labels.size());
+    writeStruct(label, r.face_labels[static_cast<size_t>(index)]);
   });
 }
 

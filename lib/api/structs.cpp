@@ -62,6 +62,7 @@ Schema schemaOf(const tetstream_stream_info& info) {
   checkSchema(schema);
   schema.vertex_count = knownOrMinusOne(info.vertex_count);
   schema.cell_count = knownOrMinusOne(info.cell_count);
+  schema.face_count = knownOrMinusOne(info.face_count);
   schema.front_width = knownOrMinusOne(info.front_width);
   schema.front_span = knownOrMinusOne(info.front_span);
   schema.front_cells = knownOrMinusOne(info.front_cells);
@@ -95,6 +96,7 @@ PublicSchema::PublicSchema(const Schema& schema, bool indexed)
   info_.front_cells = schema_.front_cells;
   info_.box_min = schema_.hasBox() ? schema_.box_min.data() : nullptr;
   info_.box_max = schema_.hasBox() ? schema_.box_max.data() : nullptr;
+  info_.face_count = schema_.face_count;
 }
 
 // ------------------------------------------------------------------------------------- batches

@@ -33,6 +33,8 @@ TETSTREAM_FIRST_SIZE(tetstream_comparison_info, peak_bytes);
 TETSTREAM_FIRST_SIZE(tetstream_mesh_figures, largest_aspect);
 TETSTREAM_FIRST_SIZE(tetstream_field_comparison, rms_percent);
 TETSTREAM_FIRST_SIZE(tetstream_region_comparison, simplified_parts);
+TETSTREAM_FIRST_SIZE(tetstream_face_label_info, faces);
+TETSTREAM_FIRST_SIZE(tetstream_face_label_comparison, simplified_area);
 #undef TETSTREAM_FIRST_SIZE
 
 [[noreturn]] void failStruct(const char* argument, size_t size, size_t needed);

@@ -17,7 +17,10 @@ static tetstream_status setSink(const char* function, tetstream_simplifier* simp
 
 template <class Shown, class Callbacks>
 static std::unique_ptr<Shown> sinkOf(const Callbacks* callbacks) {
-  return callbacks ? std::make_unique<Shown>(readStruct(callbacks, "callbacks")) : nullptr;
+  if (!callbacks) return nullptr;
+  const Callbacks table = readStruct(callbacks, "callbacks");
+  needPlace(reinterpret_cast<const void*>(table.put), "the callback put");
+  return std::make_unique<Shown>(table);
 }
 
 tetstream_status tetstream_simplifier_set_map(tetstream_simplifier* simplifier,
@@ -30,7 +33,7 @@ tetstream_status tetstream_simplifier_set_map_file(tetstream_simplifier* simplif
                                                    const char* path, const char* format) {
   return setSink(__func__, simplifier, &tetstream_simplifier::map, [&] {
     needPlace(path, "path");
-    return createMapFile(path, format ? format : "");
+    return createMapFile(path, format ? format : "", simplifier->output->files());
   });
 }
 
@@ -52,7 +55,7 @@ tetstream_status tetstream_simplifier_set_log_file(tetstream_simplifier* simplif
                                                    const char* path, const char* format) {
   return setSink(__func__, simplifier, &tetstream_simplifier::log, [&] {
     needPlace(path, "path");
-    return createLogFile(path, format ? format : "");
+    return createLogFile(path, format ? format : "", simplifier->output->files());
   });
 }
 

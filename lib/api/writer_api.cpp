@@ -1,5 +1,4 @@
 // api: writers of the public header.
-#include "compressed_bytes.h"
 #include "handles.h"
 #include "registry.h"
 
@@ -17,9 +16,7 @@ tetstream_status tetstream_writer_create_file(const char* path, const char* form
   return guardCreate(__func__, writer, [&](tetstream_writer& w) {
     needPlace(path, "path");
     const Format& found = writtenFormat(format ? format : "", path);
-    std::string plain;
-    const Wrapping wrapping = wrappingOf(path, &plain);
-    w.output = std::make_shared<Output>(found, wrapped(createFile(path), wrapping), plain);
+    w.output = std::make_shared<Output>(found, std::string(path));
   });
 }
 

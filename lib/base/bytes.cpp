@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "io_error.h"
-#include "named_temporary.h"
+#include "joint_files.h"
 
 namespace tetstream {
 
@@ -235,18 +235,25 @@ class DescriptorSink final : public ByteSink {
 
 class NamedSink final : public ByteSink {
  public:
-  explicit NamedSink(const std::string& path) : ByteSink(path), file_(path) {}
+  NamedSink(const std::string& path, JointFiles* joint)
+      : ByteSink(path), file_(std::make_unique<NamedTemporary>(path)), joint_(joint) {}
   void write(const void* data, size_t size) override {
-    writeFully(file_.descriptor(), data, size, name());
+    writeFully(file_->descriptor(), data, size, name());
   }
   void writeAt(uint64_t offset, const void* data, size_t size) override {
-    writeFullyAt(file_.descriptor(), offset, data, size, name());
+    writeFullyAt(file_->descriptor(), offset, data, size, name());
   }
   bool seekable() const override { return true; }
-  void commit() override { file_.commit(); }
+  void commit() override {
+    if (joint_)
+      joint_->add(std::move(file_));
+    else
+      file_->commit();
+  }
 
  private:
-  NamedTemporary file_;
+  std::unique_ptr<NamedTemporary> file_;
+  JointFiles* joint_;
 };
 
 class MemorySink final : public ByteSink {
@@ -272,14 +279,14 @@ class MemorySink final : public ByteSink {
 
 }  // namespace
 
-std::unique_ptr<ByteSink> createFile(const std::string& path) {
+std::unique_ptr<ByteSink> createFile(const std::string& path, JointFiles* joint) {
   struct stat info;
   if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) {
     const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd < 0) failIo(path, "open");
     return std::make_unique<DescriptorSink>(fd, true, path);
   }
-  return std::make_unique<NamedSink>(path);
+  return std::make_unique<NamedSink>(path, joint);
 }
 
 std::unique_ptr<ByteSink> createDescriptor(int fd, const std::string& name) {

@@ -11,6 +11,8 @@
 
 namespace tetstream {
 
+class JointFiles;
+
 class ByteSource {
  public:
   virtual ~ByteSource() = default;
@@ -51,7 +53,8 @@ class ByteSink {
   // Seekable sinks only: overwrites bytes written before.
   virtual void writeAt(uint64_t offset, const void* data, size_t size) = 0;
   virtual bool seekable() const = 0;
-  // Makes the output complete under its final name. Called once, last.
+  // Makes the output complete, under its final name unless that is given to several together.
+  // Called once, last.
   virtual void commit() = 0;
   const std::string& name() const { return name_; }
 
@@ -64,7 +67,8 @@ class ByteSink {
 
 // Writes to a temporary file beside `path`, which takes that name only at commit. A path that is
 // there and is no regular file (a device, a pipe) is written directly.
-std::unique_ptr<ByteSink> createFile(const std::string& path);
+// With `joint`, which is borrowed, the name is taken when all of those are committed.
+std::unique_ptr<ByteSink> createFile(const std::string& path, JointFiles* joint = nullptr);
 std::unique_ptr<ByteSink> createDescriptor(int fd, const std::string& name);  // does not close it
 std::unique_ptr<ByteSink> createMemory(std::vector<unsigned char>& out);      // borrows `out`
 

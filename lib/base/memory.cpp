@@ -3,8 +3,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "status.h"
-
 namespace tetstream {
 
 size_t checkedMultiply(size_t a, size_t b) {

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "status.h"
+
 namespace tetstream {
 
 // a * b, or throws kNoMemory when it does not fit.
@@ -73,6 +75,18 @@ class Array {
   T* data_ = nullptr;
   size_t size_ = 0;
 };
+
+// An array that is full grows by `more`, or, where memory does not suffice for that, by the little
+// that a budget may still allow. resize(size) resizes it, or throws and leaves it as it is.
+template <class Resize>
+void growArray(size_t size, size_t more, Resize resize) {
+  try {
+    resize(checkedAdd(size, more));
+  } catch (const Error& error) {
+    if (error.status() != Status::kNoMemory) throw;
+    resize(checkedAdd(size, more / 16 + 1));
+  }
+}
 
 // Peak resident set of this process in bytes, 0 where the system does not tell.
 uint64_t peakResidentBytes();

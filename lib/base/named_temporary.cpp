@@ -73,9 +73,22 @@ void NamedTemporary::create(const std::string& stem) {
   fail(Status::kIo, "%s: no temporary file beside it stays there", path_.c_str());
 }
 
-NamedTemporary::NamedTemporary(const std::string& path) : path_(path), target_(path) {
+// Empty where there is none.
+static std::string realPath(const std::string& path) {
   const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
-  if (real) target_ = real.get();
+  return real ? real.get() : "";
+}
+
+// The file that a name is, or would be, of.
+static std::string targetOf(const std::string& path) {
+  const std::string there = realPath(path);
+  if (!there.empty()) return there;
+  const size_t slash = path.find_last_of('/') + 1;
+  const std::string folder = realPath(slash ? path.substr(0, slash) : ".");
+  return folder.empty() ? path : folder + "/" + path.substr(slash);
+}
+
+NamedTemporary::NamedTemporary(const std::string& path) : path_(path), target_(targetOf(path)) {
   // A name has 255 bytes at most: a long one leaves no room for a suffix.
   const size_t slash = target_.find_last_of('/') + 1;
   const std::string stem =
@@ -87,17 +100,48 @@ NamedTemporary::NamedTemporary(const std::string& path) : path_(path), target_(p
 }
 
 NamedTemporary::~NamedTemporary() {
-  if (!committed_) ::unlink(temporary_.c_str());
+  if (!renamed_) ::unlink(temporary_.c_str());
+  if (before_ == Before::kKept) ::unlink(old_.c_str());
   if (fd_ >= 0) ::close(fd_);
 }
 
-// Closing may tell that writing failed; a second descriptor keeps the lock until the name is there.
 void NamedTemporary::commit() {
+  close();
+  rename();
+}
+
+void NamedTemporary::sync() {
+  if (::fsync(fd_) != 0) failIo(path_, "write");
+}
+
+// Closing may tell that writing failed; a second descriptor keeps the lock until the name is there.
+void NamedTemporary::close() {
   const int lock = ::dup(fd_), written = fd_;
   fd_ = lock;
   if (::close(written) != 0) failIo(path_, "write");
+}
+
+// Under a name like those of temporary files, with more digits: were the process killed now, the
+// next one would remove it. A file system without links keeps nothing.
+void NamedTemporary::keepOld() {
+  old_ = temporary_ + "0000";
+  ::unlink(old_.c_str());
+  if (::link(target_.c_str(), old_.c_str()) == 0)
+    before_ = Before::kKept;
+  else if (errno == ENOENT)
+    before_ = Before::kNone;
+}
+
+void NamedTemporary::rename() {
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) failIo(path_, "rename into place");
-  committed_ = true;
+  renamed_ = true;
+}
+
+void NamedTemporary::undo() noexcept {
+  if (!renamed_) return;
+  if (before_ == Before::kNone) ::unlink(target_.c_str());
+  if (before_ == Before::kKept && ::rename(old_.c_str(), target_.c_str()) == 0)
+    before_ = Before::kUnknown;
 }
 
 }  // namespace tetstream

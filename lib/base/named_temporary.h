@@ -19,12 +19,24 @@ class NamedTemporary {
   int descriptor() const { return fd_; }
   void commit();
 
+  // The steps of it, for files that get their names together (joint_files.h): each throws kIo.
+  void sync();     // to the disk
+  void close();    // nothing is written any more
+  void keepOld();  // what has the name now stays beside, as long as this does
+  void rename();
+  // The name is as it was before the rename.
+  void undo() noexcept;
+  const std::string& target() const { return target_; }
+  const std::string& path() const { return path_; }
+
  private:
   void create(const std::string& stem);
+  enum class Before { kUnknown, kNone, kKept };
 
-  std::string path_, target_, temporary_;
+  std::string path_, target_, temporary_, old_;
   int fd_ = -1;
-  bool committed_ = false;
+  Before before_ = Before::kUnknown;  // what the name was of
+  bool renamed_ = false;
 };
 
 }  // namespace tetstream

@@ -13,12 +13,11 @@ namespace tetstream {
 namespace {
 
 constexpr double kMargin = 28, kWidth = 960, kGap = 26;
-constexpr double kHead = 78;     // title and what is cut
-constexpr double kCaption = 22;  // above a panel
-constexpr double kBar = 11;      // thickness of a colour bar
-constexpr double kBarRoom = 64;  // of a bar with its numbers and words
-constexpr double kFoot = 232;    // histogram and figures
-constexpr double kHair = 0.6;
+constexpr double kHead = 78;         // title and what is cut
+constexpr double kCaption = 22;      // above a panel
+constexpr double kBar = 11;          // thickness of a colour bar
+constexpr double kBarRoom = 64;      // of a bar with its numbers and words
+constexpr double kFoot = 232;        // histogram and figures
 constexpr double kTallest = 400;     // panel
 constexpr double kSideBySide = 1.7;  // wider ones stand one upon another
 constexpr double kStackTallest = 250, kBeside = 96;

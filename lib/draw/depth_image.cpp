@@ -7,7 +7,7 @@
 namespace tetstream {
 
 // Faces reach so far past their edges, as a share of their height: rounding leaves no gaps.
-static constexpr float kEdge = 1e-4f;
+static constexpr float kBeyondEdge = 1e-4f;
 
 DepthImage::DepthImage(Account& account, size_t width, size_t height)
     : width_(width),
@@ -91,7 +91,7 @@ void DepthImage::addFace(const Seen face[3], const Seen& fourth, uint8_t tag) {
       if (depths_[at] <= pixels.nearest) continue;
       const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
       const float wa = of_a.at(px, py), wb = of_b.at(px, py);
-      if (!(wa >= -kEdge && wb >= -kEdge && wa + wb <= 1 + kEdge)) continue;
+      if (!(wa >= -kBeyondEdge && wb >= -kBeyondEdge && wa + wb <= 1 + kBeyondEdge)) continue;
       const float depth = std::max(depthAt(wa, wb), pixels.nearest);
       if (depths_[at] <= depth) continue;
       depths_[at] = depth;

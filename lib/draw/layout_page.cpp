@@ -10,13 +10,13 @@ namespace tetstream {
 
 namespace {
 
-constexpr Frame kPage{24, 0, 852, 724};      // what is between the margins
-constexpr Frame kDiagram{84, 96, 792, 470};  // the lines of the vertices
-constexpr Frame kStrip{84, 580, 792, 88};    // the width of the front
-constexpr double kHair = 0.6, kCurve = 1.1;  // widths of lines
-constexpr Colour kPlate{1, 1, 1, 0.88};      // below words that lie on lines
-constexpr size_t kFewColumns = 300;          // so few are drawn as steps
-constexpr size_t kFineImage = 900;           // so many places are not seen one by one
+constexpr Frame kWithinMargins{24, 0, 852, 724};  // what is between the margins
+constexpr Frame kDiagram{84, 96, 792, 470};       // the lines of the vertices
+constexpr Frame kStrip{84, 580, 792, 88};         // the width of the front
+constexpr double kCurve = 1.1;                    // the width of its line
+constexpr Colour kPlate{1, 1, 1, 0.88};           // below words that lie on lines
+constexpr size_t kFewColumns = 300;               // so few are drawn as steps
+constexpr size_t kFineImage = 900;                // so many places are not seen one by one
 
 // A share of 0 is white. A single line among many must still be seen, so any other has some tone.
 double toneOf(float covered) {
@@ -60,8 +60,8 @@ class LayoutPage {
 };
 
 void LayoutPage::drawHead(const std::string& title) {
-  drawTitle(canvas_, kPage, 36, title);
-  canvas_.text({kPage.left, 56},
+  drawTitle(canvas_, kWithinMargins, 36, title);
+  canvas_.text({kWithinMargins.left, 56},
                grouped(figures_.cells) + " cells, " + grouped(figures_.vertices) + " vertices",
                kTextStyle);
   const FrontStatistics& front = figures_.front;
@@ -71,8 +71,8 @@ void LayoutPage::drawHead(const std::string& title) {
                             groupedMean(figures_.mean_width) + "; span " + grouped(front.span) +
                             ", mean " + groupedMean(figures_.mean_span) + "; " +
                             grouped(front.cells) + " cells";
-  canvas_.text({kPage.left, 74}, words, style);
-  canvas_.text({kPage.left + canvas_.textWidth(words, style), 74},
+  canvas_.text({kWithinMargins.left, 74}, words, style);
+  canvas_.text({kWithinMargins.left + canvas_.textWidth(words, style), 74},
                ".  A vertex lives " + groupedMean(figures_.mean_life) + " cells, " +
                    grouped(figures_.longest_life) + " at most",
                kTextStyle);
@@ -124,9 +124,9 @@ void LayoutPage::drawAxes() {
   canvas_.text({kStrip.left + kStrip.width / 2, kStrip.bottom() + 36},
                "cells, in order of the stream", style);
   style.upwards = true;
-  canvas_.text({kPage.left + 8, kDiagram.top + kDiagram.height / 2},
+  canvas_.text({kWithinMargins.left + 8, kDiagram.top + kDiagram.height / 2},
                "vertices, in order of the stream", style);
-  canvas_.text({kPage.left + 8, kStrip.top + kStrip.height / 2}, "active", style);
+  canvas_.text({kWithinMargins.left + 8, kStrip.top + kStrip.height / 2}, "active", style);
   style.upwards = false;
   style.anchor = 1;
   for (const Tick& tick : ticksUpTo(static_cast<double>(figures_.vertices), 6)) {
@@ -237,7 +237,7 @@ void LayoutPage::draw(const std::string& title) {
 }  // namespace
 
 void drawLayout(const std::string& path, const LayoutDiagram& diagram, const std::string& title) {
-  drawPicture(path, kPage.width + 2 * kPage.left, kPage.height,
+  drawPicture(path, kWithinMargins.width + 2 * kWithinMargins.left, kWithinMargins.height,
               [&](Canvas& canvas) { LayoutPage(canvas, diagram).draw(title); });
 }
 

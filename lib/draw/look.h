@@ -10,6 +10,8 @@ constexpr Colour kMuted{0.42, 0.46, 0.52};   // what is beside the point
 constexpr Colour kFaint{0.88, 0.90, 0.92};   // rules, empty ground
 constexpr Colour kAccent{0.83, 0.26, 0.16};  // the front
 
+constexpr double kHair = 0.6;  // the width of rules and axes
+
 constexpr TextStyle kTitleStyle{17, kInk, 0, true, false};
 constexpr TextStyle kTextStyle{11, kMuted, 0, false, false};
 

@@ -11,7 +11,7 @@ namespace tetstream {
 
 // Turned by so much to the side and up, in radians, so that three sides of a box are seen.
 static constexpr double kTurn = 0.45, kLift = 0.35;
-static constexpr double kMargin = 0.03;  // of the image, on each side
+static constexpr double kFreeShare = 0.03;  // of the image, on each side
 
 namespace {
 
@@ -62,7 +62,7 @@ void Eye::fit(const double size[3], double width, double height) {
   double extent[2] = {};
   for (int r = 0; r < 2; ++r)
     for (int a = 0; a < 3; ++a) extent[r] += std::fabs(rows_[r][a]) * size[a];
-  const double room = 1 - 2 * kMargin;
+  const double room = 1 - 2 * kFreeShare;
   const double scale = std::min(extent[0] > 0 ? room * width / extent[0] : 1,
                                 extent[1] > 0 ? room * height / extent[1] : 1);
   for (auto& row : rows_)

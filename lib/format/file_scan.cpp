@@ -16,7 +16,7 @@ constexpr size_t kBufferBytes = 1 << 18;
 // longest word.
 constexpr size_t kAhead = 1024;
 
-inline bool isBlank(char c) {
+inline bool isSpace(char c) {
   return c == ' ' || c == '\n' || c == '\t' || c == '\r';
 }
 
@@ -46,7 +46,7 @@ bool FileScan::refill() {
 // To the next word; false at the end of the file.
 bool FileScan::passBlanks() {
   for (;;) {
-    while (isBlank(buffer_[at_])) line_ += buffer_[at_++] == '\n';
+    while (isSpace(buffer_[at_])) line_ += buffer_[at_++] == '\n';
     if (at_ == filled_) {
       if (!refill()) return false;
     } else if (buffer_[at_] == comment_ && comment_) {
@@ -62,7 +62,7 @@ bool FileScan::passBlanks() {
 size_t FileScan::wordSize() {
   size_t size = 0;
   const size_t most = std::min(filled_ - at_, kAhead);
-  while (size < most && !isBlank(buffer_[at_ + size])) ++size;
+  while (size < most && !isSpace(buffer_[at_ + size])) ++size;
   if (size == kAhead) failBad("a word of more than " + countText(kAhead) + " characters");
   return size;
 }
@@ -125,7 +125,7 @@ int64_t FileScan::integer(const char* what) {
   const char* end = begin + std::min(filled_ - at_, kAhead);
   int64_t value = 0;
   const std::from_chars_result r = std::from_chars(begin, end, value);
-  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isBlank(*r.ptr))) {
+  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isSpace(*r.ptr))) {
     at_ = static_cast<size_t>(r.ptr - buffer_.data());
     return value;
   }
@@ -139,14 +139,14 @@ int64_t FileScan::integer(const char* what) {
 void FileScan::integers(int64_t* out, size_t count, const char* what) {
   constexpr std::ptrdiff_t kMostDigits = 18;
   for (size_t i = 0; i < count; ++i) {
-    while (isBlank(buffer_[at_])) line_ += buffer_[at_++] == '\n';
+    while (isSpace(buffer_[at_])) line_ += buffer_[at_++] == '\n';
     const char* begin = buffer_.data() + at_;
     const char* digit = begin;
     uint64_t value = 0;
     for (unsigned d; (d = static_cast<unsigned>(*digit - '0')) < 10; ++digit)
       value = 10 * value + d;
     if (filled_ - at_ < kAhead || digit == begin || digit - begin > kMostDigits ||
-        !isBlank(*digit)) {
+        !isSpace(*digit)) {
       out[i] = integer(what);
       continue;
     }
@@ -169,7 +169,7 @@ double FileScan::real(const char* what) {
   const char* end = begin + std::min(filled_ - at_, kAhead);
   double value = 0;
   const std::from_chars_result r = std::from_chars(begin, end, value);
-  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isBlank(*r.ptr))) {
+  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isSpace(*r.ptr))) {
     at_ = static_cast<size_t>(r.ptr - buffer_.data());
     return value;
   }

@@ -11,14 +11,14 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kBufferBytes = 1 << 16;
+constexpr size_t kPackedBytes = 1 << 16;
 constexpr int kGzipWindow = 15 + 16;  // zlib's word for the largest window and gzip's head
-constexpr int kLevel = 6;
+constexpr int kGzipLevel = 6;
 
 class GzipSource final : public WrappedSource {
  public:
   explicit GzipSource(std::unique_ptr<ByteSource> bytes)
-      : WrappedSource(std::move(bytes), kBufferBytes) {
+      : WrappedSource(std::move(bytes), kPackedBytes) {
     if (inflateInit2(&stream_, kGzipWindow) != Z_OK) fail(Status::kNoMemory, "no memory for zlib");
   }
   ~GzipSource() override { inflateEnd(&stream_); }
@@ -77,8 +77,8 @@ class GzipSource final : public WrappedSource {
 class GzipSink final : public WrappedSink {
  public:
   explicit GzipSink(std::unique_ptr<ByteSink> bytes) : WrappedSink(std::move(bytes)) {
-    buffer_.resize(kBufferBytes);
-    if (deflateInit2(&stream_, kLevel, Z_DEFLATED, kGzipWindow, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    buffer_.resize(kPackedBytes);
+    if (deflateInit2(&stream_, kGzipLevel, Z_DEFLATED, kGzipWindow, 8, Z_DEFAULT_STRATEGY) != Z_OK)
       fail(Status::kNoMemory, "no memory for zlib");
   }
   ~GzipSink() override { deflateEnd(&stream_); }

@@ -4,23 +4,25 @@ namespace tetstream {
 
 namespace {
 
-constexpr CellKind kTriangle = {CellShape::kTriangle, 3}, kTriangle6 = {CellShape::kTriangle, 6},
-                   kQuad = {CellShape::kQuadrilateral, 4}, kQuad9 = {CellShape::kQuadrilateral, 9},
-                   kTetra = {CellShape::kTetra, 4}, kTetra10 = {CellShape::kTetra, 10},
-                   kPrism = {CellShape::kPrism, 6}, kHexa = {CellShape::kHexa, 8},
-                   kHexa27 = {CellShape::kHexa, 27}, kPyramid = {CellShape::kPyramid, 5};
+constexpr CellKind kTriangleCell = {CellShape::kTriangle, 3},
+                   kTriangle6Cell = {CellShape::kTriangle, 6},
+                   kQuadCell = {CellShape::kQuadrilateral, 4},
+                   kQuad9Cell = {CellShape::kQuadrilateral, 9}, kTetraCell = {CellShape::kTetra, 4},
+                   kTetra10Cell = {CellShape::kTetra, 10}, kPrismCell = {CellShape::kPrism, 6},
+                   kHexaCell = {CellShape::kHexa, 8}, kHexa27Cell = {CellShape::kHexa, 27},
+                   kPyramidCell = {CellShape::kPyramid, 5};
 
 // Those without a kind of cell are here for their names, where they are left out.
-constexpr MeditKeyword kKeywords[] = {
+constexpr MeditKeyword kMeditKeywords[] = {
     {"MeshVersionFormatted", 1, nullptr},
     {"Dimension", kMeditDimension, nullptr},
     {"Vertices", kMeditVertices, nullptr},
     {"Edges", 5, nullptr},
-    {"Triangles", kMeditTriangles, &kTriangle},
-    {"Quadrilaterals", 7, &kQuad},
-    {"Tetrahedra", kMeditTetrahedra, &kTetra},
-    {"Prisms", 9, &kPrism},
-    {"Hexahedra", 10, &kHexa},
+    {"Triangles", kMeditTriangles, &kTriangleCell},
+    {"Quadrilaterals", 7, &kQuadCell},
+    {"Tetrahedra", kMeditTetrahedra, &kTetraCell},
+    {"Prisms", 9, &kPrismCell},
+    {"Hexahedra", 10, &kHexaCell},
     {"Corners", 13, nullptr},
     {"Ridges", 14, nullptr},
     {"RequiredVertices", kMeditRequiredVertices, nullptr},
@@ -32,12 +34,12 @@ constexpr MeditKeyword kKeywords[] = {
     {"NormalAtTriangleVertices", 21, nullptr},
     {"NormalAtQuadrilateralVertices", 22, nullptr},
     {"AngleOfCornerBound", 23, nullptr},
-    {"TrianglesP2", 24, &kTriangle6},
+    {"TrianglesP2", 24, &kTriangle6Cell},
     {"EdgesP2", 25, nullptr},
-    {"QuadrilateralsQ2", 27, &kQuad9},
-    {"TetrahedraP2", 30, &kTetra10},
-    {"HexahedraQ2", 33, &kHexa27},
-    {"Pyramids", 49, &kPyramid},
+    {"QuadrilateralsQ2", 27, &kQuad9Cell},
+    {"TetrahedraP2", 30, &kTetra10Cell},
+    {"HexahedraQ2", 33, &kHexa27Cell},
+    {"Pyramids", 49, &kPyramidCell},
     {"BoundingBox", 50, nullptr},
     {"End", kMeditEnd, nullptr},
     {"Tangents", 59, nullptr},
@@ -51,13 +53,13 @@ constexpr MeditKeyword kKeywords[] = {
 }  // namespace
 
 const MeditKeyword* meditKeyword(std::string_view name) {
-  for (const MeditKeyword& keyword : kKeywords)
+  for (const MeditKeyword& keyword : kMeditKeywords)
     if (name == keyword.name) return &keyword;
   return nullptr;
 }
 
 const MeditKeyword* meditKeyword(int64_t number) {
-  for (const MeditKeyword& keyword : kKeywords)
+  for (const MeditKeyword& keyword : kMeditKeywords)
     if (number == keyword.number) return &keyword;
   return nullptr;
 }

@@ -12,7 +12,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kMostNodes = 27;
+constexpr size_t kMostMeditNodes = 27;
 
 class MeditReader {
  public:
@@ -84,7 +84,7 @@ class MeditReader {
       rows_.first_tetrahedron = intake_.cellCount();
       rows_.tetrahedra = count;
     }
-    int64_t row[kMostNodes + 1];
+    int64_t row[kMostMeditNodes + 1];
     for (uint64_t i = 0; i < count; ++i) {
       scan_.integers(row, nodes + 1, section.name.c_str());
       for (int k = 0; k < cornersOf(kind.shape); ++k) checkVertex(row[k]--);

@@ -29,11 +29,6 @@ std::vector<int> readTypes(MeditScan& scan) {
   return components;
 }
 
-bool exists(const std::string& path) {
-  struct stat info;
-  return ::stat(path.c_str(), &info) == 0;
-}
-
 }  // namespace
 
 void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& rows,
@@ -80,6 +75,11 @@ void MeditSolutions::readFile(std::unique_ptr<ByteSource> bytes, MeshIntake& int
       scan.skip();
     }
   }
+}
+
+bool exists(const std::string& path) {
+  struct stat info;
+  return ::stat(path.c_str(), &info) == 0;
 }
 
 std::string withExtension(const std::string& path, const char* extension) {

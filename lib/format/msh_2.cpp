@@ -8,10 +8,9 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kInt = 4, kDouble = 8;
-constexpr int64_t kMostTags = 4096;  // of one element: groups and partitions
-constexpr int64_t kMostNodes = 125;  // of one element
-constexpr size_t kRowsAtOnce = 256;
+constexpr int64_t kMostTags = 4096;     // of one element: groups and partitions
+constexpr int64_t kMostMshNodes = 125;  // of one element
+constexpr size_t kElementsAtOnce = 256;
 
 void addElement(MshMesh& mesh, CellKind kind, int64_t tag, const int64_t* tags, size_t tag_count,
                 const int64_t* nodes) {
@@ -25,7 +24,7 @@ CellKind needKind(MshMesh& mesh, int64_t number) {
 }
 
 void readTextElements(MshMesh& mesh, uint64_t count) {
-  int64_t tags[kMostTags], nodes[kMostNodes];
+  int64_t tags[kMostTags], nodes[kMostMshNodes];
   for (uint64_t i = 0; i < count; ++i) {
     int64_t head[3];  // number, type, tags
     mesh.file.integers(head, 3, "an element");
@@ -44,7 +43,7 @@ void readBlocks(MshMesh& mesh, uint64_t count) {
   std::vector<int64_t> rows;
   while (count > 0) {
     int64_t head[3];  // type, elements, tags of each
-    mesh.numbers.integers(head, 3, kInt, "a block of elements");
+    mesh.numbers.integers(head, 3, kMshInt, "a block of elements");
     const CellKind kind = needKind(mesh, head[0]);
     if (head[1] < 1 || static_cast<uint64_t>(head[1]) > count)
       mesh.file.failBad(textOf("a block of %lld elements, where %llu are left",
@@ -54,11 +53,11 @@ void readBlocks(MshMesh& mesh, uint64_t count) {
       mesh.file.failBad(textOf("elements with %lld tags", static_cast<long long>(head[2])));
     const auto tags = static_cast<size_t>(head[2]);
     const size_t width = 1 + tags + static_cast<size_t>(kind.nodes);
-    rows.resize(kRowsAtOnce * width);
+    rows.resize(kElementsAtOnce * width);
     count -= static_cast<uint64_t>(head[1]);
     for (auto left = static_cast<size_t>(head[1]); left > 0;) {
-      const size_t n = std::min(left, kRowsAtOnce);
-      mesh.numbers.integers(rows.data(), n * width, kInt, "an element");
+      const size_t n = std::min(left, kElementsAtOnce);
+      mesh.numbers.integers(rows.data(), n * width, kMshInt, "an element");
       for (size_t i = 0; i < n; ++i) {
         const int64_t* row = &rows[i * width];
         addElement(mesh, kind, row[0], row + 1, tags, row + 1 + tags);
@@ -74,14 +73,14 @@ void readNodes2(MshMesh& mesh) {
   mesh.beginNodes();
   const uint64_t count =
       static_cast<uint64_t>(mesh.file.integer("the number of nodes", 0, INT64_MAX));
-  mesh.file.checkClaim(count, mesh.numbers.binary() ? kInt + 3 * kDouble : 8, "nodes");
+  mesh.file.checkClaim(count, mesh.numbers.binary() ? kMshInt + 3 * kMshDouble : 8, "nodes");
   if (mesh.numbers.binary()) mesh.file.line();
   for (uint64_t i = 0; i < count; ++i) {
     double position[3];
-    const int64_t tag = mesh.numbers.integer(kInt, "the number of a node");
+    const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");
     if (tag < 0 || tag > INT64_MAX / 2)
       mesh.file.failBad(textOf("node %lld", static_cast<long long>(tag)));
-    mesh.numbers.reals(position, 3, kDouble, "the position of a node");
+    mesh.numbers.reals(position, 3, kMshDouble, "the position of a node");
     mesh.points.add(tag, static_cast<int64_t>(i));
     mesh.intake->addPoint(position);
   }
@@ -91,7 +90,7 @@ void readNodes2(MshMesh& mesh) {
 void readElements2(MshMesh& mesh) {
   const uint64_t count =
       static_cast<uint64_t>(mesh.file.integer("the number of elements", 0, INT64_MAX));
-  mesh.file.checkClaim(count, mesh.numbers.binary() ? 2 * kInt : 8, "elements");
+  mesh.file.checkClaim(count, mesh.numbers.binary() ? 2 * kMshInt : 8, "elements");
   if (!mesh.numbers.binary()) return readTextElements(mesh, count);
   mesh.file.line();
   readBlocks(mesh, count);

@@ -8,22 +8,21 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kInt = 4, kDouble = 8;
 constexpr size_t kRowsAtOnce = 1024;
 constexpr int64_t kMostTag = INT64_MAX / 2;
 
 // Numbers that say nothing to us.
 void skipIntegers(MshMesh& mesh, uint64_t count, const char* what) {
-  for (uint64_t i = 0; i < count; ++i) mesh.numbers.integer(kInt, what);
+  for (uint64_t i = 0; i < count; ++i) mesh.numbers.integer(kMshInt, what);
 }
 
 void skipReals(MshMesh& mesh, size_t count, const char* what) {
   double values[6];
-  mesh.numbers.reals(values, count, kDouble, what);
+  mesh.numbers.reals(values, count, kMshDouble, what);
 }
 
 void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
-  const int64_t tag = mesh.numbers.integer(kInt, "the tag of an entity");
+  const int64_t tag = mesh.numbers.integer(kMshInt, "the tag of an entity");
   if (partitioned) {
     skipIntegers(mesh, 2, "the parent of an entity");
     const uint64_t parts =
@@ -34,7 +33,7 @@ void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
   const uint64_t groups =
       mesh.numbers.count(mesh.size_bytes, 1, "the number of physical groups of an entity");
   for (uint64_t i = 0; i < groups; ++i) {
-    const int64_t group = mesh.numbers.integer(kInt, "a physical group of an entity");
+    const int64_t group = mesh.numbers.integer(kMshInt, "a physical group of an entity");
     if (i == 0) mesh.physical[{dimension, tag}] = group < 0 ? -group : group;
   }
   if (groups > 1) mesh.further_groups += groups - 1;
@@ -97,7 +96,7 @@ void readPositions(MshMesh& mesh, uint64_t count, size_t parameters) {
   double rows[kRowsAtOnce];
   for (uint64_t done = 0; done < count;) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce / width, count - done));
-    mesh.numbers.reals(rows, n * width, kDouble, "the position of a node");
+    mesh.numbers.reals(rows, n * width, kMshDouble, "the position of a node");
     for (size_t i = 0; i < n; ++i) mesh.intake->addPoint(rows + i * width);
     done += n;
   }
@@ -124,7 +123,7 @@ void readNodes4(MshMesh& mesh) {
   uint64_t left = counts.rows;
   for (uint64_t block = 0; block < counts.blocks; ++block) {
     int64_t head[3];  // dimension, entity, whether there are parameters
-    mesh.numbers.integers(head, 3, kInt, "a block of nodes");
+    mesh.numbers.integers(head, 3, kMshInt, "a block of nodes");
     if (head[0] < 0 || head[0] > 3)
       mesh.file.failBad(textOf("an entity of dimension %lld", static_cast<long long>(head[0])));
     const uint64_t rows = rowsOfBlock(mesh, left, "the number of nodes of a block");
@@ -142,7 +141,7 @@ void readElements4(MshMesh& mesh) {
   std::vector<int64_t> elements;
   for (uint64_t block = 0; block < counts.blocks; ++block) {
     int64_t head[3];  // dimension, entity, type
-    mesh.numbers.integers(head, 3, kInt, "a block of elements");
+    mesh.numbers.integers(head, 3, kMshInt, "a block of elements");
     const CellKind* kind = mshKind(head[2]);
     if (!kind)
       mesh.file.failHere(Status::kUnsupported,

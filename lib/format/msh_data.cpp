@@ -8,7 +8,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kInt = 4, kDouble = 8;
 constexpr size_t kMostName = 255, kMostSuffix = 32;
 constexpr size_t kMostComponents = 512;  // what a row may have to be passed over
 
@@ -39,7 +38,7 @@ DataHead readHead(MshMesh& mesh, bool of_cells) {
   if (head.name.empty()) head.name = of_cells ? "cell data" : "data";
   if (head.name.size() > kMostName) head.name.resize(kMostName);
   const auto row_bytes = static_cast<uint64_t>(
-      mesh.numbers.binary() ? kInt + kDouble * static_cast<size_t>(head.components)
+      mesh.numbers.binary() ? kMshInt + kMshDouble * static_cast<size_t>(head.components)
                             : 2 + 2 * static_cast<size_t>(head.components));
   file.checkClaim(static_cast<uint64_t>(head.rows), row_bytes, "rows of data");
   if (mesh.numbers.binary()) file.line();
@@ -71,8 +70,8 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
   std::vector<double> values(static_cast<size_t>(head.components));
   TagTable& tags = of_cells ? mesh.cells : mesh.points;
   for (int64_t i = 0; i < head.rows; ++i) {
-    const int64_t tag = mesh.numbers.integer(kInt, of_cells ? "an element" : "a node");
-    mesh.numbers.reals(values.data(), values.size(), kDouble, "a value");
+    const int64_t tag = mesh.numbers.integer(kMshInt, of_cells ? "an element" : "a node");
+    mesh.numbers.reals(values.data(), values.size(), kMshDouble, "a value");
     int64_t first, count;
     if (!tags.find(tag, &first, &count)) {
       // Faces, lines and points have data, too.

@@ -6,7 +6,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kAtOnce = 1024;
+constexpr size_t kLabelsAtOnce = 1024;
 
 bool isIntegerColumn(const Column& column) {
   return column.components == 1 && !isFloat(column.type);
@@ -23,7 +23,7 @@ MshLabels::MshLabels(MeshSpool& mesh) : mesh_(mesh) {
 void MshLabels::read(const std::optional<size_t>& column, uint64_t first, size_t count,
                      int64_t* out) {
   if (!column) return;
-  int64_t raw[kAtOnce];
+  int64_t raw[kLabelsAtOnce];
   mesh_.readCellData(*column, first, count, raw);
   convertScalars(raw, mesh_.schema().cell_data[*column].type, out, ScalarType::kInt64, count);
 }
@@ -31,10 +31,11 @@ void MshLabels::read(const std::optional<size_t>& column, uint64_t first, size_t
 // Whether a column can be groups: no number below `least` or above what Gmsh holds, not too many.
 bool MshLabels::isUsable(size_t column, int64_t least) {
   std::set<int64_t> found;
-  int64_t rows[kAtOnce], last = 0;
+  int64_t rows[kLabelsAtOnce], last = 0;
   bool any = false;
-  for (uint64_t first = 0; first < mesh_.cellCount(); first += kAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_.cellCount() - first));
+  for (uint64_t first = 0; first < mesh_.cellCount(); first += kLabelsAtOnce) {
+    const auto n =
+        static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, mesh_.cellCount() - first));
     read(column, first, n, rows);
     for (size_t i = 0; i < n; ++i) {
       if (any && rows[i] == last) continue;
@@ -69,10 +70,11 @@ void MshLabels::chooseColumns() {
 
 // A tag is the entity's, or the group's, where that is free; else one above all of them.
 void MshLabels::findVolumes() {
-  int64_t groups[kAtOnce] = {}, entities[kAtOnce] = {};
+  int64_t groups[kLabelsAtOnce] = {}, entities[kLabelsAtOnce] = {};
   int64_t highest = 0;
-  for (uint64_t first = 0; first < mesh_.cellCount(); first += kAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_.cellCount() - first));
+  for (uint64_t first = 0; first < mesh_.cellCount(); first += kLabelsAtOnce) {
+    const auto n =
+        static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, mesh_.cellCount() - first));
     read(group_column_, first, n, groups);
     read(entity_column_, first, n, entities);
     for (size_t i = 0; i < n; ++i) {
@@ -97,10 +99,10 @@ void MshLabels::findVolumes() {
 }
 
 void MshLabels::findSurfaces() {
-  int64_t corners[3 * kAtOnce], labels[kAtOnce];
+  int64_t corners[3 * kLabelsAtOnce], labels[kLabelsAtOnce];
   const auto count = mesh_.faceCount();
-  for (uint64_t first = 0; first < count; first += kAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, count - first));
+  for (uint64_t first = 0; first < count; first += kLabelsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, count - first));
     mesh_.readFaces(first, n, corners, labels);
     for (size_t i = 0; i < n; ++i) {
       const bool known =

@@ -15,6 +15,8 @@
 
 namespace tetstream {
 
+constexpr size_t kMshInt = 4, kMshDouble = 8;  // bytes, in binary
+
 struct MshMesh {
   MshMesh(FileScan& scan, const ReadOptions& read_options)
       : file(scan),

@@ -7,7 +7,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kConvertBytes = 1 << 12;
+constexpr size_t kNumberBytes = 1 << 12;
 
 // Integers of type Stored, or floats, to wide ones.
 template <class Stored, class Wide>
@@ -23,7 +23,7 @@ void convert(unsigned char* bytes, size_t count, bool swapped, Wide* out) {
 template <class Narrow, class Long, class Wide>
 void readBinary(FileScan& file, bool swapped, Wide* out, size_t count, size_t width,
                 const char* what) {
-  unsigned char bytes[kConvertBytes];
+  unsigned char bytes[kNumberBytes];
   while (count > 0) {
     const size_t n = std::min(count, sizeof bytes / width);
     file.bytes(bytes, n * width, what);

@@ -1,7 +1,5 @@
 // Reads TetGen's meshes: points in NAME.node, cells in NAME.ele, labelled faces in NAME.face where
 // that is there. Any of the three names the mesh.
-#include <sys/stat.h>
-
 #include "compressed_bytes.h"
 #include "file_scan.h"
 #include "medit_sol.h"
@@ -118,11 +116,6 @@ class TetgenReader {
   MeshIntake intake_;
   int64_t first_ = 0;
 };
-
-bool exists(const std::string& path) {
-  struct stat info;
-  return ::stat(path.c_str(), &info) == 0;
-}
 
 }  // namespace
 

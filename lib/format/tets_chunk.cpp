@@ -17,11 +17,6 @@ void ChunkBuilder::start(uint64_t first_vertex, uint64_t first_cell) {
   box_.clear();
 }
 
-static void append(std::vector<unsigned char>& out, const void* rows, size_t bytes) {
-  const unsigned char* in = static_cast<const unsigned char*>(rows);
-  out.insert(out.end(), in, in + bytes);
-}
-
 static const unsigned char* rowOf(const void* column, size_t row, size_t bytes_per_row) {
   return static_cast<const unsigned char*>(column) + row * bytes_per_row;
 }

@@ -1,6 +1,7 @@
 #include "tets_layout.h"
 
 #include <zlib.h>
+#include <algorithm>
 #include <limits>
 
 #include "status.h"
@@ -64,11 +65,6 @@ void Box::add(const Box& other) {
 
 // ------------------------------------------------------------------------------------- header
 
-static void append(std::vector<unsigned char>& out, const void* data, size_t size) {
-  const unsigned char* bytes = static_cast<const unsigned char*>(data);
-  out.insert(out.end(), bytes, bytes + size);
-}
-
 static void appendRecord(std::vector<unsigned char>& out, const Column& column) {
   ColumnRecord record;
   record.type = static_cast<uint32_t>(column.type);
@@ -91,6 +87,7 @@ std::vector<unsigned char> encodeHeader(const Schema& schema) {
   start.front_span = schema.front_span;
   start.front_cells = schema.front_cells;
   start.box_known = schema.hasBox();
+  start.faces = std::max<int64_t>(schema.face_count, 0);
   append(section, &start, sizeof start);
   for (const Column& c : schema.fields) appendRecord(section, c);
   for (const Column& c : schema.cell_data) appendRecord(section, c);
@@ -197,13 +194,14 @@ Schema decodeHeader(const SectionHead& head, const unsigned char* body, size_t s
   } catch (const Error& error) {
     fail(Status::kBadData, "%s: header: %s", name.c_str(), error.text().c_str());
   }
-  for (const int64_t known :
-       {start.vertices, start.cells, start.front_width, start.front_span, start.front_cells})
+  for (const int64_t known : {start.vertices, start.cells, start.front_width, start.front_span,
+                              start.front_cells, start.faces})
     if (known < -1)
       fail(Status::kBadData, "%s: the header has a negative count, %lld", name.c_str(),
            static_cast<long long>(known));
   schema.vertex_count = start.vertices;
   schema.cell_count = start.cells;
+  schema.face_count = start.faces > 0 ? start.faces : -1;
   schema.front_width = start.front_width;
   schema.front_span = start.front_span;
   schema.front_cells = start.front_cells;

@@ -34,6 +34,11 @@ constexpr size_t alignUp(size_t bytes) {
   return (bytes + (kAlign - 1)) & ~(kAlign - 1);
 }
 
+inline void append(std::vector<unsigned char>& out, const void* data, size_t bytes) {
+  const unsigned char* in = static_cast<const unsigned char*>(data);
+  out.insert(out.end(), in, in + bytes);
+}
+
 // ------------------------------------------------------------------------------ section heads
 
 constexpr char kHeader[] = "HEAD", kChunk[] = "CHNK", kIndex[] = "INDX", kTotals[] = "STAT",
@@ -110,7 +115,8 @@ const char* faultOf(const SectionHead& head);
 struct HeaderStart {  // then one record per field, per cell array, then the box
   int64_t vertices, cells, front_width, front_span, front_cells;  // -1: not known
   uint32_t box_known, reserved32;
-  uint64_t reserved[2];
+  int64_t faces;  // labelled; 0: none, or not known
+  uint64_t reserved;
 };
 static_assert(sizeof(HeaderStart) == 64);
 

@@ -279,6 +279,7 @@ void Reader::readTotals() {
   // What the header claims is compared, too: it may have come through a pipe.
   differ("vertices", schema_.vertex_count, seen_.vertices);
   differ("cells", schema_.cell_count, seen_.cells);
+  differ("faces", schema_.face_count, seen_.faces);
   if (std::min({totals.vertices, totals.cells, totals.finalized, totals.faces, totals.chunks}) < 0)
     fail(Status::kBadData, "%s: a negative count", in_.place().c_str());
   differ("vertices", totals.vertices, seen_.vertices);

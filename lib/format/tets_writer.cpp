@@ -54,7 +54,8 @@ class Writer final : public Sink {
   void putVerticesBelow(const BatchView& batch, uint64_t end, const Limits& limits);
   void putCells(const BatchView& batch, const Limits& limits);
   void putFinalized(const BatchView& batch);
-  void putFaces(const BatchView& batch);
+  void sortFaces(const BatchView& batch);
+  void putFaces(const BatchView& batch, uint64_t end);
   bool fitsWhole(const BatchView& batch) const;
   bool fitsOpenChunk(const BatchView& batch) const;
   void endChunk();
@@ -77,6 +78,8 @@ class Writer final : public Sink {
   uint64_t chunk_first_vertex_ = 0;
   uint64_t offset_ = 0, rank_ = 0, last_index_ = 0, totals_at_ = 0;
   std::vector<IndexEntry> index_;
+  std::vector<size_t> faces_;  // of the batch, as they are to be put
+  size_t faces_put_ = 0;
 };
 
 void Writer::begin(const Schema& schema) {
@@ -112,7 +115,9 @@ void Writer::checkBatch(const BatchView& batch) const {
   for (size_t i = 0; batch.face_locks && i < batch.face_count; ++i)
     locks_face = locks_face || batch.face_locks[i];
   if (batch.edge_count > 0 || locks_face)
-    fail(Status::kUnsupported, "%s: tets has no locked edges or faces: lock their vertices",
+    fail(Status::kUnsupported,
+         "%s: .tets locks a vertex where it comes, which may be before it is known that an edge or "
+         "a face of it is locked: lock the vertices, or have the mesh ordered, which does so",
          sink_->name().c_str());
   // Cells and finalizations are checked by the meter.
   const uint64_t known = batch.first_vertex + batch.vertex_count;
@@ -132,10 +137,11 @@ void Writer::put(const BatchView& batch) {
     if (!fitsOpenChunk(batch)) endChunk();
     limits = {kMaxRows, kMaxRows};
   }
+  sortFaces(batch);
   putCells(batch, limits);
   putVerticesBelow(batch, batch.first_vertex + batch.vertex_count, limits);
   putFinalized(batch);
-  putFaces(batch);
+  putFaces(batch, vertexCount());
 }
 
 bool Writer::fitsWhole(const BatchView& batch) const {
@@ -188,6 +194,7 @@ void Writer::putCells(const BatchView& batch, const Limits& limits) {
       putVerticesBelow(batch, end, limits);
       chunk_->addCells(batch, cell, count);
       cell += count;
+      if (!fitsWhole(batch)) putFaces(batch, vertexCount());
     } else if (!chunk_->empty()) {
       endChunk();
     } else {
@@ -204,8 +211,27 @@ void Writer::putFinalized(const BatchView& batch) {
   }
 }
 
-void Writer::putFaces(const BatchView& batch) {
-  for (size_t i = 0; i < batch.face_count; ++i) {
+static uint64_t lastOf(const int64_t* face) {
+  return static_cast<uint64_t>(std::max({face[0], face[1], face[2]}));
+}
+
+// A batch that is taken apart gives each face with its last vertex: no part that comes before has
+// all of them, and its cell, which needs them, is not before that.
+void Writer::sortFaces(const BatchView& batch) {
+  faces_.resize(batch.face_count);
+  faces_put_ = 0;
+  for (size_t i = 0; i < faces_.size(); ++i) faces_[i] = i;
+  if (!fitsWhole(batch))
+    std::stable_sort(faces_.begin(), faces_.end(), [&batch](size_t a, size_t b) {
+      return lastOf(batch.faces + 3 * a) < lastOf(batch.faces + 3 * b);
+    });
+}
+
+// Those whose vertices are all below `end`, of the sorted ones.
+void Writer::putFaces(const BatchView& batch, uint64_t end) {
+  for (; faces_put_ < faces_.size(); ++faces_put_) {
+    const size_t i = faces_[faces_put_];
+    if (lastOf(batch.faces + 3 * i) >= end) return;
     if (chunk_->faceCount() == kMaxRows) endChunk();
     chunk_->addFace(batch.faces + 3 * i, batch.face_labels[i]);
   }
@@ -284,12 +310,17 @@ void Writer::checkCounts() const {
   if (schema_.cell_count >= 0 && schema_.cell_count != t.cells)
     fail(Status::kBadData, "%s: %lld cells were announced and %lld came", sink_->name().c_str(),
          static_cast<long long>(schema_.cell_count), static_cast<long long>(t.cells));
+  if (schema_.face_count >= 0 && schema_.face_count != t.faces)
+    fail(Status::kBadData, "%s: %lld labelled faces were announced and %lld came",
+         sink_->name().c_str(), static_cast<long long>(schema_.face_count),
+         static_cast<long long>(t.faces));
 }
 
 void Writer::patchHeader() {
   const Totals& t = stream_->totals;
   schema_.vertex_count = t.vertices;
   schema_.cell_count = t.cells;
+  schema_.face_count = t.faces;
   schema_.front_width = t.front_width;
   schema_.front_span = t.front_span;
   schema_.front_cells = t.front_cells;

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "trace_files.h"
+#include "trace_rows.h"
 
 namespace tetstream {
 
@@ -46,118 +47,77 @@ class Words {
 
 // The number of rows stands in the header, where the writer can go back to it, and at the end,
 // with a checksum of the rows.
-class RowFile {
+class BinaryRows {
  public:
-  explicit RowFile(std::unique_ptr<ByteSink> bytes)
-      : bytes_(std::move(bytes)), buffer_(std::make_unique<BufferedSink>(*bytes_)) {}
+  BinaryRows(const char* marker, std::unique_ptr<ByteSink> bytes)
+      : marker_(marker),
+        bytes_(std::move(bytes)),
+        buffer_(std::make_unique<BufferedSink>(*bytes_)) {}
 
-  void begin(const char* marker, size_t row_bytes, const std::vector<Column>& columns) {
+  void begin(const TraceColumns& columns) {
     Words names;
-    for (const Column& c : columns) {
+    for (const Column& c : columns.fields) {
       names.put32(static_cast<uint32_t>(c.components));
       names.put32(static_cast<uint32_t>(c.name.size()));
       names.putText(c.name);
       names.fillTo(8);
     }
     const size_t header = (kAlign + names.size() + kAlign - 1) / kAlign * kAlign;
+    const size_t numbers = std::size(columns.names) + columns.components();
     Words head;
-    head.putMarker(marker);
+    head.putMarker(marker_);
     head.put32(kVersion);
     head.put32(static_cast<uint32_t>(header));
     head.put64(-1);
-    head.put32(static_cast<uint32_t>(row_bytes));
-    head.put32(static_cast<uint32_t>(columns.size()));
+    head.put32(static_cast<uint32_t>(8 * numbers));
+    head.put32(static_cast<uint32_t>(columns.fields.size()));
     head.fillTo(kAlign);
     names.fillTo(kAlign);
-    buffer_->write(head.data(), head.size());
-    buffer_->write(names.data(), names.size());
+    write(head);
+    write(names);
   }
 
-  void put(const Words& rows, size_t count) {
-    sum_ = static_cast<uint32_t>(crc32_z(sum_, rows.data(), rows.size()));
-    buffer_->write(rows.data(), rows.size());
-    rows_ += static_cast<int64_t>(count);
+  void add(int64_t number) { row_.put64(number); }
+  void add(double number) { row_.putFloat(number); }
+  void endRow() {
+    sum_ = static_cast<uint32_t>(crc32_z(sum_, row_.data(), row_.size()));
+    write(row_);
+    row_.clear();
+    ++count_;
   }
 
   void finish() {
-    Words end, rows;
+    Words end, count;
     end.putMarker(kEndMarker);
-    end.put64(rows_);
+    end.put64(count_);
     end.put32(sum_);
     end.fillTo(32);
-    buffer_->write(end.data(), end.size());
+    write(end);
     buffer_->flush();
-    rows.put64(rows_);
-    if (bytes_->seekable()) bytes_->writeAt(kRowsAt, rows.data(), rows.size());
+    count.put64(count_);
+    if (bytes_->seekable()) bytes_->writeAt(kRowsAt, count.data(), count.size());
     bytes_->commit();
   }
 
  private:
+  void write(const Words& words) { buffer_->write(words.data(), words.size()); }
+
+  const char* marker_;
   std::unique_ptr<ByteSink> bytes_;
   std::unique_ptr<BufferedSink> buffer_;
-  int64_t rows_ = 0;
+  Words row_;
+  int64_t count_ = 0;
   uint32_t sum_ = 0;
-};
-
-class MapBinary final : public MapSink {
- public:
-  explicit MapBinary(std::unique_ptr<ByteSink> bytes) : file_(std::move(bytes)) {}
-  void begin() override { file_.begin(kMapMarker, 48, {}); }
-  void put(const MapRows& rows) override {
-    words_.clear();
-    for (size_t i = 0; i < rows.count; ++i) {
-      words_.put64(rows.vertices[i]);
-      words_.put64(rows.cells[i]);
-      for (size_t k = 0; k < 4; ++k) words_.putFloat(rows.weights[4 * i + k]);
-    }
-    file_.put(words_, rows.count);
-  }
-  void finish() override { file_.finish(); }
-
- private:
-  RowFile file_;
-  Words words_;
-};
-
-class LogBinary final : public LogSink {
- public:
-  explicit LogBinary(std::unique_ptr<ByteSink> bytes) : file_(std::move(bytes)) {}
-  void begin(const Schema& input) override {
-    std::vector<Column> columns;
-    for (const Column& c : input.fields) {
-      if (!isFloat(c.type)) continue;
-      columns.push_back(c);
-      values_ += static_cast<size_t>(c.components);
-    }
-    file_.begin(kLogMarker, 48 + 8 * values_, columns);
-  }
-  void put(const LogRows& rows) override {
-    words_.clear();
-    for (size_t i = 0; i < rows.count; ++i) {
-      words_.put64(rows.kept[i]);
-      words_.put64(rows.removed[i]);
-      for (size_t k = 0; k < 3; ++k) words_.putFloat(rows.positions[3 * i + k]);
-      words_.putFloat(rows.errors[i]);
-      for (size_t k = 0; k < values_; ++k) words_.putFloat(rows.values[values_ * i + k]);
-    }
-    file_.put(words_, rows.count);
-  }
-  void finish() override { file_.finish(); }
-
- private:
-  RowFile file_;
-  Words words_;
-  size_t values_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<MapSink> createMapBinary(std::unique_ptr<ByteSink> bytes) {
-  return std::make_unique<MapBinary>(std::move(bytes));
+  return std::make_unique<MapFile<BinaryRows>>(BinaryRows(kMapMarker, std::move(bytes)));
 }
 
 std::unique_ptr<LogSink> createLogBinary(std::unique_ptr<ByteSink> bytes) {
-  return std::make_unique<LogBinary>(std::move(bytes));
+  return std::make_unique<LogFile<BinaryRows>>(BinaryRows(kLogMarker, std::move(bytes)));
 }
 
 }  // namespace tetstream

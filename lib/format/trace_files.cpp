@@ -44,12 +44,14 @@ std::unique_ptr<typename Files::Traces> create(const std::string& path, const st
 
 }  // namespace
 
-std::unique_ptr<MapSink> createMapFile(const std::string& path, const std::string& format) {
-  return create<MapFiles>(path, format, [&] { return createFile(path); });
+std::unique_ptr<MapSink> createMapFile(const std::string& path, const std::string& format,
+                                       JointFiles& joint) {
+  return create<MapFiles>(path, format, [&] { return createFile(path, &joint); });
 }
 
-std::unique_ptr<LogSink> createLogFile(const std::string& path, const std::string& format) {
-  return create<LogFiles>(path, format, [&] { return createFile(path); });
+std::unique_ptr<LogSink> createLogFile(const std::string& path, const std::string& format,
+                                       JointFiles& joint) {
+  return create<LogFiles>(path, format, [&] { return createFile(path, &joint); });
 }
 
 std::unique_ptr<MapSink> createMapDescriptor(int fd, const std::string& format) {

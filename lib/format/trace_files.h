@@ -11,9 +11,11 @@
 namespace tetstream {
 
 // `format` is "tetmap" or "csv", for a log "tetlog" or "csv"; empty: by the path's ending. Throw
-// kUnsupported for any other. The file takes its name when it is finished.
-std::unique_ptr<MapSink> createMapFile(const std::string& path, const std::string& format);
-std::unique_ptr<LogSink> createLogFile(const std::string& path, const std::string& format);
+// kUnsupported for any other. Once finished, the file takes its name with the others of `joint`.
+std::unique_ptr<MapSink> createMapFile(const std::string& path, const std::string& format,
+                                       JointFiles& joint);
+std::unique_ptr<LogSink> createLogFile(const std::string& path, const std::string& format,
+                                       JointFiles& joint);
 // Does not close `fd`.
 std::unique_ptr<MapSink> createMapDescriptor(int fd, const std::string& format);
 std::unique_ptr<LogSink> createLogDescriptor(int fd, const std::string& format);

@@ -6,6 +6,29 @@
 
 namespace tetstream {
 
+bool hasRows(const VtuPiece& piece, VtuRows rows) {
+  return (rows == VtuRows::kPoints ? piece.point_count : piece.cell_count) > 0;
+}
+
+VtuColumnPlan planNeeded(const VtuFile& file, const ByteSource& bytes, PieceArray which,
+                         VtuRows rows, const char* name, int components) {
+  VtuColumnPlan plan;
+  plan.rows = rows;
+  plan.components = components;
+  plan.type = ScalarType::kInt64;
+  for (size_t i = 0; i < file.pieces.size(); ++i) {
+    const VtuPiece& piece = file.pieces[i];
+    const std::optional<VtuArray>& array = piece.*which;
+    plan.arrays.push_back(array ? &*array : nullptr);
+    if (!hasRows(piece, rows)) continue;
+    if (!array) fail(Status::kBadData, "%s: piece %zu has no %s", bytes.name().c_str(), i, name);
+    if (rows == VtuRows::kCells && isFloat(array->type))
+      fail(Status::kBadData, "%s: the %s of piece %zu are no integers", bytes.name().c_str(), name,
+           i);
+  }
+  return plan;
+}
+
 uint64_t VtuColumn::firstRow(size_t piece) const {
   const VtuPiece& p = file_.pieces[piece];
   return plan_.rows == VtuRows::kPoints ? p.first_point : p.first_cell;

@@ -11,6 +11,10 @@ namespace tetstream {
 
 enum class VtuRows { kPoints, kCells };
 
+using PieceArray = std::optional<VtuArray> VtuPiece::*;
+
+bool hasRows(const VtuPiece& piece, VtuRows rows);
+
 // What the rows of one column are and which array of each piece they come from.
 struct VtuColumnPlan {
   VtuRows rows = VtuRows::kPoints;
@@ -19,11 +23,17 @@ struct VtuColumnPlan {
   std::vector<const VtuArray*> arrays;     // per piece; null where the piece has no rows
 };
 
+// An array that every piece with such rows must have: of cells, integers.
+VtuColumnPlan planNeeded(const VtuFile& file, const ByteSource& bytes, PieceArray which,
+                         VtuRows rows, const char* name, int components);
+
 class VtuColumn {
  public:
   VtuColumn(ByteSource& bytes, const VtuFile& file, VtuColumnPlan plan)
       : bytes_(bytes), file_(file), plan_(std::move(plan)) {}
 
+  const VtuColumnPlan& plan() const { return plan_; }
+  void giveAs(ScalarType type) { plan_.type = type; }
   // Rows [first, first + count) of the whole file.
   void read(uint64_t first, size_t count, void* out);
   // Throws if the piece's array does not hold what the counts need, as far as that can be seen

@@ -32,6 +32,8 @@ inline bool isFloat(VtuType t) {
   return t >= VtuType::kFloat32;
 }
 
+constexpr unsigned char kTetra = 10;  // VTK's number of the linear tetrahedron
+
 enum class VtuFormat { kAscii, kInlineBase64, kAppendedRaw, kAppendedBase64 };
 
 struct VtuArray {

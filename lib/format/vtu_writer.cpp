@@ -1,20 +1,25 @@
 // Writes .vtu files (VTK XML unstructured grids), values appended raw. The counts and sizes that
-// stand in front are known only at the end, so the arrays go through temporary files.
+// stand in front are known only at the end, so the arrays go through temporary files. Labelled
+// faces are triangles after the tetrahedra.
 #include <algorithm>
 #include <bit>
+#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "registry.h"
+#include "row_spool.h"
 #include "status.h"
+#include "vtu_face_label.h"
+#include "vtu_file.h"
 #include "vtu_spool.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr unsigned char kTetra = 10;  // VTK's number of the linear tetrahedron
-constexpr size_t kMadeAtOnce = 1024;  // cells whose types and offsets are made
+constexpr unsigned char kTriangle = 5;  // as kTetra
+constexpr size_t kMadeAtOnce = 1024;    // cells whose types and offsets are made
 
 const char* nameOf(ScalarType type) {
   switch (type) {
@@ -101,11 +106,13 @@ class VtuWriter final : public Sink {
       cell_data_[i]->append(batch.cell_data[i], cells * schema_.cell_data[i].bytesPerRow());
     vertex_count_ += vertices;
     cell_count_ += cells;
-    noteDropped(batch);
+    if (batch.face_count > 0) putFaces(batch);
+    noteLocks(batch);
   }
 
   void finish() override {
     makeKinds();
+    if (faces_) appendFaces();
     std::vector<VtuSpool*> order;
     const std::string header = makeHeader(&order);
     BufferedSink sink(*bytes_);
@@ -119,6 +126,10 @@ class VtuWriter final : public Sink {
 
  private:
   using Spool = std::unique_ptr<VtuSpool>;
+  struct Face {
+    int64_t vertices[3], label;
+  };
+  static constexpr SpoolShape kInSequence = {1, 64 << 10};
 
   Spool makeSpool() { return std::make_unique<VtuSpool>(options_.temp_dir, compressor_.get()); }
 
@@ -126,35 +137,83 @@ class VtuWriter final : public Sink {
     if (options_.note) options_.note(bytes_->name() + ": " + text);
   }
 
-  void noteDropped(const BatchView& batch) {
+  void noteLocks(const BatchView& batch) {
     const auto any = [](const uint8_t* locks, size_t count) {
       return locks && std::any_of(locks, locks + count, [](uint8_t lock) { return lock != 0; });
     };
-    if (!noted_locked_ && (batch.edge_count > 0 || any(batch.locked, batch.vertex_count) ||
-                           any(batch.face_locks, batch.face_count))) {
-      note("locks of vertices, edges and faces are left out: .vtu has no place for them");
-      noted_locked_ = true;
-    }
-    if (batch.face_count > 0 && !noted_faces_) {
-      note("the labels of boundary faces are left out: they are no tetrahedra");
+    if (noted_locked_ || !(batch.edge_count > 0 || any(batch.locked, batch.vertex_count) ||
+                           any(batch.face_locks, batch.face_count)))
+      return;
+    note("locks of vertices, edges and faces are left out: .vtu has no place for them");
+    noted_locked_ = true;
+  }
+
+  // They wait for the last tetrahedron.
+  void putFaces(const BatchView& batch) {
+    if (findColumn(schema_.cell_data, kFaceLabelName) >= 0) {
+      if (!noted_faces_)
+        note(std::string("labelled faces are left out: the cell array \"") + kFaceLabelName +
+             "\", which would say their labels, is another");
       noted_faces_ = true;
+      return;
+    }
+    if (!faces_) faces_ = std::make_unique<RowSpool>(sizeof(Face), options_.temp_dir, kInSequence);
+    for (size_t i = 0; i < batch.face_count; ++i) {
+      const int64_t* v = batch.faces + 3 * i;
+      for (int j = 0; j < 3; ++j)
+        if (static_cast<uint64_t>(v[j]) >= vertex_count_)
+          fail(Status::kBadData, "%s: labelled face %llu names vertex %lld, but %llu have come",
+               bytes_->name().c_str(), static_cast<unsigned long long>(faces_->rows()),
+               static_cast<long long>(v[j]), static_cast<unsigned long long>(vertex_count_));
+      const Face face = {{v[0], v[1], v[2]}, batch.face_labels[i]};
+      faces_->append(&face, 1);
     }
   }
 
-  // Every cell is a tetrahedron: its offset is that of its end in the connectivity.
+  // A cell's offset is that of its end in the connectivity.
   void makeKinds() {
     offsets_ = makeSpool();
     types_ = makeSpool();
+    appendKinds(kTetra, 4, cell_count_, 0);
+  }
+
+  void appendKinds(unsigned char type, int64_t points, uint64_t count, int64_t before) {
     int64_t offsets[kMadeAtOnce];
-    const std::vector<unsigned char> types(kMadeAtOnce, kTetra);
-    for (uint64_t done = 0; done < cell_count_;) {
-      const size_t n =
-          cell_count_ - done < kMadeAtOnce ? static_cast<size_t>(cell_count_ - done) : kMadeAtOnce;
-      for (size_t i = 0; i < n; ++i) offsets[i] = static_cast<int64_t>(4 * (done + i + 1));
+    const std::vector<unsigned char> types(kMadeAtOnce, type);
+    for (uint64_t done = 0; done < count;) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(count - done, kMadeAtOnce));
+      for (size_t i = 0; i < n; ++i)
+        offsets[i] = before + points * static_cast<int64_t>(done + i + 1);
       offsets_->append(offsets, n * sizeof(int64_t));
       types_->append(types.data(), n);
       done += n;
     }
+  }
+
+  static void appendZeros(VtuSpool& spool, uint64_t bytes) {
+    const std::vector<unsigned char> zeros(kMadeAtOnce, 0);
+    for (; bytes > kMadeAtOnce; bytes -= kMadeAtOnce) spool.append(zeros.data(), kMadeAtOnce);
+    spool.append(zeros.data(), static_cast<size_t>(bytes));
+  }
+
+  // What only cells of the other kind have is zero.
+  void appendFaces() {
+    faces_->finish();
+    const uint64_t count = faces_->rows();
+    appendKinds(kTriangle, 3, count, static_cast<int64_t>(4 * cell_count_));
+    for (size_t i = 0; i < cell_data_.size(); ++i)
+      appendZeros(*cell_data_[i], count * schema_.cell_data[i].bytesPerRow());
+    Spool labels = makeSpool();
+    appendZeros(*labels, cell_count_ * sizeof(int64_t));
+    for (uint64_t i = 0; i < count; ++i) {
+      Face face;
+      std::memcpy(&face, faces_->row(i), sizeof face);
+      connectivity_->append(face.vertices, sizeof face.vertices);
+      labels->append(&face.label, sizeof face.label);
+    }
+    schema_.cell_data.push_back({kFaceLabelName, 1, ScalarType::kInt64});
+    cell_data_.push_back(std::move(labels));
+    cell_count_ += count;
   }
 
   // Adds the line of an array and its values after those before it.
@@ -217,6 +276,7 @@ class VtuWriter final : public Sink {
   std::unique_ptr<BlockCompressor> compressor_;
   Spool points_, connectivity_, offsets_, types_;
   std::vector<Spool> fields_, cell_data_;
+  std::unique_ptr<RowSpool> faces_;  // null: there are none
   uint64_t vertex_count_ = 0, cell_count_ = 0, offset_ = 0;
   std::string text_;
   bool noted_locked_ = false, noted_faces_ = false;

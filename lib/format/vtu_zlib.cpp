@@ -38,7 +38,7 @@ uint64_t readVtuWord(EncodedRun& run, uint64_t offset, const VtuFile& file) {
 namespace {
 
 constexpr size_t kInputBytes = 1 << 15;
-constexpr size_t kMaxMarks = 4096;  // the table of a huge array is read again, in this many parts
+constexpr size_t kMaxParts = 4096;  // the table of a huge array is read again, in this many parts
 constexpr size_t kHeaderWords = 3;
 // Deflate makes at most 1032 bytes of one. A block that claims more is a lie.
 constexpr uint64_t kMaxRatio = 1040;
@@ -92,7 +92,7 @@ class BlockTable {
 
   // Checks every entry once and places the marks.
   void walk(uint64_t size, uint64_t available) {
-    stride_ = (count_ - 1) / kMaxMarks + 1;
+    stride_ = (count_ - 1) / kMaxParts + 1;
     uint64_t sizes[512], sum = 0;
     for (uint64_t first = 0; first < count_; first += std::size(sizes)) {
       const size_t n = static_cast<size_t>(std::min<uint64_t>(std::size(sizes), count_ - first));

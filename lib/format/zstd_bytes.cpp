@@ -14,7 +14,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr int kLevel = 3;
+constexpr int kZstdLevel = 3;
 
 void checkZstd(size_t result, const std::string& name) {
   if (ZSTD_isError(result))
@@ -57,7 +57,7 @@ class ZstdSink final : public WrappedSink {
       : WrappedSink(std::move(bytes)), stream_(ZSTD_createCStream()) {
     if (!stream_) fail(Status::kNoMemory, "no memory for zstd");
     buffer_.resize(ZSTD_CStreamOutSize());
-    ZSTD_CCtx_setParameter(stream_, ZSTD_c_compressionLevel, kLevel);
+    ZSTD_CCtx_setParameter(stream_, ZSTD_c_compressionLevel, kZstdLevel);
     ZSTD_CCtx_setParameter(stream_, ZSTD_c_checksumFlag, 1);
   }
   ~ZstdSink() override { ZSTD_freeCStream(stream_); }

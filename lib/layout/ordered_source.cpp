@@ -31,6 +31,16 @@ static uint64_t bytesFor(Order order, const Schema& schema) {
                          static_cast<uint64_t>(std::max<int64_t>(schema.cell_count, 0)));
 }
 
+// What sorting the labelled faces takes beside sorted cells: each corner twice, all vertices'
+// numbers.
+static uint64_t facesDisk(const Schema& schema, uint64_t memory) {
+  if (schema.face_count <= 0) return 0;
+  const auto faces = static_cast<uint64_t>(schema.face_count);
+  const uint64_t runs =
+      16 * static_cast<uint64_t>(std::max<int64_t>(schema.vertex_count, 0)) + 96 * faces;
+  return (runs * 3 > memory ? runs : 0) + sizeof(OrderedFace) * faces;
+}
+
 // Sorted runs and sorted rows are there together; what fits the memory takes no disk.
 uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
   const uint64_t memory = options.memory_bytes ? options.memory_bytes : kDefaultLayoutMemory;
@@ -43,7 +53,8 @@ uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
   const uint64_t point_runs = points * (16 + values), cell_runs = cells * (24 + data);
   const auto onDisk = [memory](uint64_t runs) { return runs * 3 > memory ? runs : 0; };
   const uint64_t once =
-      std::max(onDisk(point_runs) + point_rows, point_rows + onDisk(cell_runs) + cell_rows);
+      std::max(onDisk(point_runs) + point_rows, point_rows + onDisk(cell_runs) + cell_rows) +
+      facesDisk(schema, memory);
   const Order order = orderOf(options.order);
   const bool by_graph = order == Order::kBreadthFirst || order == Order::kSpectral;
   const bool by_pieces = by_graph && bytesFor(order, schema) > memory;
@@ -54,7 +65,7 @@ uint64_t plannedDisk(const Schema& schema, const OrderOptions& options) {
 // One reading of the stream.
 class OrderedSource::Reading final : public Source {
  public:
-  // Without values only the connectivity is there.
+  // Without values only the connectivity is there, and the faces are told the vertices' numbers.
   Reading(OrderedSource& ordered, bool with_values)
       : ordered_(ordered), with_values_(with_values), batch_(ordered.schema_), ids_(account_) {}
   const Schema& schema() const override { return ordered_.schema_; }
@@ -65,6 +76,7 @@ class OrderedSource::Reading final : public Source {
     batch_.clear(introduced_);
     for (; place_ < cells.count() && batch_.cellCount() < kBatchCells; ++place_)
       addCell(cells.cell(place_));
+    if (with_values_) addFaces();
     batch = batch_.view();
     return true;
   }
@@ -78,6 +90,14 @@ class OrderedSource::Reading final : public Source {
     batch_.lastUses(row) = static_cast<uint8_t>(cell.last_uses);
     if (with_values_) ordered_.cells_->copyData(cell, batch_, row);
   }
+  void addFaces() {
+    OrderedFaces& faces = *ordered_.faces_;
+    for (; face_ < faces.count(); ++face_) {
+      const OrderedFace face = faces.face(face_);
+      if (static_cast<uint64_t>(face.last()) >= introduced_) break;
+      batch_.addFace(face.vertices, face.label);
+    }
+  }
   // Ranks get ids in the order of their first use.
   int64_t idOf(uint32_t rank) {
     const uint32_t known = ids_.find(rank);
@@ -86,6 +106,8 @@ class OrderedSource::Reading final : public Source {
     if (with_values_) {
       const int64_t origin = ordered_.vertices_->copyTo(rank, batch_, row);
       if (ordered_.tells_origins_) batch_.addOrigin(origin);
+    } else if (!ordered_.faces_->empty()) {
+      ordered_.faces_->number(ordered_.vertices_->pointAt(rank), static_cast<int64_t>(introduced_));
     }
     ids_.add(rank, static_cast<uint32_t>(introduced_));
     return static_cast<int64_t>(introduced_++);
@@ -96,7 +118,7 @@ class OrderedSource::Reading final : public Source {
   Batch batch_;
   Account account_;
   IdHash ids_;  // of the active vertices
-  uint64_t place_ = 0, introduced_ = 0;
+  uint64_t place_ = 0, introduced_ = 0, face_ = 0;
 };
 
 OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
@@ -134,7 +156,10 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
   cells_ = std::make_unique<OrderedCells>(*source_, *vertices_, order != Order::kNone, budget,
                                           part(keyed + 0.1, 0.9));
   disk_ += std::max(vertices_->mostDiskBytes(), vertices_->diskBytes() + cells_->mostDiskBytes());
-  measureFront(part(0.9, 1));
+  faces_ = std::make_unique<OrderedFaces>(*source_, budget);
+  measureFront(part(0.9, faces_->empty() ? 1 : 0.95));
+  faces_->finish(part(0.95, 1));
+  disk_ += faces_->mostDiskBytes();
   reading_ = std::make_unique<Reading>(*this, true);
 }
 

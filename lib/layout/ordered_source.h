@@ -1,10 +1,12 @@
-// layout: an indexed mesh as a stream, in an order of choice. Depends on ordered_cells.h, orders.h.
+// layout: an indexed mesh as a stream, in an order of choice. Depends on ordered_cells.h,
+// ordered_faces.h, orders.h.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "ordered_cells.h"
+#include "ordered_faces.h"
 #include "orders.h"
 
 namespace tetstream {
@@ -32,7 +34,8 @@ class SweptMesh;
 // of the source, the merge, last uses, the front; and one for each reading of the stream.
 //
 // Its schema is complete: counts of what is used, box, front. Vertices come just before the first
-// cell that uses them, in that order; points that no cell uses are left out.
+// cell that uses them, in that order; points that no cell uses are left out. Labelled faces come in
+// the batch of the last of their vertices; locked edges and faces as locked vertices.
 class OrderedSource : public Source {
  public:
   OrderedSource(IndexedSource& source, const OrderOptions& options);
@@ -62,6 +65,7 @@ class OrderedSource : public Source {
   Array<uint32_t> graph_rank_;        // of points, while vertices are sorted by it
   std::unique_ptr<RankedVertices> vertices_;
   std::unique_ptr<OrderedCells> cells_;
+  std::unique_ptr<OrderedFaces> faces_;
   std::unique_ptr<Reading> reading_;
   bool tells_origins_;
   std::string chosen_;

@@ -121,6 +121,12 @@ void RankedVertices::tellRanks(uint64_t first, Array<uint32_t>& ranks) {
   }
 }
 
+uint64_t RankedVertices::pointAt(uint64_t rank) {
+  uint64_t head;
+  std::memcpy(&head, rows_.row(rank), kHead);
+  return head & ~kLockedBit;
+}
+
 int64_t RankedVertices::copyTo(uint64_t rank, Batch& batch, size_t row) {
   const auto* from = static_cast<const unsigned char*>(rows_.row(rank));
   uint64_t head;

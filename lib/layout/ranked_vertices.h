@@ -26,6 +26,7 @@ class RankedVertices {
   uint64_t count() const { return rows_.rows(); }
   // ranks[i] becomes the rank of point first + i, where that is used.
   void tellRanks(uint64_t first, Array<uint32_t>& ranks);
+  uint64_t pointAt(uint64_t rank);
   // The values of a vertex into a row of a batch; returns its origin.
   int64_t copyTo(uint64_t rank, Batch& batch, size_t row);
 

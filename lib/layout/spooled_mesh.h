@@ -8,7 +8,7 @@
 
 namespace tetstream {
 
-// Finalizations are dropped: an indexed mesh has none. Labelled boundary faces are kUnsupported.
+// Finalizations are dropped: an indexed mesh has none. Locked edges and faces lock their vertices.
 // What is small stays in memory; of a large mesh only the locks do, a byte a vertex if there are
 // any.
 class SpooledMesh : public IndexedSource {
@@ -24,22 +24,27 @@ class SpooledMesh : public IndexedSource {
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
   void readCells(uint64_t first, size_t count, int64_t* out) override;
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override;
+  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override;
   void readOrigins(uint64_t first, size_t count, int64_t* out) override;
 
   uint64_t diskBytes() const;
 
  private:
+  void takeVertices(const BatchView& batch);
+  void takeFaces(const BatchView& batch);
   void lock(const BatchView& batch);
+  void lock(const char* what, uint64_t row, const int64_t* vertices, size_t count);
   void makeRoomForLocks(size_t vertices);
 
   Schema schema_;
   std::string temp_dir_;
   Account account_;
-  RowSpool positions_, cells_;
+  RowSpool positions_, cells_, faces_;  // of a face three vertices and the label
   std::vector<std::unique_ptr<RowSpool>> fields_, cell_data_;
   std::unique_ptr<RowSpool> origins_;  // of a stream that has them
   Array<uint8_t> locked_;              // per vertex so far
   bool any_locked_ = false;
+  uint64_t edges_read_ = 0;
 };
 
 // All of a stream.

@@ -16,6 +16,10 @@
 
 namespace tetstream {
 
+// A place is in a cell whose barycentric coordinates there are not below this, as for the
+// independent judge.
+constexpr double kInside = -1e-9;
+
 // From places to the barycentric coordinates of a cell.
 class CellMap {
  public:

@@ -102,6 +102,7 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   plans[1].mesh = "the simplified mesh";
   matchFields(original, simplified, plans);
   matchRegions(original, simplified, plans);
+  plans[0].drops_ids = plan.regions == "auto";
   const auto scan = [&](int which, size_t share) {
     const MeshScan::Budgets budgets = {{account_, plan.temp_dir, memory_ / kShares * share},
                                        {account_, plan.temp_dir, memory_ / kBoundaryParts}};
@@ -111,7 +112,30 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   simplified_ = scan(1, kSimplifiedShare);
 }
 
+void Comparison::readSimplified(Source& source, const Done& done) {
+  for (size_t i = 0; i < region_arrays_.size(); ++i) {
+    if (!original_->regions(i).dropped()) continue;
+    simplified_->regions(i).drop();
+    region_words_ = region_arrays_[i] + ": nearly all different, taken as ids";
+  }
+  simplified_->read(source, done);
+}
+
 // ---------------------------------------------------------------------------------- measuring
+
+// By the original's labels, then those that only the simplified mesh has.
+template <class Pair, class Figures>
+static std::vector<Pair> pairByLabel(const std::map<int64_t, Figures>& ours,
+                                     const std::map<int64_t, Figures>& theirs) {
+  std::vector<Pair> pairs;
+  for (const auto& [label, figures] : ours) {
+    const auto found = theirs.find(label);
+    pairs.push_back({label, figures, found == theirs.end() ? Figures() : found->second});
+  }
+  for (const auto& [label, figures] : theirs)
+    if (!ours.count(label)) pairs.push_back({label, Figures(), figures});
+  return pairs;
+}
 
 double Comparison::diagonal() const {
   double square = 0;
@@ -144,6 +168,8 @@ void Comparison::measure(const Done& done) {
     field.range = std::sqrt(square);
   }
   compareRegions();
+  face_labels_ = pairByLabel<FaceLabelComparison>(original_->faceLabels().labels(),
+                                                  simplified_->faceLabels().labels());
   if (plan_.options.cut != "none") drawCut();
   measureFields([&](double share) { done(kOutsideEnd * share); });
   measureDistances([&](double share) { done(kOutsideEnd + (1 - kOutsideEnd) * share); });
@@ -189,17 +215,12 @@ void Comparison::measureDistances(const Done& done) {
 
 void Comparison::compareRegions() {
   for (size_t i = 0; i < region_arrays_.size(); ++i) {
-    const RegionParts &ours = original_->regions(i), &theirs = simplified_->regions(i);
+    const RegionParts& ours = original_->regions(i);
+    const RegionParts& theirs = simplified_->regions(i);
     const bool is_wished = plan_.regions != "auto";
     if (ours.dropped() || (!is_wished && ours.regions().size() < 2)) continue;
     region_array_ = region_arrays_[i];
-    for (const auto& [label, figures] : ours.regions()) {
-      const auto found = theirs.regions().find(label);
-      regions_.push_back(
-          {label, figures, found == theirs.regions().end() ? RegionFigures() : found->second});
-    }
-    for (const auto& [label, figures] : theirs.regions())
-      if (!ours.regions().count(label)) regions_.push_back({label, RegionFigures(), figures});
+    regions_ = pairByLabel<RegionComparison>(ours.regions(), theirs.regions());
     break;
   }
   if (!region_array_.empty())

@@ -50,12 +50,16 @@ struct MeshFigures {
   TopologyFigures topology;
   ShapeFigures shapes;
   double boundary_area = 0;
-  uint64_t temporary_bytes = 0;
 };
 
 struct RegionComparison {
   int64_t label;
   RegionFigures original, simplified;
+};
+
+struct FaceLabelComparison {
+  int64_t label;
+  FaceLabelFigures original, simplified;
 };
 
 // What the picture shows of one field.
@@ -73,8 +77,8 @@ class Comparison {
   Comparison(const Schema& original, const Schema& simplified, const ComparePlan& plan);
 
   void readOriginal(Source& source, const Done& done) { original_->read(source, done); }
-  void readSimplified(Source& source, const Done& done) { simplified_->read(source, done); }
-  void measure(const Done& done);  // once both were read
+  void readSimplified(Source& source, const Done& done);  // then
+  void measure(const Done& done);                         // once both were read
 
   // Then:
   const MeshFigures& original() const { return figures_[0]; }
@@ -87,6 +91,7 @@ class Comparison {
   const DistanceFigures& toSimplified() const { return distances_[0]; }
   const DistanceFigures& toOriginal() const { return distances_[1]; }
   const std::vector<RegionComparison>& regions() const { return regions_; }
+  const std::vector<FaceLabelComparison>& faceLabels() const { return face_labels_; }
   const std::string& regionArray() const { return region_array_; }  // empty: none
   const std::string& regionWords() const { return region_words_; }
   const CutComparison* cut() const { return cut_ ? &*cut_ : nullptr; }
@@ -115,6 +120,7 @@ class Comparison {
   VolumeSums volumes_;
   DistanceFigures distances_[2];
   std::vector<RegionComparison> regions_;
+  std::vector<FaceLabelComparison> face_labels_;
   std::string region_array_, region_words_;
   std::optional<CutComparison> cut_;
 };

@@ -9,8 +9,6 @@
 
 namespace tetstream {
 
-constexpr double kInside = -1e-9;  // in barycentric coordinates
-
 // The axis and, after "=", the place; false where there is none.
 struct CutWord {
   int axis = -1;  // auto

@@ -15,8 +15,6 @@ namespace tetstream {
 constexpr double kCoveredWhole = 1e-9;
 // Common parts as small as this are rounding, too: corners of theirs are corners of others.
 constexpr double kTinyPart = 1e-10;
-// Within this of a cell, in its coordinates, a place is inside, as for the independent judge.
-constexpr double kInside = -1e-9;
 constexpr size_t kTellEach = 4096;  // cells
 
 MappedCells::MappedCells(const RowChunk& chunk, Account& account)

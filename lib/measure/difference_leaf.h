@@ -62,7 +62,6 @@ class FieldDifference::Leaf {
   void valuesAt(size_t cell, const double coordinates[4], double* values) const;
   void integratePair(size_t cell, const double* other, const double planes[4][4]);
   void searchMaximum(size_t cell, size_t field, const double* differences);
-  void keepCorners(const Uncovered& cell);
   bool keepPlaces(const Uncovered& cell, double volume);
 
   FieldDifference& whole_;

@@ -62,7 +62,7 @@ void FaceFront::makeRoomFor(uint32_t vertex) {
   const size_t old = vertices_.size();
   if (vertex < old) return;
   vertices_.resize(std::max<size_t>({1024, size_t{vertex} + 1, old + old / 2}));
-  for (size_t v = old; v < vertices_.size(); ++v) vertices_[v] = {kNone, 0, kNone, kNone, 0, 0};
+  for (size_t v = old; v < vertices_.size(); ++v) vertices_[v] = {kNone, 0, kNone, kNone, 0};
 }
 
 // ---------------------------------------------------------------------------------- cells come
@@ -80,17 +80,20 @@ void FaceFront::addCell(uint32_t cell, const uint32_t vertices[4], int side) {
   if (cell >= cell_held_.size())
     cell_held_.resize(std::max<size_t>({1024, size_t{cell} + 1, 2 * cell_held_.size()}));
   cell_held_[cell] = 1;
-  // Outward where the cell's volume is positive.
+  // Opposite each vertex; outward where the cell's volume is positive.
   static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  for (const auto& f : kFaces) {
+  bool is_duplicate = false;
+  for (int j = 0; j < 4; ++j) {
+    const int* f = kFaces[j];
     const uint32_t face[3] = {vertices[f[0]], vertices[f[1]], vertices[f[2]]};
-    addFace(cell, face, side);
+    is_duplicate = addFace(cell, face, vertices[j], side) || is_duplicate;
   }
+  figures_.duplicate_cells += is_duplicate;
   letGoCell(cell);
   ++figures_.cells;
 }
 
-void FaceFront::addFace(uint32_t cell, const uint32_t vertices[3], int side) {
+bool FaceFront::addFace(uint32_t cell, const uint32_t vertices[3], uint32_t apex, int side) {
   uint32_t v[3] = {vertices[0], vertices[1], vertices[2]};
   const auto order = [&](int i, int j) {
     if (v[i] < v[j]) return;
@@ -102,14 +105,24 @@ void FaceFront::addFace(uint32_t cell, const uint32_t vertices[3], int side) {
   order(0, 1);
   uint32_t* bucket = &bucketOf(v);
   for (uint32_t f = *bucket; f != kNone; f = faces_[f].chain)
-    if (std::equal(v, v + 3, faces_[f].vertices)) return meetFace(faces_[f], cell, side);
+    if (std::equal(v, v + 3, faces_[f].vertices)) return meetFace(faces_[f], cell, apex, side);
   if (open_faces_ == table_.size()) {
     growTable();
     bucket = &bucketOf(v);
   }
   const uint32_t f = takeFace();
   Face& face = faces_[f];
-  face = {{v[0], v[1], v[2]}, {}, *bucket, cell, 1, static_cast<int8_t>(side), 0, 0, 0, 0};
+  face = {{v[0], v[1], v[2]},
+          {},
+          *bucket,
+          cell,
+          {apex, kNone},
+          1,
+          static_cast<int8_t>(side),
+          0,
+          0,
+          0,
+          0};
   *bucket = f;
   ++open_faces_;
   ++cell_held_[cell];
@@ -119,12 +132,18 @@ void FaceFront::addFace(uint32_t cell, const uint32_t vertices[3], int side) {
     vertex.faces = 3 * f + j;
     ++vertex.held;
   }
+  return false;
 }
 
-void FaceFront::meetFace(Face& face, uint32_t cell, int side) {
+bool FaceFront::meetFace(Face& face, uint32_t cell, uint32_t apex, int side) {
+  const bool is_known = apex == face.apexes[0] || apex == face.apexes[1];
   if (face.cells < UINT16_MAX) ++face.cells;
-  if (face.cells == 2) face.folded = side != 0 && side == face.side;
+  if (face.cells == 2) {
+    face.folded = side != 0 && side == face.side;
+    face.apexes[1] = apex;
+  }
   events_.neighbours(face.cell, cell);
+  return is_known;
 }
 
 // ------------------------------------------------------------------------------- vertices end
@@ -206,7 +225,7 @@ void FaceFront::lookAtFans(uint32_t vertex) {
 
 void FaceFront::letGo(uint32_t vertex) {
   if (--vertices_[vertex].held > 0) return;
-  vertices_[vertex] = {kNone, 0, kNone, kNone, 0, 0};
+  vertices_[vertex] = {kNone, 0, kNone, kNone, 0};
   events_.vertex_done(vertex);
 }
 

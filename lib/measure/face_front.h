@@ -17,6 +17,7 @@ struct TopologyFigures {
   int64_t components = 0;         // of cells joined through vertices
   int64_t nonmanifold_faces = 0;  // with more than two cells
   int64_t folded_faces = 0;       // with both cells on the same side
+  int64_t duplicate_cells = 0;    // whose four vertices are those of one before
   int64_t boundary_faces = 0, boundary_edges = 0, boundary_vertices = 0;
   int64_t boundary_components = 0;   // joined through vertices
   int64_t nonmanifold_edges = 0;     // of the boundary: not exactly two faces
@@ -51,19 +52,21 @@ class FaceFront {
     uint32_t faces;           // corner 3 * face + j of the list of its faces
     uint32_t held;            // by faces, and until it is final
     uint32_t body, boundary;  // in the sets
-    uint32_t mark, other;
+    uint32_t mark;
   };
   struct Face {
     uint32_t vertices[3];  // rising
     uint32_t next[3];      // in the lists of the vertices
     uint32_t chain;        // in the table; of free ones the next
     uint32_t cell;         // the first one
+    uint32_t apexes[2];    // of the first two: the vertex that is not of the face
     uint16_t cells;
     int8_t side;  // on which the first cell lies; 0: it is flat
     uint8_t folded : 1, decided : 1, on_boundary : 1, gone : 3;
   };
-  void addFace(uint32_t cell, const uint32_t vertices[3], int side);
-  void meetFace(Face& face, uint32_t cell, int side);
+  // Each returns whether a cell of these four vertices is known: of the first two at the face.
+  bool addFace(uint32_t cell, const uint32_t vertices[3], uint32_t apex, int side);
+  bool meetFace(Face& face, uint32_t cell, uint32_t apex, int side);
   uint32_t takeFace();
   void makeRoomFor(uint32_t vertex);
   uint32_t& bucketOf(const uint32_t vertices[3]);

@@ -37,7 +37,7 @@ MeshScan::MeshScan(const Schema& schema, const ScanPlan& plan, const Budgets& bu
       columns_(plan.fields.size()),
       labels_(plan.cell_arrays.size()) {
   for (size_t i = 0; i < plan.cell_arrays.size(); ++i)
-    regions_.push_back(std::make_unique<RegionParts>(account));
+    regions_.push_back(std::make_unique<RegionParts>(account, plan.drops_ids));
 }
 
 FaceFront::Events MeshScan::events() {
@@ -149,6 +149,23 @@ void MeshScan::addCell(const int64_t corners[4], size_t row) {
   ++cells_seen_;
 }
 
+// Their vertices are here: none of them is final before its batch's cells.
+void MeshScan::takeFaces(const BatchView& batch) {
+  for (size_t i = 0; i < batch.face_count; ++i) {
+    double corners[9];
+    for (size_t j = 0; j < 3; ++j) {
+      const int64_t vertex = batch.faces[3 * i + j];
+      const uint32_t number = front_.find(static_cast<uint64_t>(vertex));
+      if (number == kNoSlot)
+        fail(Status::kBadData, "%s: labelled face %lld: vertex %lld is not known or final before",
+             plan_.mesh.c_str(), static_cast<long long>(face_labels_.faces()),
+             static_cast<long long>(vertex));
+      std::copy_n(dataOf(number), 3, corners + 3 * j);
+    }
+    face_labels_.add(batch.face_labels[i], triangleArea(corners));
+  }
+}
+
 void MeshScan::takeCells(const BatchView& batch) {
   for (size_t i = 0; i < labels_.size(); ++i) {
     const size_t column = plan_.cell_arrays[i];
@@ -182,6 +199,7 @@ void MeshScan::read(Source& source, const Done& done) {
   const auto all = static_cast<double>(std::max<int64_t>(schema_.cell_count, 1));
   for (BatchView batch; source.next(batch);) {
     takeVertices(batch);
+    takeFaces(batch);
     takeCells(batch);
     for (size_t i = 0; i < batch.finalized_count; ++i) finalize(batch.finalized[i]);
     done(std::min(static_cast<double>(cells_seen_) / all, 1.0));

@@ -1,6 +1,6 @@
 // measure: everything about one mesh that one reading of it tells, and its cells and its boundary
 // for what comes after. Depends on stream, mesh, face_front.h, cell_shapes.h, region_parts.h,
-// simplex_rows.h.
+// face_labels.h, simplex_rows.h.
 #pragma once
 
 #include <functional>
@@ -10,6 +10,7 @@
 
 #include "cell_shapes.h"
 #include "face_front.h"
+#include "face_labels.h"
 #include "front.h"
 #include "region_parts.h"
 #include "simplex_rows.h"
@@ -24,6 +25,7 @@ struct ScanPlan {
   std::string mesh;                 // "the original", for messages
   std::vector<size_t> fields;       // columns whose values are kept, all components
   std::vector<size_t> cell_arrays;  // integer columns that may label regions
+  bool drops_ids = false;           // those that number the cells
 };
 
 class MeshScan {
@@ -39,19 +41,21 @@ class MeshScan {
 
   const TopologyFigures& topology() { return faces_.figures(); }
   ShapeFigures shapes() const { return shapes_.figures(); }
-  const RegionParts& regions(size_t array) const { return *regions_[array]; }
+  RegionParts& regions(size_t array) { return *regions_[array]; }
   // Of each component that is kept, over the vertices that cells use.
   const std::vector<double>& lowest() const { return low_; }
   const std::vector<double>& highest() const { return high_; }
   SimplexRows& cells() { return cells_; }
   SimplexRows& boundary() { return boundary_; }
   double boundaryArea() const { return boundary_area_; }
+  const FaceLabels& faceLabels() const { return face_labels_; }
 
  private:
   static constexpr uint32_t kNone = 0xffffffffu;
   FaceFront::Events events();
   void takeVertices(const BatchView& batch);
   void takeCells(const BatchView& batch);
+  void takeFaces(const BatchView& batch);
   void addCell(const int64_t corners[4], size_t row);
   void use(uint32_t vertex);
   void finalize(int64_t vertex);
@@ -73,6 +77,7 @@ class MeshScan {
   uint64_t cells_seen_ = 0;
   SimplexRows cells_, boundary_;
   double boundary_area_ = 0;
+  FaceLabels face_labels_;
   std::vector<double> low_, high_, row_, positions_;
   std::vector<std::vector<double>> columns_;  // of one batch
   std::vector<std::vector<int64_t>> labels_;  // of one batch

@@ -9,7 +9,7 @@
 namespace tetstream {
 
 constexpr SpoolShape kInSequence = {2, 64 << 10};
-constexpr uint64_t kTellEach = 4096;  // places
+constexpr uint64_t kPlacesBetweenWords = 4096;
 
 // A row: place, carried numbers, the squared distance so far, the values there.
 NearestPoints::NearestPoints(size_t carried, size_t values, const std::string& temp_dir)
@@ -68,7 +68,7 @@ void NearestPoints::search(SimplexRows& surface, size_t bytes, Account& account,
         take(foundIn(row_.data()));
       else
         next->append(row_.data(), 1);
-      if (i % kTellEach == 0)
+      if (i % kPlacesBetweenWords == 0)
         share((static_cast<double>(searched) * static_cast<double>(count()) +
                static_cast<double>(chunk.count()) * static_cast<double>(i)) /
               work);

@@ -1,21 +1,46 @@
 #include "region_parts.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 namespace tetstream {
 
+// Some labels tell; looked at again whenever there are twice as many.
+constexpr size_t kLabelsThatTell = 1024;
+// Of a label: its node in the map, and its row in the comparison, which has room to grow.
+constexpr size_t kLabelBytes = 192;
+
+bool RegionParts::looksLikeIds() const {
+  const size_t labels = regions_.size();
+  return labels >= kLabelsThatTell && std::has_single_bit(labels) &&
+         2 * static_cast<int64_t>(labels) > cells_seen_;
+}
+
+void RegionParts::drop() {
+  dropped_ = true;
+  regions_.clear();
+  last_ = nullptr;
+  account_.release(std::exchange(charged_, 0));
+}
+
+void RegionParts::addRegion(int64_t label) {
+  last_label_ = label;
+  if (const auto known = regions_.find(label); known != regions_.end()) {
+    last_ = &known->second;
+    return;
+  }
+  account_.charge(kLabelBytes);
+  charged_ += kLabelBytes;
+  last_ = &regions_[label];
+  if (drops_ids_ && looksLikeIds()) drop();
+}
+
 void RegionParts::add(uint32_t cell, int64_t label, double volume) {
   if (dropped_) return;
-  if (!last_ || label != last_label_) {
-    last_ = &regions_[label];
-    last_label_ = label;
-    if (regions_.size() > kMostLabels) {
-      dropped_ = true;
-      regions_.clear();
-      last_ = nullptr;
-      return;
-    }
-  }
+  ++cells_seen_;
+  if (!last_ || label != last_label_) addRegion(label);
+  if (dropped_) return;
   if (cell >= cells_.size())
     cells_.resize(std::max<size_t>({1024, size_t{cell} + 1, cells_.size() + cells_.size() / 2}));
   cells_[cell] = {label, sets_.make()};

@@ -13,17 +13,23 @@ struct RegionFigures {
   double volume = 0;
 };
 
-// Of one array. An array with more labels than kMostLabels numbers its cells, and is dropped.
+// Of one array.
 class RegionParts {
  public:
-  static constexpr size_t kMostLabels = 65536;
+  // With `drops_ids` an array of ids, with more labels than one for two cells, is dropped. Otherwise
+  // there are as many labels as the account allows.
+  RegionParts(Account& account, bool drops_ids)
+      : account_(account), drops_ids_(drops_ids), sets_(account), cells_(account) {}
+  ~RegionParts() { account_.release(charged_); }
+  RegionParts(const RegionParts&) = delete;
+  RegionParts& operator=(const RegionParts&) = delete;
 
-  explicit RegionParts(Account& account) : sets_(account), cells_(account) {}
   // Cells are the caller's small numbers, used again after `remove`.
   void add(uint32_t cell, int64_t label, double volume);
   void join(uint32_t first, uint32_t second);
   void remove(uint32_t cell);
 
+  void drop();  // it tells nothing from now on
   bool dropped() const { return dropped_; }
   const std::map<int64_t, RegionFigures>& regions() const { return regions_; }
 
@@ -32,6 +38,13 @@ class RegionParts {
     int64_t label;
     uint32_t set;
   };
+  void addRegion(int64_t label);
+  bool looksLikeIds() const;
+
+  Account& account_;
+  bool drops_ids_;
+  size_t charged_ = 0;
+  int64_t cells_seen_ = 0;
   JoinedSets sets_;
   Array<Cell> cells_;
   std::map<int64_t, RegionFigures> regions_;

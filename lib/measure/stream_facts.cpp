@@ -36,6 +36,7 @@ void StreamFacts::growBox(const BatchView& batch) {
 void StreamFacts::put(const BatchView& batch) {
   diagram_.put(batch);
   vertices_ += batch.vertex_count;
+  for (size_t i = 0; i < batch.face_count; ++i) face_labels_.add(batch.face_labels[i], 0);
   if (batch.vertex_count > 0) growBox(batch);
 }
 
@@ -47,6 +48,7 @@ Schema StreamFacts::schema() const {
   Schema s = schema_;
   s.vertex_count = static_cast<int64_t>(vertices_);
   s.cell_count = figures().cells;
+  s.face_count = face_labels_.faces();
   s.front_width = figures().front.width;
   s.front_span = figures().front.span;
   s.front_cells = figures().front.cells;

@@ -1,11 +1,13 @@
-// measure: what a stream is like, in memory of the size of its front. Depends on layout_diagram.h.
+// measure: what a stream is like, in memory of the size of its front. Depends on layout_diagram.h,
+// face_labels.h.
 #pragma once
 
+#include "face_labels.h"
 #include "layout_diagram.h"
 
 namespace tetstream {
 
-// Counts, box, front and lifetimes of the events that pass.
+// Counts, box, front, lifetimes and labelled faces of the events that pass.
 class StreamFacts {
  public:
   explicit StreamFacts(const Schema& schema);
@@ -14,12 +16,14 @@ class StreamFacts {
   // After finish:
   Schema schema() const;  // the stream's, with everything known
   const DiagramFigures& figures() const { return diagram_.figures(); }
+  const FaceLabels& faceLabels() const { return face_labels_; }  // without areas
 
  private:
   void growBox(const BatchView& batch);
 
   Schema schema_;
   LayoutDiagram diagram_;  // of a single place
+  FaceLabels face_labels_;
   uint64_t vertices_ = 0;
 };
 

@@ -57,7 +57,7 @@ void Curves::merge(uint32_t u, uint32_t v) {
 
 void Curves::rebuild(size_t entries, const uint32_t* keep) {
   size_t size = kLeastPlaces;
-  while (size < 4 * entries) size *= 2;
+  while (size < 3 * entries) size *= 2;
   Array<uint64_t> before(*account_, size);
   std::fill_n(before.data(), size, kEmpty);
   before.swap(places_);

@@ -34,7 +34,7 @@ class LabelMap {
       ++count_;
       ++used_;
     }
-    entry = {key, label, kUsed};
+    entry = {key, kUsed, label};
   }
   void remove(const Key& key) {
     if (count_ == 0) return;
@@ -50,11 +50,11 @@ class LabelMap {
   }
 
  private:
-  enum State : uint64_t { kEmpty, kUsed, kRemoved };
+  enum State : uint32_t { kEmpty, kUsed, kRemoved };
   struct Entry {
     Key key;
+    State state;  // fills up what a key of 32-bit numbers leaves
     int64_t label;
-    State state;
   };
 
   // Of the key, or the empty place where it would be.
@@ -68,22 +68,22 @@ class LabelMap {
   template <class Moved>
   void rebuild(size_t entries, Moved moved) {
     size_t size = 64;
-    while (size < 4 * entries) size *= 2;
+    while (size < 3 * entries) size *= 2;
     Array<Entry> before(*account_, size);
-    std::fill_n(before.data(), size, Entry{{}, 0, kEmpty});
+    std::fill_n(before.data(), size, Entry{{}, kEmpty, 0});
     before.swap(places_);
     count_ = used_ = 0;
     for (size_t i = 0; i < before.size(); ++i) {
       Key key;
       if (before[i].state != kUsed || !moved(before[i].key, &key)) continue;
-      places_[placeOf(key)] = {key, before[i].label, kUsed};
+      places_[placeOf(key)] = {key, kUsed, before[i].label};
       ++count_;
       ++used_;
     }
   }
 
   Account* account_;
-  Array<Entry> places_;          // a power of two of them, at most half in use
+  Array<Entry> places_;          // a power of two of them, half in use at most
   size_t count_ = 0, used_ = 0;  // entries; places that are in use or were
 };
 

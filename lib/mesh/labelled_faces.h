@@ -15,18 +15,28 @@ class LabelledFaces {
 
   bool empty() const { return coming_.empty() && of_corner_.empty(); }
 
-  // Three vertices, whose cell is not looked for yet.
+  // Three vertices, whose cell is not looked for yet. Of a face that comes twice the first stays.
   void expect(uint32_t a, uint32_t b, uint32_t c, int64_t label) {
-    coming_.put(Face::of(a, b, c), label);
+    const Face face = Face::of(a, b, c);
+    if (coming_.find(face))
+      ++strange_;
+    else
+      coming_.put(face, label);
   }
-  // The label of the face opposite a corner, which has these vertices: that it came with, if so.
-  // Null if it has none.
-  const int64_t* labelOf(uint32_t corner, uint32_t a, uint32_t b, uint32_t c) {
-    if (const int64_t* label = coming_.find(Face::of(a, b, c))) {
-      of_corner_.put({corner}, *label);
-      coming_.remove(Face::of(a, b, c));
+  // The label of the face with these vertices, opposite a corner and, if there is a cell across it,
+  // opposite `across`; otherwise that is `corner` again. It may have come since it was last asked
+  // for. Null if there is none.
+  const int64_t* labelOf(uint32_t corner, uint32_t across, uint32_t a, uint32_t b, uint32_t c) {
+    const Face face = Face::of(a, b, c);
+    if (const int64_t* label = coming_.find(face)) {
+      if (labelOf(corner) || labelOf(across))
+        ++strange_;
+      else
+        of_corner_.put({corner}, *label);
+      coming_.remove(face);
     }
-    return of_corner_.find({corner});
+    const int64_t* label = labelOf(corner);
+    return label ? label : labelOf(across);
   }
   const int64_t* labelOf(uint32_t corner) const { return of_corner_.find({corner}); }
   bool anyPlaced() const { return !of_corner_.empty(); }
@@ -39,17 +49,21 @@ class LabelledFaces {
     of_corner_.put({to}, value);
   }
   void forgetCell(uint32_t cell) {
-    for (uint32_t j = 0; j < 4; ++j) of_corner_.remove({4 * uint64_t{cell} + j});
+    for (uint32_t j = 0; j < 4; ++j) of_corner_.remove({4 * cell + j});
   }
 
-  size_t coming() const { return coming_.size(); }
+  // Those that were faces of no cell, or came twice; once all vertices were looked at, all of them.
+  size_t strange() const { return strange_ + coming_.size(); }
 
   // The window is packed: keep[v] is the new slot of vertex v; cells move to lower ones, in order.
+  // What still waits for its cell and loses a vertex has none.
   void remapVertices(const uint32_t* keep) {
+    const size_t before = coming_.size();
     coming_.remap([keep](const Face& f, Face* kept) {
       *kept = Face::of(keep[f.v[0]], keep[f.v[1]], keep[f.v[2]]);
       return kept->v[2] != kNone;
     });
+    strange_ += before - coming_.size();
   }
   void moveCell(uint32_t from, uint32_t to) {
     for (uint32_t j = 0; j < 4 && !of_corner_.empty(); ++j) hand(4 * from + j, 4 * to + j);
@@ -67,13 +81,14 @@ class LabelledFaces {
     uint64_t hash() const { return mix(mix(uint64_t{v[0]} << 32 | v[1]) + v[2]); }
   };
   struct Corner {
-    uint64_t number;
+    uint32_t number;  // a window has fewer than 2^30 cells
     bool operator==(const Corner& o) const = default;
     uint64_t hash() const { return mix(number); }
   };
 
   LabelMap<Face> coming_;
   LabelMap<Corner> of_corner_;
+  size_t strange_ = 0;
 };
 
 }  // namespace tetstream

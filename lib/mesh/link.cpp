@@ -3,18 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "vertex_pair.h"
+
 namespace tetstream {
-
-static uint64_t pairOf(uint32_t a, uint32_t b) {
-  return a < b ? uint64_t{a} << 32 | b : uint64_t{b} << 32 | a;
-}
-
-static uint32_t lowOf(uint64_t pair) {
-  return static_cast<uint32_t>(pair >> 32);
-}
-static uint32_t highOf(uint64_t pair) {
-  return static_cast<uint32_t>(pair);
-}
 
 LinkCondition::LinkCondition(Account& account) : marks_(account) {}
 
@@ -118,12 +109,6 @@ static void listBoundaryFaces(const Star& star, const Star& ring, const uint8_t*
     if (j - i == 1) edges[kept++] = edges[i];
   }
   edges.resize(kept);
-}
-
-static bool holdsVertex(const std::vector<uint64_t>& edges, uint32_t v) {
-  for (uint64_t edge : edges)
-    if (lowOf(edge) == v || highOf(edge) == v) return true;
-  return false;
 }
 
 bool LinkCondition::boundaryLinksAgree(uint32_t v, const Stars& stars, const uint8_t* flags) {

@@ -2,17 +2,9 @@
 
 #include <algorithm>
 
-namespace tetstream {
+#include "vertex_pair.h"
 
-static uint64_t pairOf(uint32_t a, uint32_t b) {
-  return a < b ? uint64_t{a} << 32 | b : uint64_t{b} << 32 | a;
-}
-static uint32_t lowOf(uint64_t pair) {
-  return static_cast<uint32_t>(pair >> 32);
-}
-static uint32_t highOf(uint64_t pair) {
-  return static_cast<uint32_t>(pair);
-}
+namespace tetstream {
 
 // By the lower and the higher kind of two ends: what the edge has to lie in.
 namespace {
@@ -59,12 +51,6 @@ void StrataCondition::listSheets(const Star& star, const Star& ring, const uint8
     if (j - i == 1 || labels.differ(edges_[i].cell, edges_[i + 1].cell))
       faces.push_back(edges_[i].ends);
   }
-}
-
-static bool holdsVertex(const std::vector<uint64_t>& edges, uint32_t v) {
-  for (uint64_t edge : edges)
-    if (lowOf(edge) == v || highOf(edge) == v) return true;
-  return false;
 }
 
 // uv is in X2, and the links there have in common what is in the link of uv.

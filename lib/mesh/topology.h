@@ -17,10 +17,10 @@ namespace tetstream {
 constexpr uint32_t kNone = 0xffffffffu;
 
 enum VertexFlag : uint8_t {
-  kFinal = 1,     // no later cell will use it
-  kBoundary = 2,  // on the boundary of the domain (known once it or a neighbour there is final)
-  kLocked = 4,    // never moved: non-manifold boundary, interface, flat cell, or the caller's wish
-  kWritten = 8,   // a cell that uses it has left: it is frozen
+  kFinal = 1,        // no later cell will use it
+  kBoundary = 2,     // on the boundary of the domain (known once it or a neighbour there is final)
+  kLocked = 4,       // never moved: corner, non-manifold boundary, bad cell, or the caller's wish
+  kWritten = 8,      // a cell that uses it has left: it is frozen
   kCollapsed = 16,   // merged into another vertex
   kInterface = 128,  // cells of different regions meet there (known as kBoundary is)
 };
@@ -104,7 +104,6 @@ class Topology {
   uint8_t vertexFlags(uint32_t v) const { return vertex_flags_[v]; }
   const uint8_t* allVertexFlags() const { return vertex_flags_.data(); }
   void flagVertex(uint32_t v, uint8_t flags) { vertex_flags_[v] |= flags; }
-  void unflagVertex(uint32_t v, uint8_t flags) { vertex_flags_[v] &= static_cast<uint8_t>(~flags); }
   uint8_t cellFlags(uint32_t c) const { return cell_flags_[c]; }
   void flagCell(uint32_t c, uint8_t flags) { cell_flags_[c] |= flags; }
   bool isLive(uint32_t c) const { return !(cell_flags_[c] & kDead); }

@@ -6,7 +6,6 @@
 
 namespace tetstream {
 
-// By a half, or by what a memory budget still allows.
 template <class S>
 uint32_t TracedPoints<S>::freePoint() {
   if (free_ != kNone) {
@@ -17,11 +16,7 @@ uint32_t TracedPoints<S>::freePoint() {
   const size_t size = points_.size();
   if (end_ == size) {
     if (size >= kNone / 2) fail(Status::kNoMemory, "more than %zu vertices are traced", size);
-    try {
-      points_.resize(size + size / 2 + 1024);
-    } catch (const Error&) {
-      points_.resize(size + size / 16 + 64);
-    }
+    growArray(size, size / 2 + 1024, [this](size_t more) { points_.resize(more); });
   }
   return end_++;
 }

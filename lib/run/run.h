@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compare_options.h"
+#include "face_labels.h"
 #include "layout_diagram.h"
 #include "options.h"
 #include "source.h"
@@ -68,6 +69,7 @@ struct Inspection {
   Schema schema;           // with everything known: counts, box, front
   DiagramFigures figures;  // means and lifetimes
   int64_t window_cells;    // that a simplification takes
+  FaceLabels face_labels;  // without areas
 };
 // Reads the whole input.
 Inspection inspect(Input& input, const RunOptions& options, const ProgressFunction& progress);

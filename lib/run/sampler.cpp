@@ -36,8 +36,9 @@ bool Sampler::serves(const Schema& schema) {
   return std::isfinite(volume) && volume > 0;
 }
 
+// What a sample does not have: labelled faces, which say nothing of errors, and this front.
 static Schema withoutFront(Schema schema) {
-  schema.front_width = schema.front_span = schema.front_cells = -1;
+  schema.front_width = schema.front_span = schema.front_cells = schema.face_count = -1;
   return schema;
 }
 

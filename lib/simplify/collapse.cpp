@@ -128,8 +128,18 @@ Embedded Collapser<Mesh>::embedded() const {
 }
 
 template <class Mesh>
-StrataCondition::End Collapser<Mesh>::endOf(uint32_t v, const Embedded& embedded) const {
+StrataCondition::End Collapser<Mesh>::strataEnd(uint32_t v, const Embedded& embedded) const {
   return {v, embedded.stratumOf(v, mesh_.allFlags()[v] & kOnSheet), mesh_.isBoundary(v)};
+}
+
+template <class Mesh>
+auto Collapser<Mesh>::strataOf(uint32_t u, uint32_t v) const -> Strata {
+  Strata strata;
+  if (core_.interfaces || !core_.window.curves.empty()) strata.embedded = embedded();
+  if (!strata.any()) return strata;
+  strata.u = strataEnd(u, strata.embedded);
+  strata.v = strataEnd(v, strata.embedded);
+  return strata;
 }
 
 // Moves the place, by as much as it takes, to where no region of the stars grows or shrinks;
@@ -180,24 +190,24 @@ bool Collapser<Mesh>::putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on
   return true;
 }
 
-// The place that sheets and curves want; returns the error there.
+// The place that sheets and curves want; returns the error there, 0 where it is the one at hand.
 template <class Mesh>
-auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Embedded& embedded) -> S {
-  const bool u_on_it = endOf(u, embedded).stratum == Stratum::kCurve;
-  const bool v_on_it = endOf(v, embedded).stratum == Stratum::kCurve;
-  const bool kept =
-      core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it);
-  if (!kept && embedded.labels.count > 0) return keepVolumes(u, v, embedded.labels);
-  return errorHere(u, v);
+auto Collapser<Mesh>::adjust(const Strata& strata) -> S {
+  const uint32_t u = strata.u.vertex, v = strata.v.vertex;
+  const bool u_on_it = strata.u.stratum == Stratum::kCurve;
+  const bool v_on_it = strata.v.stratum == Stratum::kCurve;
+  if (core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it))
+    return errorHere(u, v);
+  const CellLabels& labels = strata.embedded.labels;
+  return labels.count > 0 ? keepVolumes(u, v, labels) : S(0);
 }
 
 // Of the stars as gathered.
 template <class Mesh>
-bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded) {
+bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Strata& strata) {
   const uint8_t* flags = mesh_.allFlags();
   if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, flags)) return false;
-  return !embedded.any() ||
-         strata_.holds(endOf(u, embedded), endOf(v, embedded), stars_, flags, embedded);
+  return !strata.any() || strata_.holds(strata.u, strata.v, stars_, flags, strata.embedded);
 }
 
 // Half of all edges fail, most of them by the cells of the end that moves most.
@@ -219,13 +229,12 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const auto dying = static_cast<int64_t>(ring.size());
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
-  Embedded embedded;
-  if (core_.interfaces || !core_.window.curves.empty()) embedded = this->embedded();
-  if (embedded.any() && !strata_.mayHold(endOf(u, embedded), endOf(v, embedded), ring, embedded))
+  const Strata strata = strataOf(u, v);
+  if (strata.any() && !strata_.mayHold(strata.u, strata.v, ring, strata.embedded))
     return Outcome::kTopology;
-  if (embedded.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
+  if (strata.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
     gather(!u_first);
-    const S moved = adjust(u, v, embedded);
+    const S moved = adjust(strata);
     if (spares && moved > kDearGrowth * *error) return Outcome::kDear;
     *error = std::max(*error, moved);
   }
@@ -240,7 +249,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
   if (a.thin + b.thin > 0)
     if (const Outcome o = thins(u, v, spares, a.thin + b.thin); o != Outcome::kDone) return o;
-  return keepsTopology(u, v, embedded) ? Outcome::kDone : Outcome::kTopology;
+  return keepsTopology(u, v, strata) ? Outcome::kDone : Outcome::kTopology;
 }
 
 // What merging two vertices adds to the error of the whole.

@@ -48,11 +48,20 @@ class Collapser {
   const Stars& stars() const { return stars_; }
 
  private:
+  // What is embedded in the cells, and what of it the ends of an edge lie in: known where there is
+  // any.
+  struct Strata {
+    Embedded embedded;
+    StrataCondition::End u{}, v{};
+    bool any() const { return embedded.any(); }
+  };
+
   Embedded embedded() const;
-  StrataCondition::End endOf(uint32_t v, const Embedded& embedded) const;
-  bool keepsTopology(uint32_t u, uint32_t v, const Embedded& embedded);
+  StrataCondition::End strataEnd(uint32_t v, const Embedded& embedded) const;
+  Strata strataOf(uint32_t u, uint32_t v) const;
+  bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares);
-  S adjust(uint32_t u, uint32_t v, const Embedded& embedded);
+  S adjust(const Strata& strata);
   bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
   S errorHere(uint32_t u, uint32_t v) const;
   S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);

@@ -57,6 +57,18 @@ inline RowBytes rowBytes(const SimplifyOptions& options) {
   return row;
 }
 
+// Curves and labelled faces lie in hashes of up to four places for each entry, and six while they
+// grow. An edge of a curve is there twice, at 8 bytes; one to six cells of the window is allowed
+// for, more than real meshes with ridges have. A labelled face waits for its cell, at 24 bytes, then
+// has its place, at 16; there are as many to a cell as the stream says.
+constexpr size_t kCurveBytes = 16, kFaceBytes = 4 * 24 + 6 * 16;
+inline size_t embeddedBytes(const Schema& schema, double feature_angle) {
+  if (schema.face_count <= 0) return feature_angle > 0 ? kCurveBytes : 0;
+  const auto faces = static_cast<double>(schema.face_count);
+  const auto cells = static_cast<double>(std::max<int64_t>(schema.cell_count, 1));
+  return kCurveBytes + static_cast<size_t>(kFaceBytes * std::min(faces / cells, 4.0));
+}
+
 // No cell needs to be thinner than this smallest dihedral angle, in degrees: rounding, or another
 // program's arithmetic, may turn it over.
 constexpr double kLeastFloor = 0.05;
@@ -106,11 +118,12 @@ struct Core {
     return row.cell + (shape.cell_means + shape.cell_picks ? data : 0) + vertex / kCellsPerVertex;
   }
 
-  // The same with what is traced: a vertex's origin; of a map each cell's first point, a point for
-  // every vertex that is merged, and those of the cells that stay. The cache does not hold them.
+  // The same with curves and labelled faces, and with what is traced: a vertex's origin; of a map
+  // each cell's first point, a point for every vertex that is merged, and those of the cells that
+  // stay. The cache does not hold them.
   static size_t budgetPerCell(const Plan& plan, const SimplifyOptions& options) {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
-    size_t bytes = bytesPerCell(plan, options);
+    size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options.feature_angle);
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
       bytes += sizeof(uint32_t) + static_cast<size_t>(kPoints * Tracer<S>::pointBytes());

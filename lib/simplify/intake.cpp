@@ -76,7 +76,6 @@ void Intake<S>::takeFaces() {
     }
     core_.window.faces.expect(slots[0], slots[1], slots[2], batch_.face_labels[row]);
   }
-  core_.exact_curves = true;
 }
 
 // note: locked ends are enough: an edge stays as it is while neither is merged or moved.
@@ -110,16 +109,10 @@ void Intake<S>::readColumn(size_t column, size_t row, uint32_t slot) {
          static_cast<unsigned long long>(batch_.first_vertex + row), c.name.c_str());
 }
 
-// By a quarter, or by what a memory budget still allows.
 template <class S>
 void Intake<S>::growVertices() {
   const size_t capacity = core_.window.mesh.vertexCapacity();
-  try {
-    core_.window.growVertices(capacity + capacity / 4 + 64);
-  } catch (const Error& error) {
-    if (error.status() != Status::kNoMemory) throw;
-    core_.window.growVertices(capacity + capacity / 64 + 16);
-  }
+  growArray(capacity, capacity / 4 + 64, [this](size_t n) { core_.window.growVertices(n); });
 }
 
 template <class S>

@@ -19,6 +19,7 @@ class Intake {
   void finalizeAll();  // at the end of the stream
 
   uint64_t cellsRead() const { return cells_read_; }
+  uint64_t facesRead() const { return faces_read_; }
   // The vertices finalized since the last clear, by slot.
   const uint32_t* finalized() const { return finalized_.data(); }
   size_t finalizedCount() const { return finalized_count_; }

@@ -268,10 +268,12 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
   core_.thin = floors_[i];
   core_.poor = thinnessOfAngle(std::min(kPoor * core_.thin.degrees, 90.0));
   core_.dear.clear();
-  for (size_t k = 0; k < dear_.size(); ++k)
-    if (dear_[k].cos2<core_.thin.cos2&& static_cast<double>(below_dear_[k])> kShareToSpare *
-        static_cast<double>(sampled_))
+  for (size_t k = 0; k < dear_.size(); ++k) {
+    const bool is_above = dear_[k].cos2 < core_.thin.cos2;
+    const auto below = static_cast<double>(below_dear_[k]);
+    if (is_above && below > kShareToSpare * static_cast<double>(sampled_))
       core_.dear.push_back(dear_[k]);
+  }
 }
 
 template <class S>

@@ -30,7 +30,6 @@ class QueuedEdges {
 
   void clear() { queued_ = waiting_ = 0; }
   bool empty() const { return queued_ == 0; }
-  size_t waiting() const { return waiting_; }
 
   // `is_current` tells of an edge whether it is up to date.
   template <class IsCurrent>
@@ -74,7 +73,7 @@ class QueuedEdges {
   }
   void grow() {
     const size_t before = edges_.size();
-    edges_.resize(before + before / 2 + kLeastRoom);
+    growArray(before, before / 2 + kLeastRoom, [this](size_t size) { edges_.resize(size); });
     std::move_backward(edges_.data() + (before - waiting_), edges_.data() + before,
                        edges_.data() + edges_.size());
   }

@@ -26,7 +26,6 @@ class RegionVolumes {
   template <class S>
   void measure(const Stars& stars, const uint32_t ends[2], const S* values, size_t stride,
                const double x[3], const CellLabels& labels);
-  const std::vector<Change>& changes() const { return changes_; }
   // From x to where the volumes are as they were.
   void step(double out[3]) const;
 

@@ -112,6 +112,7 @@ void Reshaper<S>::cornersOf(uint32_t c, uint32_t corners[4]) const {
 // cells.
 template <class S>
 double Reshaper<S>::change(const Reconnection& r) const {
+  if (core_.scale.size() == 3) return 0;
   double sum = 0, volume = 0, p[4][3];
   CellFrame frames[Reconnection::kMostRing];
   uint32_t corners[Reconnection::kMostRing][4];

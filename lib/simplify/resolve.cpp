@@ -169,14 +169,23 @@ void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, con
   if (!counted) metric_.addFace(v, a, b, sheet == kInterface);
 }
 
-// Of the face vab of a cell; null if it has none.
-template <class S>
-const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t v, uint32_t a, uint32_t b) {
-  if (core_.window.faces.empty()) return nullptr;
-  const uint32_t* corners = core_.window.mesh.corners(cell);
+// The corner of a cell that is opposite its face vab.
+static uint32_t cornerAcross(const Topology& mesh, uint32_t cell, uint32_t v, uint32_t a,
+                             uint32_t b) {
+  const uint32_t* corners = mesh.corners(cell);
   uint32_t j = 0;
   while (corners[j] == v || corners[j] == a || corners[j] == b) ++j;
-  return core_.window.faces.labelOf(4 * cell + j, v, a, b);
+  return 4 * cell + j;
+}
+
+// Of the face vab of one cell, or of two; null if it has none.
+template <class S>
+const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a,
+                                    uint32_t b) {
+  if (core_.window.faces.empty()) return nullptr;
+  const Topology& mesh = core_.window.mesh;
+  return core_.window.faces.labelOf(cornerAcross(mesh, cell, v, a, b),
+                                    cornerAcross(mesh, other, v, a, b), v, a, b);
 }
 
 template <class S>
@@ -202,11 +211,10 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     const uint32_t a = static_cast<uint32_t>(pair >> 32), b = static_cast<uint32_t>(pair);
     if (j - i == 1) {
       boundary_.push_back(uint64_t{a} << 32 | b);
-      addFace(v, a, b, kBoundary, labelOf(edges_[i].cell, v, a, b));
+      addFace(v, a, b, kBoundary, labelOf(edges_[i].cell, edges_[i].cell, v, a, b));
     } else if (j - i == 2) {
       if ((edges_[i].key & 1) == (edges_[i + 1].key & 1)) lockFold(a, b);
-      const int64_t* label = labelOf(edges_[i].cell, v, a, b);
-      if (!label) label = labelOf(edges_[i + 1].cell, v, a, b);
+      const int64_t* label = labelOf(edges_[i].cell, edges_[i + 1].cell, v, a, b);
       if (labels.differ(edges_[i].cell, edges_[i + 1].cell))
         addFace(v, a, b, kInterface, label);
       else if (label)

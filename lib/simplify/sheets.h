@@ -16,6 +16,7 @@ class Sheets {
   void clear() { faces_.clear(); }
   // `label`: of a labelled face, or null.
   void add(uint32_t a, uint32_t b, const int64_t* label) {
+    core_.exact_curves |= label != nullptr;
     faces_.push_back({a, b, label != nullptr, label ? *label : 0});
   }
   // Whether there can be more than the boundary, which is looked at by others.

@@ -141,9 +141,10 @@ class WindowedEngine final : public Simplifier::Engine {
   void finish() override {
     checkCount("cells", plan_.schema.cell_count, intake_.cellsRead());
     checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
+    checkCount("labelled faces", plan_.schema.face_count, intake_.facesRead());
     intake_.finalizeAll();
     resolveNew();
-    if (const size_t strange = core_.window.faces.coming())
+    if (const size_t strange = core_.window.faces.strange())
       fail(Status::kBadData, "%zu labelled faces are faces of no cell, or came twice", strange);
     Ledger now = ledger();
     decimate(budget_->lastGoal(now));
@@ -397,7 +398,7 @@ void Simplifier::begin(const Schema& schema) {
     engine_ = std::make_unique<WindowedEngine<float>>(std::move(plan), options_, pilot_, out_,
                                                       sinks_, progress_);
   Schema smaller = schema;
-  smaller.vertex_count = smaller.cell_count = -1;
+  smaller.vertex_count = smaller.cell_count = smaller.face_count = -1;
   smaller.front_width = smaller.front_span = smaller.front_cells = -1;
   smaller.box_min.clear();
   smaller.box_max.clear();

@@ -1,5 +1,6 @@
 #include "memory_source.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "status.h"
@@ -10,11 +11,39 @@ MemorySource::MemorySource(const Schema& schema, const BatchView& mesh)
     : schema_(schema),
       fields_(mesh.fields, mesh.fields + schema.fields.size()),
       cell_data_(mesh.cell_data, mesh.cell_data + schema.cell_data.size()),
-      mesh_(mesh) {
+      mesh_(mesh),
+      locked_(account_) {
   mesh_.fields = fields_.data();
   mesh_.cell_data = cell_data_.data();
   schema_.vertex_count = static_cast<int64_t>(mesh.vertex_count);
   schema_.cell_count = static_cast<int64_t>(mesh.cell_count);
+  schema_.face_count = static_cast<int64_t>(mesh.face_count);
+  if (mesh.edge_count > 0 || mesh.face_locks) lockVertices();
+}
+
+void MemorySource::lockVertices() {
+  locked_.resize(mesh_.vertex_count);
+  std::fill_n(locked_.data(), mesh_.vertex_count, uint8_t{0});
+  if (mesh_.locked) std::copy_n(mesh_.locked, mesh_.vertex_count, locked_.data());
+  for (size_t i = 0; i < mesh_.edge_count; ++i)
+    lock("locked edge", i, mesh_.locked_edges + 2 * i, 2);
+  for (size_t i = 0; mesh_.face_locks && i < mesh_.face_count; ++i)
+    if (mesh_.face_locks[i]) lock("locked face", i, mesh_.faces + 3 * i, 3);
+  mesh_.locked = locked_.data();
+}
+
+static void checkVertex(const char* what, uint64_t row, int64_t vertex, const Schema& schema) {
+  if (vertex < 0 || vertex >= schema.vertex_count)
+    fail(Status::kBadData, "%s %llu: vertex %lld is not one of the mesh's %lld", what,
+         static_cast<unsigned long long>(row), static_cast<long long>(vertex),
+         static_cast<long long>(schema.vertex_count));
+}
+
+void MemorySource::lock(const char* what, size_t row, const int64_t* vertices, size_t count) {
+  for (size_t j = 0; j < count; ++j) {
+    checkVertex(what, row, vertices[j], schema_);
+    locked_[static_cast<size_t>(vertices[j])] = 1;
+  }
 }
 
 static void copyRows(const void* from, uint64_t first, size_t count, size_t stride, void* out) {
@@ -31,15 +60,18 @@ void MemorySource::readField(size_t column, uint64_t first, size_t count, void* 
 
 void MemorySource::readCells(uint64_t first, size_t count, int64_t* out) {
   copyRows(mesh_.cells, first, count, 4 * sizeof(int64_t), out);
-  for (size_t i = 0; i < 4 * count; ++i)
-    if (out[i] < 0 || out[i] >= schema_.vertex_count)
-      fail(Status::kBadData, "cell %llu: vertex %lld is not one of the mesh's %lld",
-           static_cast<unsigned long long>(first + i / 4), static_cast<long long>(out[i]),
-           static_cast<long long>(schema_.vertex_count));
+  for (size_t i = 0; i < 4 * count; ++i) checkVertex("cell", first + i / 4, out[i], schema_);
 }
 
 void MemorySource::readCellData(size_t column, uint64_t first, size_t count, void* out) {
   copyRows(mesh_.cell_data[column], first, count, schema_.cell_data[column].bytesPerRow(), out);
+}
+
+void MemorySource::readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
+  copyRows(mesh_.faces, first, count, 3 * sizeof(int64_t), corners);
+  copyRows(mesh_.face_labels, first, count, sizeof(int64_t), labels);
+  for (size_t i = 0; i < 3 * count; ++i)
+    checkVertex("labelled face", first + i / 3, corners[i], schema_);
 }
 
 }  // namespace tetstream

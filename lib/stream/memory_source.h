@@ -3,12 +3,14 @@
 
 #include <vector>
 
+#include "memory.h"
 #include "source.h"
 
 namespace tetstream {
 
 // The whole mesh is one batch, whose arrays must live as long as the source; its finalizations are
-// not looked at. Vertex ids are checked when cells are read.
+// not looked at. Vertex ids are checked when cells and faces are read, those of locked edges and
+// faces at once.
 class MemorySource : public IndexedSource {
  public:
   MemorySource(const Schema& schema, const BatchView& mesh);
@@ -19,11 +21,16 @@ class MemorySource : public IndexedSource {
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
   void readCells(uint64_t first, size_t count, int64_t* out) override;
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override;
+  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override;
 
  private:
+  void lockVertices();
+  void lock(const char* what, size_t row, const int64_t* vertices, size_t count);
   Schema schema_;
   std::vector<const void*> fields_, cell_data_;
   BatchView mesh_;
+  Account account_;
+  Array<uint8_t> locked_;  // where edges or faces are locked
 };
 
 }  // namespace tetstream

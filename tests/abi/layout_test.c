@@ -20,7 +20,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_column, name, 0);
   MEMBER(tetstream_column, components, 8);
   MEMBER(tetstream_column, type, 12);
-  CHECK_EQUAL(sizeof(tetstream_stream_info), 96);
+  CHECK_EQUAL(sizeof(tetstream_stream_info), 104);
   MEMBER(tetstream_stream_info, struct_size, 0);
   MEMBER(tetstream_stream_info, position_type, 8);
   MEMBER(tetstream_stream_info, flags, 12);
@@ -35,6 +35,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_stream_info, front_cells, 72);
   MEMBER(tetstream_stream_info, box_min, 80);
   MEMBER(tetstream_stream_info, box_max, 88);
+  MEMBER(tetstream_stream_info, face_count, 96);
   CHECK_EQUAL(sizeof(tetstream_batch), 136);
   MEMBER(tetstream_batch, struct_size, 0);
   MEMBER(tetstream_batch, vertex_count, 8);
@@ -139,6 +140,10 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_front_info, mean_life, 48);
   MEMBER(tetstream_front_info, longest_life, 56);
   MEMBER(tetstream_front_info, window_cells, 64);
+  CHECK_EQUAL(sizeof(tetstream_face_label_info), 24);
+  MEMBER(tetstream_face_label_info, struct_size, 0);
+  MEMBER(tetstream_face_label_info, label, 8);
+  MEMBER(tetstream_face_label_info, faces, 16);
   CHECK_EQUAL(sizeof(tetstream_layout_report), 80);
   MEMBER(tetstream_layout_report, struct_size, 0);
   MEMBER(tetstream_layout_report, order, 8);

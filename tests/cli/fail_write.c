@@ -1,8 +1,10 @@
 /* Loaded before the C library: write number FAIL_WRITE of the process, and every later one to a
- * file, finds no space left. Standard output and error are not counted. */
+ * file, finds no space left. Standard output and error are not counted. Renaming number FAIL_RENAME
+ * is not permitted. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -33,4 +35,14 @@ ssize_t pwrite(int fd, const void* data, size_t size, off_t offset) {
 
 ssize_t pwrite64(int fd, const void* data, size_t size, off64_t offset) {
   return pwrite(fd, data, size, (off_t)offset);
+}
+
+int rename(const char* from, const char* to) {
+  static long calls = 0;
+  const char* number = getenv("FAIL_RENAME");
+  int (*next)(const char*, const char*);
+  *(void**)&next = dlsym(RTLD_NEXT, "rename");
+  if (!number || ++calls != atol(number)) return next(from, to);
+  errno = EPERM;
+  return -1;
 }

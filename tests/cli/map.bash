@@ -31,12 +31,35 @@ rm again.csv again.tets budget.tetmap other.tets
 expect_error 1 "only one" simplify mesh.vtu - --ratio 0.2 --map -
 expect_error 1 "only one" simplify mesh.vtu x.vtu --ratio 0.2 --map - --collapse-log -
 expect_error 1 "two things" simplify mesh.vtu x.csv --ratio 0.2 --map y.csv --collapse-log y.csv
+expect_error 1 "two things" simplify mesh.vtu x.vtu --ratio 0.2 --map y.csv --collapse-log ./y.csv
 expect_error 6 ".tetmap" simplify mesh.vtu x.vtu --ratio 0.2 --map x.txt
 expect_error 6 ".tetlog" simplify mesh.vtu x.vtu --ratio 0.2 --collapse-log x.tetmap
 expect_error 3 "no/such" simplify mesh.vtu x.vtu --ratio 0.2 --map no/such/x.csv
 # A run that fails leaves nothing.
 head -c 20000 mesh.tets >cut.tets
 expect_error 2 "cut.tets" simplify cut.tets x.vtu --ratio 0.2 --map x.csv --collapse-log x.tetlog
+# Nor does one whose last steps fail: of the three files none has a new name, and old ones are as
+# they were.
+if [[ -n ${TETSTREAM_FAIL_WRITE:-} ]]; then
+  mkdir late
+  for old in no yes; do
+    for renaming in 1 2 3; do
+      if [[ $old == yes ]]; then echo precious | tee late/x.vtu late/x.csv >late/x.tetlog; fi
+      code=0
+      ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0 FAIL_RENAME=$renaming \
+        LD_PRELOAD=$TETSTREAM_FAIL_WRITE tetstream simplify mesh.tets late/x.vtu --ratio 0.2 --quiet \
+        --map late/x.csv --collapse-log late/x.tetlog 2>"$logs/err" || code=$?
+      [[ $code == 3 ]] || fail "renaming $renaming fails: exit code $code, not 3"
+      contains "$(<"$logs/err")" "rename into place"
+      if [[ $old == yes ]]; then
+        [[ $(cat late/*) == $'precious\nprecious\nprecious' ]] || fail "an old file was changed"
+        rm late/x.vtu late/x.csv late/x.tetlog
+      fi
+      [[ -z $(ls -A late) ]] || fail "renaming $renaming fails: left: $(ls -A late)"
+    done
+  done
+  rmdir late
+fi
 only_files cut.tets mesh.tets mesh.vtu small.vtu other.vtu small.tetmap small.tetlog small.csv log.csv orders
 
 # What is in them, by a reader of the manual.

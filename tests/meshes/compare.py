@@ -27,7 +27,7 @@ COUNTS = {"euler": "euler_tets", "boundary_euler": "euler_boundary", "components
           "nonmanifold_faces": "nonmanifold_faces", "cells": "tets", "vertices": "points",
           "nonmanifold_edges": "boundary_nonmanifold_edges", "inverted_cells": "inverted",
           "nonmanifold_vertices": "boundary_nonmanifold_vertices", "flat_cells": "zero_volume",
-          "folded_faces": "folded_faces"}
+          "folded_faces": "folded_faces", "duplicate_cells": "duplicate_tets"}
 # Judged by cosines, which tell small angles from each other to about 1e-6 degrees.
 SHAPES = {"least_angle": "min_dihedral_deg", "mean_least_angle": "mean_min_dihedral_deg",
           "median_aspect": "median_aspect", "p99_aspect": "p99_aspect"}

@@ -298,6 +298,20 @@ void Recorder::use(int64_t vertex) {
   last_use_[v] = cell;
 }
 
+void Recorder::takeFaces(const BatchView& batch) {
+  for (size_t i = 0; i < batch.face_count; ++i) {
+    const int64_t* v = batch.faces + 3 * i;
+    Face face = {v[0], v[1], v[2]};
+    std::sort(face.begin(), face.end());
+    if (face[0] < 0 || static_cast<size_t>(face[2]) >= mesh.vertexCount())
+      return wrong("a labelled face has a vertex that was not declared");
+    for (int64_t corner : face)
+      if (final_at_[static_cast<size_t>(corner)] >= 0)
+        wrong("a labelled face has a vertex that was final in a batch before");
+    if (!faces.emplace(face, batch.face_labels[i]).second) wrong("a labelled face came twice");
+  }
+}
+
 void Recorder::put(const BatchView& batch) {
   ++batches;
   if (finished) wrong("a batch came after the end");
@@ -309,6 +323,7 @@ void Recorder::put(const BatchView& batch) {
   for (size_t i = 0; i < batch.vertex_count; ++i)
     mesh.locked.push_back(batch.locked ? batch.locked[i] : 0);
   for (auto* list : {&first_use_, &last_use_, &final_at_}) list->resize(mesh.vertexCount(), -1);
+  takeFaces(batch);
   const auto finalize = [this](int64_t v) {
     if (v < 0 || static_cast<size_t>(v) >= mesh.vertexCount())
       return wrong("a vertex is finalized that was not declared");
@@ -353,6 +368,10 @@ std::vector<unsigned char> Recorder::allBytes() const {
   add(mesh.cells.data(), mesh.cells.size() * sizeof(int64_t));
   for (const Rows& rows : mesh.cell_data) add(rows.bytes.data(), rows.bytes.size());
   add(mesh.locked.data(), mesh.locked.size());
+  for (const auto& [face, label] : faces) {
+    add(face.data(), sizeof face);
+    add(&label, sizeof label);
+  }
   add(final_at_.data(), final_at_.size() * sizeof(int64_t));
   return all;
 }

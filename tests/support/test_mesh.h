@@ -2,8 +2,10 @@
 // a stream back into it.
 #pragma once
 
+#include <array>
 #include <cstring>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -93,8 +95,11 @@ class MeshStream final : public Source {
   bool gave_empty_ = true, started_ = false;
 };
 
+using Face = std::array<int64_t, 3>;  // rising
+
 // Takes a stream and checks, as a strict consumer would, that it is one: ranks follow each other,
-// references are to active vertices. What is wrong with it is said in `problem`, "" if nothing is.
+// references are to active vertices, a labelled face comes once and before its vertices' last uses
+// are over. What is wrong with it is said in `problem`, "" if nothing is.
 class Recorder final : public Sink {
  public:
   void begin(const Schema& schema) override;
@@ -102,6 +107,7 @@ class Recorder final : public Sink {
   void finish() override;
 
   TestMesh mesh;
+  std::map<Face, int64_t> faces;  // with their labels
   std::string problem;
   bool finished = false;
   size_t batches = 0;
@@ -115,6 +121,7 @@ class Recorder final : public Sink {
     if (problem.empty()) problem = what;
   }
   void use(int64_t vertex);
+  void takeFaces(const BatchView& batch);
   std::vector<int64_t> first_use_, last_use_, final_at_;  // cell numbers; -1: not yet
 };
 

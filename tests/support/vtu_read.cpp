@@ -16,7 +16,8 @@ bool VtuMesh::operator==(const VtuMesh& other) const {
   return schema.position_type == other.schema.position_type &&
          same(schema.fields, other.schema.fields) &&
          same(schema.cell_data, other.schema.cell_data) && positions == other.positions &&
-         cells == other.cells && fields == other.fields && cell_data == other.cell_data;
+         cells == other.cells && fields == other.fields && cell_data == other.cell_data &&
+         faces == other.faces && face_labels == other.face_labels;
 }
 
 template <class Read>
@@ -55,6 +56,12 @@ VtuMesh readVtu(const std::string& file, size_t step) {
     mesh.cell_data.push_back(
         readRows(s.cell_count, s.cell_data[c].bytesPerRow(), step,
                  [&](uint64_t i, size_t n, void* to) { source.readCellData(c, i, n, to); }));
+  for (uint64_t at = 0, all = static_cast<uint64_t>(s.face_count); at < all; at += step) {
+    const size_t n = static_cast<size_t>(std::min<uint64_t>(step, all - at));
+    mesh.faces.resize(3 * (at + n));
+    mesh.face_labels.resize(at + n);
+    source.readFaces(at, n, mesh.faces.data() + 3 * at, mesh.face_labels.data() + at);
+  }
   return mesh;
 }
 

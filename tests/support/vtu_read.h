@@ -14,6 +14,7 @@ struct VtuMesh {
   std::string positions;  // bytes, as they are given out
   std::vector<int64_t> cells;
   std::vector<std::string> fields, cell_data;
+  std::vector<int64_t> faces, face_labels;
   std::vector<std::string> notes;
   bool operator==(const VtuMesh& other) const;  // but for the notes
 };

@@ -2,7 +2,6 @@
 // complete, and none left behind.
 #include "bytes.h"
 
-#include <dirent.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
@@ -11,55 +10,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
-#include <set>
 #include <thread>
 
+#include "folder.h"
 #include "status.h"
 
 namespace tetstream::test {
 namespace {
-
-// A folder of its own, gone with the test.
-class Folder {
- public:
-  Folder() {
-    std::string name = ::testing::TempDir() + "tetstream-bytes.XXXXXX";
-    if (!::mkdtemp(name.data())) std::abort();
-    path = name;
-  }
-  ~Folder() {
-    for (const std::string& name : names()) ::unlink((path + "/" + name).c_str());
-    ::rmdir(path.c_str());
-  }
-  std::set<std::string> names() const {
-    std::set<std::string> found;
-    DIR* dir = ::opendir(path.c_str());
-    while (const dirent* entry = ::readdir(dir))
-      if (entry->d_name[0] != '.') found.insert(entry->d_name);
-    ::closedir(dir);
-    return found;
-  }
-  std::string file(const std::string& name) const { return path + "/" + name; }
-  std::string path;
-};
-
-using Names = std::set<std::string>;
-
-std::string contents(ByteSource& source) {
-  std::string all;
-  char block[7];
-  while (const size_t got = source.read(block, sizeof block)) all.append(block, got);
-  return all;
-}
-std::string contents(const std::string& path) {
-  return contents(*openFile(path));
-}
-
-void writeFile(const std::string& path, const std::string& text) {
-  const auto sink = createFile(path);
-  sink->write(text.data(), text.size());
-  sink->commit();
-}
 
 std::pair<Status, std::string> thrownBy(const std::function<void()>& action) {
   try {

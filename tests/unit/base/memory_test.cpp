@@ -94,6 +94,34 @@ TEST(Array, StaysAsItIsWhereItCannotGrow) {
   EXPECT_EQ(account.used(), 1000u);
 }
 
+TEST(GrowArray, TakesASmallStepWhereABudgetAllowsNoLargeOne) {
+  Account account(1200);
+  Array<char> array(account, 1000);
+  const auto grow = [&](size_t more) {
+    growArray(array.size(), more, [&](size_t size) { array.resize(size); });
+  };
+  grow(100);
+  EXPECT_EQ(array.size(), 1100u);
+  grow(800);  // 51 are left to be had
+  EXPECT_EQ(array.size(), 1151u);
+  grow(1);
+  EXPECT_EQ(array.size(), 1152u);
+  EXPECT_EQ(statusOf([&] { grow(800); }), Status::kNoMemory);
+  EXPECT_EQ(array.size(), 1152u);
+  EXPECT_EQ(statusOf([&] { growArray(kMost, 5, [](size_t) {}); }), Status::kNoMemory);
+}
+
+// What stops a run for another reason is no matter of memory.
+TEST(GrowArray, PassesOtherErrorsOn) {
+  int calls = 0;
+  const auto refuse = [&](size_t) {
+    ++calls;
+    fail(Status::kBadData, "no");
+  };
+  EXPECT_EQ(statusOf([&] { growArray(10, 5, refuse); }), Status::kBadData);
+  EXPECT_EQ(calls, 1);
+}
+
 // More than any machine has: the system's refusal, not the account's. Checkers take such a size for
 // a mistake.
 #ifndef __SANITIZE_ADDRESS__

@@ -141,7 +141,7 @@ TEST(VtuWriter, SaysOnceWhatItDrops) {
   sink->begin(Schema());
   const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   const uint8_t locked[4] = {0, 0, 1, 0};
-  const int64_t cells[4] = {0, 1, 2, 3}, faces[3] = {0, 1, 2}, labels[1] = {5};
+  const int64_t cells[4] = {0, 1, 2, 3};
   BatchView batch;
   batch.vertex_count = 4;
   batch.positions = positions;
@@ -150,16 +150,12 @@ TEST(VtuWriter, SaysOnceWhatItDrops) {
   BatchView second;
   second.cell_count = 1;
   second.cells = cells;
-  second.face_count = 1;
-  second.faces = faces;
-  second.face_labels = labels;
   sink->put(second);
   batch.first_vertex = 4;
   sink->put(batch);
   sink->finish();
-  ASSERT_EQ(notes.size(), 2u);
+  ASSERT_EQ(notes.size(), 1u);
   EXPECT_NE(notes[0].find("locks"), std::string::npos);
-  EXPECT_NE(notes[1].find("faces"), std::string::npos);
   const VtuMesh read = readVtu(std::string(out.begin(), out.end()));
   EXPECT_EQ(read.schema.vertex_count, 8);  // the last four are used by no cell
   EXPECT_EQ(read.cells, (std::vector<int64_t>{0, 1, 2, 3}));

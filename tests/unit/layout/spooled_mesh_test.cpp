@@ -94,15 +94,55 @@ TEST(SpooledMesh, PutsBatchesTogetherWithTheirLocks) {
   for (size_t v = 0; v < mesh.vertexCount(); ++v) EXPECT_EQ(spooled.locked()[v], v == 3);
 }
 
-TEST(SpooledMesh, RefusesFaces) {
+// Faces keep their labels; what is locked of them, and edges, lock their vertices, also those of
+// batches before.
+TEST(SpooledMesh, KeepsFacesAndLocks) {
   TestMesh mesh = oneCell();
+  mesh.locked.clear();
   SpooledMesh spooled(mesh.schema, "");
   BatchView batch = mesh.view();
-  const int64_t face[3] = {0, 1, 2}, label = 5;
+  const int64_t faces[6] = {0, 1, 2, 2, 1, 3}, labels[2] = {5, -6}, edge[2] = {3, 0};
+  const uint8_t none[2] = {0, 0}, second[2] = {0, 1};
   batch.face_count = 1;
-  batch.faces = face;
-  batch.face_labels = &label;
-  EXPECT_THROW(spooled.put(batch), Error);
+  batch.faces = faces;
+  batch.face_labels = labels;
+  batch.face_locks = none;
+  spooled.put(batch);
+  BatchView late;
+  late.first_vertex = mesh.vertexCount();
+  late.face_count = 1;
+  late.faces = faces + 3;
+  late.face_labels = labels + 1;
+  late.face_locks = second + 1;
+  spooled.put(late);
+  late.face_count = 0;
+  late.edge_count = 1;
+  late.locked_edges = edge;
+  const int64_t unknown[2] = {0, 4};
+  BatchView bad = late;
+  bad.locked_edges = unknown;
+  SpooledMesh other(mesh.schema, "");
+  EXPECT_THROW(other.put(bad), Error);
+  {
+    SpooledMesh faces_only(mesh.schema, "");
+    BatchView all = mesh.view();
+    all.face_count = 2;
+    all.faces = faces;
+    all.face_labels = labels;
+    all.face_locks = second;
+    faces_only.put(all);
+    faces_only.finish();
+    ASSERT_NE(faces_only.locked(), nullptr);
+    for (size_t v = 0; v < 4; ++v) EXPECT_EQ(faces_only.locked()[v], v != 0);
+  }
+  spooled.put(late);
+  spooled.finish();
+  EXPECT_EQ(spooled.schema().face_count, 2);
+  int64_t corners[6], values[2];
+  spooled.readFaces(0, 2, corners, values);
+  EXPECT_TRUE(std::equal(corners, corners + 6, faces));
+  EXPECT_TRUE(std::equal(values, values + 2, labels));
+  for (size_t v = 0; v < 4; ++v) EXPECT_TRUE(spooled.locked()[v]);
 }
 
 }  // namespace

@@ -82,6 +82,22 @@ TEST(FaceFront, KnowsWhatIsNoMesh) {
   EXPECT_EQ(scan(inStreamOrder(fine, true)).topology.vertices, 5);  // the unused one counts not
 }
 
+// Cells that come twice, in whatever order of their corners, and once more, wherever they come.
+TEST(FaceFront, CountsDuplicateCells) {
+  TestMesh mesh = fullGrid(3, 3, 3);
+  EXPECT_EQ(scan(mesh).topology.duplicate_cells, 0);
+  const size_t count = mesh.cellCount();
+  for (size_t c : {size_t{0}, count / 2, count - 1}) {
+    const int64_t* v = mesh.cells.data() + 4 * c;
+    mesh.cells.insert(mesh.cells.end(), {v[2], v[0], v[3], v[1]});
+  }
+  EXPECT_EQ(scan(inStreamOrder(mesh)).topology.duplicate_cells, 3);
+  EXPECT_EQ(scan(inStreamOrder(shuffled(mesh, 5))).topology.duplicate_cells, 3);
+  const int64_t* v = mesh.cells.data();
+  mesh.cells.insert(mesh.cells.end(), {v[0], v[1], v[2], v[3]});
+  EXPECT_EQ(scan(inStreamOrder(mesh)).topology.duplicate_cells, 4);
+}
+
 TEST(FaceFront, TakesTheMemoryOfTheFront) {
   const size_t small = scan(fullGrid(4, 4, 50)).peak, large = scan(fullGrid(4, 4, 500)).peak;
   EXPECT_LT(large, small + (small >> 2));

@@ -70,6 +70,19 @@ TEST(QueuedEdges, KeepWhatIsUpToDateAndNoMoreWhereRoomIsNeeded) {
   for (auto [u, times] : found) EXPECT_EQ(times, 1) << u;
 }
 
+// 256 edges fit, half as many more and 256 do not: under that budget it grows by less.
+TEST(QueuedEdges, FillTheirBudgetWhereTheyNeedIt) {
+  Account account(400 * sizeof(QueuedEdge));
+  QueuedEdges edges(account);
+  const auto push = [&](uint32_t n) { edges.push({static_cast<float>(n), n, n + 1, 0}, kAll); };
+  for (uint32_t n = 0; n < 300; ++n) push(n);
+  edges.wait(edges.pop());
+  for (uint32_t n = 300; n < 370; ++n) push(n);
+  EXPECT_EQ(popped(edges).size(), 369u);
+  edges.wakeAll();
+  EXPECT_EQ(popped(edges), (std::vector<float>{0}));
+}
+
 TEST(QueuedEdges, ThatWaitComeAgainOnceTheyAreWoken) {
   Account account;
   QueuedEdges edges(account);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "vector3.h"
 #include "window_testing.h"
@@ -129,6 +130,40 @@ TEST(Reshape, KeepsRegionsApart) {
   double change = 0;  // where labels are no regions the flips cross them
   for (auto [label, volume] : volumes(without)) change += std::fabs(volume - before.at(label));
   EXPECT_GT(change, 0.01);
+}
+
+using Edges = std::set<std::pair<uint32_t, uint32_t>>;
+
+Edges edgesOf(const Squeezed& s) {
+  Edges edges;
+  for (uint32_t c = 0; c < s.patch.cellEnd(); ++c) {
+    if (!s.patch.isLive(c)) continue;
+    for (uint32_t i = 0; i < 4; ++i)
+      for (uint32_t j = 0; j < 4; ++j)
+        if (s.patch.vertexOf(c, i) < s.patch.vertexOf(c, j))
+          edges.emplace(s.patch.vertexOf(c, i), s.patch.vertexOf(c, j));
+  }
+  return edges;
+}
+
+// Of the edges that flips do away with, those stay whose ends the caller locked.
+TEST(Reshape, KeepsLockedEdges) {
+  Squeezed free;
+  const Edges before = edgesOf(free);
+  ASSERT_TRUE(free.reshaper.reshape(0, 1 << 30));
+  const Edges after = edgesOf(free);
+  Squeezed locked;
+  Edges kept;
+  for (const auto& edge : before) {
+    if (after.count(edge)) continue;
+    kept.insert(edge);
+    for (uint32_t v : {edge.first, edge.second})
+      locked.core.window.mesh.flagVertex(locked.patch.slotOf(v), kLocked | kCallerLocked);
+  }
+  ASSERT_GT(kept.size(), 10u);
+  ASSERT_TRUE(locked.reshaper.reshape(0, 1 << 30));
+  const Edges left = edgesOf(locked);
+  for (const auto& edge : kept) EXPECT_TRUE(left.count(edge));
 }
 
 // What it is told suffices to follow every cell.

@@ -1,0 +1,32 @@
+#include "joint_files.h"
+
+#include "status.h"
+
+namespace tetstream {
+
+// The last rename needs no way back.
+void JointFiles::prepare() {
+  for (size_t i = 0; i < files_.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (files_[i]->target() == files_[j]->target())
+        fail(Status::kBadArgument, "%s: two things cannot be written there",
+             files_[i]->path().c_str());
+  for (const auto& file : files_) file->sync();
+  for (size_t i = 0; i + 1 < files_.size(); ++i) files_[i]->keepOld();
+}
+
+void JointFiles::commit() {
+  size_t renamed = 0;
+  try {
+    if (files_.size() > 1) prepare();
+    for (const auto& file : files_) file->close();
+    for (; renamed < files_.size(); ++renamed) files_[renamed]->rename();
+  } catch (...) {
+    while (renamed-- > 0) files_[renamed]->undo();
+    forget();
+    throw;
+  }
+  forget();
+}
+
+}  // namespace tetstream

@@ -1,0 +1,29 @@
+// base: files that get their names together: all of one run's or none. Depends on
+// named_temporary.h.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "named_temporary.h"
+
+namespace tetstream {
+
+class JointFiles {
+ public:
+  // A file that is written, but not closed.
+  void add(std::unique_ptr<NamedTemporary> file) { files_.push_back(std::move(file)); }
+
+  // A single file is closed and renamed. Of several, all are on the disk before the first one is
+  // renamed, and where one cannot be, the names before it are again what they were. Throws kIo, and
+  // kBadArgument for two of the same name; none has its name then.
+  void commit();
+  void forget() noexcept { files_.clear(); }
+
+ private:
+  void prepare();
+
+  std::vector<std::unique_ptr<NamedTemporary>> files_;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,122 @@
+// What of an indexed mesh is left out of its stream or refused, and how far its ordering is.
+#include <functional>
+#include <limits>
+
+#include "ordered_testing.h"
+#include "status.h"
+
+namespace tetstream::test {
+namespace {
+
+// Points that no cell uses are left out: of the stream, of its counts and of its box, whatever
+// values they have.
+TEST(OrderedSource, LeavesUnusedPointsOut) {
+  TestMesh mesh = makeMesh(ScalarType::kFloat64,
+                           {-50, 0, 0, 0, 0, 0, 1, 0, 0, 0, 90, 0, 0, 1, 0, 0, 0, 1}, {1, 2, 4, 5});
+  mesh = withColumns(mesh);
+  for (bool spooled : {false, true}) {
+    const Ordered result = ordered(mesh, "auto", spooled);
+    EXPECT_EQ(result.unused, 2);
+    EXPECT_EQ(result.out.mesh.vertexCount(), 4u);
+    expectSameMesh(mesh, result.out.mesh);
+    expectTruthful(result.schema, result.out.mesh, result.front);
+  }
+}
+
+// What an unused point holds must not reach the sweep, NaN least of all.
+TEST(OrderedSource, IsNotDisturbedByUnusedPoints) {
+  const TestMesh mesh = fullGrid(3, 3, 12);
+  const Ordered plain = ordered(mesh, "auto", false);
+  for (double value : {0.0, 1e300, std::numeric_limits<double>::quiet_NaN()}) {
+    // An unused point before each used one.
+    std::vector<double> points;
+    std::vector<int64_t> cells;
+    for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+      points.insert(points.end(), {value, value, value});
+      for (int axis = 0; axis < 3; ++axis) points.push_back(mesh.position(v, axis));
+    }
+    for (int64_t corner : mesh.cells) cells.push_back(2 * corner + 1);
+    const Ordered result = ordered(makeMesh(ScalarType::kFloat64, points, cells), "auto", true);
+    EXPECT_EQ(result.schema.front_cells, plain.schema.front_cells) << value;
+    EXPECT_EQ(result.schema.box_max, plain.schema.box_max) << value;
+    EXPECT_TRUE(result.out.mesh.cells == plain.out.mesh.cells) << value;
+  }
+}
+
+TEST(OrderedSource, TakesMeshesWithoutCellsOrPoints) {
+  const TestMesh none = makeMesh(ScalarType::kFloat32, {}, {});
+  const TestMesh points = makeMesh(ScalarType::kFloat32, {0, 0, 0, 1, 2, 3}, {});
+  for (bool spooled : {false, true}) {
+    EXPECT_EQ(ordered(none, "auto", spooled).out.batches, 0u);
+    const Ordered result = ordered(points, "auto", spooled);
+    EXPECT_EQ(result.unused, 2);
+    EXPECT_EQ(result.schema.vertex_count, 0);
+  }
+}
+
+std::string refusalOf(const std::function<void(TestMesh&)>& damage, bool spooled, Status wanted,
+                      const std::string& axis = "auto") {
+  TestMesh mesh = withColumns(fullGrid(2, 2, 2));
+  damage(mesh);
+  try {
+    ordered(mesh, axis, spooled);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), wanted);
+    return error.text();
+  }
+  return "";
+}
+
+TEST(OrderedSource, NamesBadIds) {
+  for (bool spooled : {false, true})
+    for (int64_t bad : {int64_t{27}, int64_t{-1}, int64_t{1} << 32, int64_t{1} << 62}) {
+      const std::string text =
+          refusalOf([bad](TestMesh& m) { m.cells[4 * 5 + 2] = bad; }, spooled, Status::kBadData);
+      EXPECT_NE(text.find("cell 5"), std::string::npos) << text;
+      EXPECT_NE(text.find(std::to_string(bad)), std::string::npos) << text;
+    }
+}
+
+TEST(OrderedSource, NamesValuesThatAreNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (bool spooled : {false, true}) {
+    EXPECT_NE(refusalOf([nan](TestMesh& m) { m.setField(2, 7, nan, 8); }, spooled, Status::kBadData)
+                  .find("point 7: its t"),
+              std::string::npos);
+    EXPECT_NE(refusalOf(
+                  [nan](TestMesh& m) {
+                    std::memcpy(m.positions.bytes.data() + (3 * 9 + 1) * 8, &nan, 8);
+                  },
+                  spooled, Status::kBadData)
+                  .find("point 9: its position"),
+              std::string::npos);
+  }
+}
+
+TEST(OrderedSource, RefusesAxesThatThereAreNot) {
+  EXPECT_NE(refusalOf([](TestMesh&) {}, false, Status::kBadArgument, "w").find("\"w\""),
+            std::string::npos);
+  EXPECT_NE(refusalOf([](TestMesh&) {}, false, Status::kBadArgument, "xy"), "");
+}
+
+TEST(OrderedSource, TellsHowFarItIsAndCanBeStopped) {
+  TestMesh mesh = withColumns(fullGrid(2, 2, 2));
+  MemorySource memory(mesh.schema, mesh.view());
+  OrderOptions options;
+  std::vector<double> told;
+  options.tell = [&](double fraction) { told.push_back(fraction); };
+  OrderedSource whole(memory, options);
+  ASSERT_GT(told.size(), 3u);
+  for (size_t i = 1; i < told.size(); ++i) EXPECT_GE(told[i], told[i - 1]);
+  EXPECT_LE(told.back(), 1);
+  for (size_t stop = 0; stop < told.size(); ++stop) {
+    size_t calls = 0;
+    options.tell = [&](double) {
+      if (calls++ == stop) fail(Status::kCancelled, "enough");
+    };
+    EXPECT_THROW(OrderedSource(memory, options), Error);
+  }
+}
+
+}  // namespace
+}  // namespace tetstream::test

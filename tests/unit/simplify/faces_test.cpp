@@ -1,0 +1,250 @@
+// Labels of faces, with the curves between them, and locked faces and edges.
+#include "faces.h"
+
+#include <set>
+
+#include "ways_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+// A grid of n^3 cubes whose sides are labelled.
+struct Labelled {
+  explicit Labelled(int cubes)
+      : n{cubes, cubes, cubes},
+        mesh(inStreamOrder(shakenInside(cubes))),
+        labels(sidesOf(mesh, n)) {}
+  Labelled only(int64_t side) const {
+    Labelled some = *this;
+    std::erase_if(some.labels, [side](const auto& face) { return face.second != side; });
+    return some;
+  }
+  int n[3];
+  TestMesh mesh;
+  FaceLabels labels;
+};
+
+struct Faced {
+  Recorder out;
+  Report report;
+};
+
+Faced simplified(const Labelled& in, const SimplifyOptions& options, size_t batch_cells) {
+  Cut cut;
+  cut.batch_cells = batch_cells;
+  Faced result;
+  Simplifier simplifier(options, result.out, {});
+  FacedStream stream(in.mesh, cut, in.labels);
+  copyStream(stream, simplifier);
+  result.report = simplifier.report();
+  EXPECT_EQ(result.out.problem, "");
+  return result;
+}
+
+// The cells are all of one region: what comes out is labelled by its side, all of it is, and no
+// side has grown or shrunk.
+void expectLabelsKept(int64_t window, const Way& way, size_t batch_cells) {
+  const Labelled in(slowRun() ? 4 : 6);
+  const Faced result = simplified(in, way.toRatio(0.25, window), batch_cells);
+  expectFlips(result.report, way);
+  EXPECT_EQ(result.report.limited_by, "");
+  const FaceLabels& labels = result.out.faces;
+  std::set<int64_t> sides;
+  for (const auto& [face, cells] : facesOf(result.out.mesh.cells)) {
+    const auto found = labels.find(face);
+    EXPECT_EQ(found != labels.end(), cells == 1);
+    if (found == labels.end()) continue;
+    sides.insert(found->second);
+    EXPECT_EQ(found->second, sideOf(result.out.mesh, face, in.n, 1e-3));
+  }
+  EXPECT_EQ(sides.size(), 6u);
+  EXPECT_LT(labels.size(), in.labels.size());
+}
+TEST(SimplifierFaces, KeepTheirLabels) {
+  for (const Way& way : kWays)
+    for (int64_t window : {0, 700})
+      for (size_t batch : {size_t{64}, size_t{4096}}) expectLabelsKept(window, way, batch);
+}
+
+// Of one side only, so that the labels of the last one come when much of the mesh is gone already.
+// Whether they come with their cells or long before makes no difference, also where other curves,
+// those of an interface, are there from the beginning.
+TEST(SimplifierFaces, GiveTheSameBytesWhateverTheBatches) {
+  Labelled all(6);
+  all.mesh.addIntegerCellData("region", [&all](size_t cell) {
+    double sum = 0;
+    for (size_t j = 0; j < 4; ++j)
+      sum += all.mesh.position(static_cast<size_t>(all.mesh.cells[4 * cell + j]), 1);
+    return sum < 12 ? 1 : 2;
+  });
+  for (int64_t side : {2, 4, 6}) {
+    const Labelled in = all.only(side);
+    const auto bytes = [&](size_t batch_cells) {
+      return simplified(in, toRatio(0.25, 700), batch_cells).out.allBytes();
+    };
+    const std::vector<unsigned char> first = bytes(100000);
+    for (size_t batch_cells : {7, 64, 1000}) EXPECT_TRUE(bytes(batch_cells) == first) << side;
+  }
+}
+
+// The status and the sentence of a stream whose batches of `batch_cells` cells are changed on their
+// way: change(number, batch).
+template <class Change>
+std::pair<Status, std::string> refusal(const TestMesh& mesh, size_t batch_cells, Change change) {
+  return thrownBy([&] {
+    Recorder out;
+    Cut cut;
+    cut.batch_cells = batch_cells;
+    MeshStream stream(mesh, cut);
+    Simplifier simplifier(toRatio(0.3, 64), out, {});
+    simplifier.begin(stream.schema());
+    BatchView batch;
+    for (int number = 0; stream.next(batch); ++number) {
+      change(number, batch);
+      simplifier.put(batch);
+    }
+    simplifier.finish();
+  });
+}
+
+void expectStrange(const std::pair<Status, std::string>& refused, const char* words) {
+  EXPECT_EQ(refused.first, Status::kBadData);
+  EXPECT_NE(refused.second.find(words), std::string::npos) << refused.second;
+}
+
+// Also where the vertices are gone from the window long before the end.
+TEST(SimplifierFaces, OfNoCellAreRefused) {
+  const TestMesh mesh = inStreamOrder(fullGrid(4, 4, 12));
+  for (size_t batch_cells : {size_t{64}, mesh.cellCount()})
+    for (int64_t far : {int64_t{16}, int64_t{24}}) {
+      const int64_t stray[3] = {0, 1, far}, label = 7;
+      ASSERT_FALSE(facesOf(mesh.cells).count({stray[0], stray[1], stray[2]}));
+      expectStrange(refusal(mesh, batch_cells,
+                            [&](int number, BatchView& batch) {
+                              if (number > 0) return;
+                              ASSERT_GT(batch.vertex_count, static_cast<size_t>(far));
+                              batch.face_count = 1;
+                              batch.faces = stray;
+                              batch.face_labels = &label;
+                            }),
+                    "1 labelled faces are faces of no cell, or came twice");
+    }
+  const int64_t unknown[3] = {0, 1, static_cast<int64_t>(mesh.vertexCount())}, label = 7;
+  expectStrange(refusal(mesh, mesh.cellCount(),
+                        [&](int, BatchView& batch) {
+                          batch.face_count = 1;
+                          batch.faces = unknown;
+                          batch.face_labels = &label;
+                        }),
+                "not declared");
+}
+
+// In one batch, and in two of which the second comes when the first one's label has its place.
+TEST(SimplifierFaces, ThatComeTwiceAreRefused) {
+  const TestMesh mesh = inStreamOrder(fullGrid(4, 4, 12));
+  const int64_t* c = mesh.cells.data();
+  const int64_t twice[6] = {c[0], c[1], c[2], c[2], c[0], c[1]}, labels[2] = {7, 7};
+  expectStrange(refusal(mesh, 64,
+                        [&](int number, BatchView& batch) {
+                          if (number > 0) return;
+                          batch.face_count = 2;
+                          batch.faces = twice;
+                          batch.face_labels = labels;
+                        }),
+                "1 labelled faces");
+  // The last face of all whose vertices are alive to the end: every batch may bring it again.
+  Face last{};
+  for (const auto& [face, cells] : facesOf(mesh.cells)) last = std::max(last, face);
+  expectStrange(refusal(mesh, 1,
+                        [&](int number, BatchView& batch) {
+                          const auto cells = static_cast<int>(mesh.cellCount());
+                          if (number < cells - 2) return;
+                          batch.face_count = 1;
+                          batch.faces = last.data();
+                          batch.face_labels = labels;
+                        }),
+                "labelled face");
+}
+
+TEST(SimplifierFaces, AreAsManyAsAnnounced) {
+  Labelled in(2);
+  FacedMesh faced(in.mesh, in.labels);
+  for (int64_t more : {0, 1}) {
+    faced.mesh.schema.face_count = static_cast<int64_t>(in.labels.size()) + more;
+    const auto [status, text] = thrownBy([&] {
+      Recorder out;
+      Simplifier simplifier(toRatio(0.5), out, {});
+      simplifier.begin(faced.mesh.schema);
+      simplifier.put(faced.view());
+      simplifier.finish();
+    });
+    EXPECT_EQ(status, more ? Status::kBadData : Status::kOk) << text;
+  }
+}
+
+// A budget bounds what curves and labels take, too, and leaves enough for the target: the window is
+// smaller for them.
+TEST(SimplifierFaces, AndRidgesFitTheMemory) {
+  Labelled in(16), bare = in;
+  bare.labels.clear();
+  in.mesh.schema.face_count = static_cast<int64_t>(in.labels.size());
+  SimplifyOptions options = toRatio(0.2);
+  options.memory_bytes = 1200 << 10;
+  int64_t before = simplified(bare, options, 4096).report.window_cells;
+  EXPECT_LT(before, static_cast<int64_t>(in.mesh.cellCount()));
+  options.feature_angle = 45;
+  for (const Labelled& more : {bare, in}) {
+    const Report report = simplified(more, options, 4096).report;
+    EXPECT_LE(report.peak_window_bytes, static_cast<size_t>(options.memory_bytes));
+    EXPECT_LT(report.window_cells, before);
+    EXPECT_EQ(report.limited_by, "");
+    before = report.window_cells;
+  }
+}
+
+std::set<std::pair<Place, Place>> edgesOf(const TestMesh& mesh) {
+  std::set<std::pair<Place, Place>> edges;
+  for (size_t c = 0; c < mesh.cellCount(); ++c)
+    for (size_t i = 0; i < 4; ++i)
+      for (size_t j = 0; j < 4; ++j)
+        edges.emplace(placeOf(mesh, mesh.cells[4 * c + i]), placeOf(mesh, mesh.cells[4 * c + j]));
+  return edges;
+}
+
+// Faces of one side, and edges inside, are locked: they are where they were.
+TEST(SimplifierLocks, KeepFacesAndEdges) {
+  const int n[3] = {5, 5, 5};
+  const TestMesh mesh = shakenInside(5);
+  FaceLabels low;
+  for (const auto& [face, cells] : facesOf(mesh.cells))
+    if (cells == 1 && sideOf(mesh, face, n) == 5) low[face] = 4;
+  EXPECT_EQ(low.size(), 50u);
+  FacedMesh faced(mesh, low);
+  faced.locks.assign(low.size(), 1);
+  std::vector<int64_t> edges;
+  for (size_t c = 0; c < mesh.cellCount(); c += 25)
+    edges.insert(edges.end(), {mesh.cells[4 * c], mesh.cells[4 * c + 1]});
+  BatchView batch = faced.view();
+  batch.edge_count = edges.size() / 2;
+  batch.locked_edges = edges.data();
+  for (const Way& way : kWays) {
+    Recorder out;
+    Simplifier simplifier(way.toRatio(0.3), out, {});
+    simplifier.begin(mesh.schema);
+    simplifier.put(batch);
+    simplifier.finish();
+    EXPECT_EQ(out.faces.size(), low.size());
+    std::set<Place> left;
+    for (size_t v = 0; v < out.mesh.vertexCount(); ++v)
+      left.insert(placeOf(out.mesh, static_cast<int64_t>(v)));
+    for (int64_t v : faced.corners) EXPECT_TRUE(left.count(placeOf(mesh, v)));
+    const auto edges_left = edgesOf(out.mesh);
+    for (size_t i = 0; i < edges.size(); i += 2)
+      EXPECT_TRUE(edges_left.count({placeOf(mesh, edges[i]), placeOf(mesh, edges[i + 1])})) << i;
+    EXPECT_GT(simplifier.report().collapses, 50);
+    expectFlips(simplifier.report(), way);
+  }
+}
+
+}  // namespace
+}  // namespace tetstream::test
