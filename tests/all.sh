@@ -59,10 +59,11 @@ configure_sanitize() {
     -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 -DCMAKE_CXX_FLAGS=-w "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1"
 }
 
-# What is compiled of the library and the command, as the build itself lists it.
+# What is compiled of the library, the command and the bindings, as the build itself lists it; but
+# not what SWIG writes.
 compiled() {
   sed -n 's/^  "file": "\(.*\)",\?$/\1/p' build/sanitize/compile_commands.json |
-    grep -E "^$PWD/(build/sanitize/)?(lib|bindings)/.*\.(cpp|cxx)$"
+    grep -E "^$PWD/(build/sanitize/)?(lib|bindings)/.*\.(cpp|cxx)$" | grep -v '_wrap\.cxx$'
 }
 
 stage_lint() {
@@ -94,8 +95,8 @@ stage_full() {
 
 echo "== packages"
 bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev liblz4-dev \
-  liblzma-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy valgrind mandoc \
-  python3 || exit 1
+  liblzma-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy \
+  valgrind mandoc python3 python3-dev python3-numpy swig || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"
   begin=$SECONDS

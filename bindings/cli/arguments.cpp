@@ -139,6 +139,8 @@ void Parser::addOut(CLI::App* command) {
   addProperty("--compress", "compress", "yes|no", "Compress OUT (tets, vtu)");
   addProperty("--vertex-order", "order", "pre|post",
               "Vertices before or after their cells (sva, svb)");
+  addProperty("--encoding", "encoding", "binary|text", "Numbers of OUT (msh)");
+  addProperty("--msh-version", "version", "4.1|2.2", "Version of OUT's format (msh)");
 }
 
 void Parser::addFormat(CLI::App* command) {
@@ -167,6 +169,12 @@ void Parser::addTraces(CLI::App* command) {
 
 void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
   const std::string name = info.name;
+  if (info.id == TETSTREAM_OPTION_SPLIT) {
+    command->add_flag_callback(
+        "--" + name, [this, name] { arguments_.options.values.emplace_back(name, "yes"); },
+        info.text);
+    return;
+  }
   command
       ->add_option_function<std::string>(
           "--" + name,
@@ -181,7 +189,8 @@ void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info
 void Parser::addStreamOptions(CLI::App* command) {
   for (const tetstream_option_info& info : optionTable())
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
-        info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER)
+        info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
+        info.id == TETSTREAM_OPTION_SPLIT)
       addTableOption(command, info);
 }
 
@@ -316,7 +325,8 @@ void Parser::addCompare() {
     }
     if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
         info.id == TETSTREAM_OPTION_SEED || info.id == TETSTREAM_OPTION_REGIONS ||
-        info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR)
+        info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
+        info.id == TETSTREAM_OPTION_SPLIT)
       addTableOption(command, info);
   }
   addReport(command);

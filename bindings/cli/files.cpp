@@ -81,24 +81,16 @@ static const char* formatOf(const Place& place) {
   return place.isStandard() ? kStandardFormat : nullptr;
 }
 
-// The library asks the environment where no option reaches: when a reader opens.
-static void passTemporaryFolder(const tetstream_options* options) {
-  const char* folder = "";
-  check(tetstream_options_get_text(options, TETSTREAM_OPTION_TMPDIR, &folder), options);
-  if (*folder) ::setenv("TMPDIR", folder, 1);
-}
-
 Reader openReader(const Place& in, const tetstream_options* options) {
-  passTemporaryFolder(options);
   tetstream_reader* handle = nullptr;
   tetstream_status status;
   if (in.isStandard()) {
     if (::isatty(STDIN_FILENO) == 1)
       throw Failure{kUsage, "a mesh is not read from a terminal: give a file name or a pipe"};
     interruptTransfersOf(STDIN_FILENO);
-    status = tetstream_reader_open_fd(STDIN_FILENO, formatOf(in), &handle);
+    status = tetstream_reader_open_fd_with(STDIN_FILENO, formatOf(in), options, &handle);
   } else {
-    status = tetstream_reader_open_file(in.path.c_str(), formatOf(in), &handle);
+    status = tetstream_reader_open_file_with(in.path.c_str(), formatOf(in), options, &handle);
   }
   Reader reader(handle);
   check(status, handle);

@@ -118,6 +118,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
 #define TETSTREAM_OPTION_AXIS 210            /* text: of order "spatial": "auto", "x", "y", "z" */
 #define TETSTREAM_OPTION_ORDER 211           /* text: of the input: "auto", "none", "spatial", ... */
+#define TETSTREAM_OPTION_SPLIT 220           /* text: other cells into tetrahedra: "no", "yes" */
 
 #define TETSTREAM_OPTION_IS_INT64 1
 #define TETSTREAM_OPTION_IS_DOUBLE 2
@@ -191,6 +192,8 @@ typedef struct tetstream_column {
 
 #define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
                                       and ordered by the library before it is streamed */
+#define TETSTREAM_STREAM_INT32_CELLS 2 /* of tetstream_reader_open_mesh alone: `cells` of the batch
+                                          points to int32_t. Since 0.1 */
 
 /* What a stream carries. Counts that are not known are -1 where the library gives them, and -1 or 0
  * where it takes them. The arrays are read during the call only. */
@@ -274,8 +277,10 @@ typedef struct tetstream_reader tetstream_reader;
 /* A reader of the caller's. The table is copied. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_create(const tetstream_reader_callbacks *callbacks,
                                                        tetstream_reader **reader);
-/* A file. `format` is a name such as "vtu", or NULL: by the path's extension. The header is read
- * at once. Since 0.1. */
+/* A file. `format` is a name such as "vtu", or NULL: by the path's extension, before which .gz or
+ * .zst is taken off. What is compressed by gzip or zstd is decompressed, whatever it is called. The
+ * header is read at once; of text formats of indexed meshes everything, into temporary files. Since
+ * 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file(const char *path, const char *format,
                                                           tetstream_reader **reader);
 /* A file descriptor, which stays the caller's to close; for formats that must seek, a pipe is
@@ -287,6 +292,18 @@ TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *
 TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, size_t size,
                                                             const char *format,
                                                             tetstream_reader **reader);
+/* As without `_with`, with options for the reading, which may be NULL: `split` (hexahedra, prisms and
+ * pyramids are cut into tetrahedra; else they are UNSUPPORTED) and `tmpdir`. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
+                                                               const tetstream_options *options,
+                                                               tetstream_reader **reader);
+TETSTREAM_API tetstream_status tetstream_reader_open_fd_with(int32_t fd, const char *format,
+                                                             const tetstream_options *options,
+                                                             tetstream_reader **reader);
+TETSTREAM_API tetstream_status tetstream_reader_open_memory_with(const void *data, size_t size,
+                                                                 const char *format,
+                                                                 const tetstream_options *options,
+                                                                 tetstream_reader **reader);
 /* An indexed mesh in arrays of the caller's, which must stay as they are until the reader is
  * destroyed: `mesh` is one batch that holds everything, labelled faces and what is locked, too; its
  * last_uses and finalized are not looked at. Counts of `info` are not looked at either. Since 0.1.

@@ -1,5 +1,6 @@
 #include "output.h"
 
+#include "compressed_bytes.h"
 #include "rounding_source.h"
 
 namespace tetstream {
@@ -15,8 +16,10 @@ Output::Output(const tetstream_writer_callbacks& callbacks) : callbacks_(callbac
   needPlace(reinterpret_cast<const void*>(callbacks_.put), "the callback put");
 }
 
-Output::Output(const Format& format, const std::string& path)
-    : format_(&format), bytes_(createFile(path, &files_)) {}
+Output::Output(const Format& format, const std::string& path) : format_(&format) {
+  const Wrapping wrapping = wrappingOf(path, &options_.path);
+  bytes_ = wrapped(createFile(path, &files_), wrapping);
+}
 
 Output::Output(const Format& format, std::unique_ptr<ByteSink> bytes)
     : format_(&format), bytes_(std::move(bytes)) {}
@@ -47,6 +50,8 @@ struct Property {
 constexpr Property kProperties[] = {
     {"compress", "yes", "no", {"tets", "vtu", "vtkhdf", nullptr}, &WriteOptions::compress},
     {"order", "post", "pre", {"sva", "svb", nullptr}, &WriteOptions::post_order},
+    {"encoding", "binary", "text", {"msh", nullptr, nullptr}, &WriteOptions::binary},
+    {"version", "4.1", "2.2", {"msh", nullptr, nullptr}, &WriteOptions::newest},
 };
 
 }  // namespace

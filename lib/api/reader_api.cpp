@@ -1,4 +1,5 @@
 // api: readers of the public header.
+#include "compressed_bytes.h"
 #include "generate.h"
 #include "handles.h"
 #include "memory_source.h"
@@ -10,14 +11,20 @@ static std::string textOrEmpty(const char* text) {
   return text ? text : "";
 }
 
-// Opens the bytes as `format` and reads the header.
+// Opens the bytes as `format` and reads the header. `path` where they are a file's.
 static void openBytes(tetstream_reader& reader, const Format& format,
-                      std::unique_ptr<ByteSource> bytes) {
+                      std::unique_ptr<ByteSource> bytes, const tetstream_options* settings,
+                      const std::string& path = "") {
   if (!format.open)
     fail(Status::kUnsupported, "the format \"%s\" is written, but not read", format.name);
-  if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), "");
+  const RunOptions run = runOptionsOf(settings);
   ReadOptions options;
+  options.temp_dir = run.temp_dir;
+  options.split = run.split == "yes";
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
+  wrappingOf(path, &options.path);
+  bytes = unwrapped(std::move(bytes));
+  if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), options.temp_dir);
   reader.input = format.open(std::move(bytes), options);
   openReader(reader);
 }
@@ -31,44 +38,66 @@ tetstream_status tetstream_reader_create(const tetstream_reader_callbacks* callb
   });
 }
 
-tetstream_status tetstream_reader_open_file(const char* path, const char* format,
-                                            tetstream_reader** reader) {
+tetstream_status tetstream_reader_open_file_with(const char* path, const char* format,
+                                                 const tetstream_options* options,
+                                                 tetstream_reader** reader) {
   return guardCreate(__func__, reader, [&](tetstream_reader& r) {
     needPlace(path, "path");
     const Format& found = needFormat(textOrEmpty(format), path);
-    openBytes(r, found, openFile(path));
+    openBytes(r, found, openFile(path), options, path);
+  });
+}
+
+tetstream_status tetstream_reader_open_file(const char* path, const char* format,
+                                            tetstream_reader** reader) {
+  return tetstream_reader_open_file_with(path, format, nullptr, reader);
+}
+
+tetstream_status tetstream_reader_open_fd_with(int32_t fd, const char* format,
+                                               const tetstream_options* options,
+                                               tetstream_reader** reader) {
+  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+    needPlace(format, "format");
+    const Format& found = needFormat(format, "");
+    openBytes(r, found, openDescriptor(fd, textOf("descriptor %d", fd)), options);
   });
 }
 
 tetstream_status tetstream_reader_open_fd(int32_t fd, const char* format,
                                           tetstream_reader** reader) {
+  return tetstream_reader_open_fd_with(fd, format, nullptr, reader);
+}
+
+tetstream_status tetstream_reader_open_memory_with(const void* data, size_t size,
+                                                   const char* format,
+                                                   const tetstream_options* options,
+                                                   tetstream_reader** reader) {
   return guardCreate(__func__, reader, [&](tetstream_reader& r) {
     needPlace(format, "format");
+    if (size > 0) needPlace(data, "data");
     const Format& found = needFormat(format, "");
-    openBytes(r, found, openDescriptor(fd, textOf("descriptor %d", fd)));
+    openBytes(r, found, openMemory(data, size, "memory"), options);
   });
 }
 
 tetstream_status tetstream_reader_open_memory(const void* data, size_t size, const char* format,
                                               tetstream_reader** reader) {
-  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
-    needPlace(format, "format");
-    if (size > 0) needPlace(data, "data");
-    const Format& found = needFormat(format, "");
-    openBytes(r, found, openMemory(data, size, "memory"));
-  });
+  return tetstream_reader_open_memory_with(data, size, format, nullptr, reader);
 }
 
 tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,
                                             const tetstream_batch* mesh,
                                             tetstream_reader** reader) {
   return guardCreate(__func__, reader, [&](tetstream_reader& r) {
-    Schema schema = schemaOf(readStruct(info, "info"));
+    tetstream_stream_info stream = readStruct(info, "info");
+    const bool narrow = (stream.flags & TETSTREAM_STREAM_INT32_CELLS) != 0;
+    stream.flags &= ~static_cast<uint32_t>(TETSTREAM_STREAM_INT32_CELLS);
+    const Schema schema = schemaOf(stream);
     tetstream_batch batch = readStruct(mesh, "mesh");
     batch.last_uses = nullptr;
     batch.finalized_count = 0;
     const BatchView view = BatchChecker(schema).view(batch);
-    r.input.indexed = std::make_unique<MemorySource>(schema, view);
+    r.input.indexed = std::make_unique<MemorySource>(schema, view, narrow);
     openReader(r);
   });
 }

@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
@@ -127,6 +129,28 @@ class SecondReading final : public ByteSource {
   uint64_t place_ = 0;
 };
 
+// A source whose first bytes have been read already.
+class PrefixedSource final : public ByteSource {
+ public:
+  PrefixedSource(std::vector<unsigned char> prefix, std::unique_ptr<ByteSource> rest)
+      : ByteSource(rest->name()), prefix_(std::move(prefix)), rest_(std::move(rest)) {}
+  size_t read(void* out, size_t size) override {
+    if (place_ == prefix_.size()) return rest_->read(out, size);
+    const size_t got = size < prefix_.size() - place_ ? size : prefix_.size() - place_;
+    if (got) std::memcpy(out, prefix_.data() + place_, got);
+    place_ += got;
+    return got;
+  }
+  size_t readAt(uint64_t, void*, size_t) override { return 0; }
+  bool seekable() const override { return false; }
+  uint64_t size() const override { return 0; }
+
+ private:
+  std::vector<unsigned char> prefix_;
+  size_t place_ = 0;
+  std::unique_ptr<ByteSource> rest_;
+};
+
 class SpooledSource final : public ByteSource {
  public:
   SpooledSource(ByteSource& from, const std::string& temp_dir)
@@ -169,6 +193,11 @@ std::unique_ptr<ByteSource> openMemory(const void* data, size_t size, const std:
 
 std::unique_ptr<ByteSource> readAgain(ByteSource& source) {
   return std::make_unique<SecondReading>(source);
+}
+
+std::unique_ptr<ByteSource> withPrefix(std::vector<unsigned char> prefix,
+                                       std::unique_ptr<ByteSource> rest) {
+  return std::make_unique<PrefixedSource>(std::move(prefix), std::move(rest));
 }
 
 std::unique_ptr<ByteSource> makeSeekable(std::unique_ptr<ByteSource> source,
@@ -296,6 +325,11 @@ SpoolFile::~SpoolFile() {
 void SpoolFile::append(const void* data, size_t size) {
   writeFully(fd_, data, size, name_);
   size_ += size;
+}
+
+void SpoolFile::writeAt(uint64_t offset, const void* data, size_t size) {
+  writeFullyAt(fd_, offset, data, size, name_);
+  size_ = std::max(size_, offset + size);
 }
 
 void SpoolFile::readAt(uint64_t offset, void* out, size_t size) {

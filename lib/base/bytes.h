@@ -39,6 +39,9 @@ std::unique_ptr<ByteSource> openDescriptor(int fd, const std::string& name);
 std::unique_ptr<ByteSource> openMemory(const void* data, size_t size, const std::string& name);
 // Another reading of a seekable source, from its first byte on; borrows it.
 std::unique_ptr<ByteSource> readAgain(ByteSource& source);
+// A source whose first bytes were read already, all of it again.
+std::unique_ptr<ByteSource> withPrefix(std::vector<unsigned char> prefix,
+                                       std::unique_ptr<ByteSource> rest);
 // A seekable source with the same bytes: itself, or a copy spooled to an unnamed temporary file.
 std::unique_ptr<ByteSource> makeSeekable(std::unique_ptr<ByteSource> source,
                                          const std::string& temp_dir);
@@ -78,6 +81,7 @@ class SpoolFile {
   SpoolFile(const SpoolFile&) = delete;
   SpoolFile& operator=(const SpoolFile&) = delete;
   void append(const void* data, size_t size);
+  void writeAt(uint64_t offset, const void* data, size_t size);  // a gap before it reads as zeros
   void readAt(uint64_t offset, void* out, size_t size);  // throws when there are fewer bytes
   uint64_t size() const { return size_; }
   int descriptor() const { return fd_; }

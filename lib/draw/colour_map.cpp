@@ -9,7 +9,7 @@ namespace tetstream {
 
 template <size_t N>
 static Colour between(const Colour (&stops)[N], double share) {
-  const double at = std::clamp(share, 0.0, 1.0) * (N - 1);
+  const double at = (share > 0 ? std::min(share, 1.0) : 0) * (N - 1);  // what is no number is 0
   const size_t first = std::min(static_cast<size_t>(at), N - 2);
   return mixed(stops[first], stops[first + 1], at - static_cast<double>(first));
 }

@@ -202,7 +202,7 @@ void ComparisonPage::drawHistogram(const Frame& f) {
     all += volume[s];
     most = std::max(most, volume[s]);
   }
-  if (!(all > 0)) return;
+  if (!(all > 0 && std::isfinite(all) && std::isfinite(range_))) return;
   // What is below is not shown, but for the largest error.
   constexpr double kSeen = 2e-3;
   int first = 0, last = kSteps - 1;
@@ -243,7 +243,7 @@ void ComparisonPage::drawHistogram(const Frame& f) {
     canvas_.text({f.left - 6, y + 3.5}, tick.label + " %", style);
   }
   const auto mark = [&](double error, const char* name) {
-    if (!(error > 0)) return;
+    if (!(error > 0 && std::isfinite(error))) return;
     const double x = across(error / (range_ > 0 ? range_ : 1));
     canvas_.line({{x, f.top - 2}, {x, f.bottom()}}, 1, kAccent, true);
     TextStyle words = kTextStyle;

@@ -36,6 +36,7 @@ Scale fieldScale(const CutComparison& cut) {
       for (size_t x = 0; x < image->width(); ++x) {
         if (!image->cell(x, y)) continue;
         const double value = valueOf(cut, image->values(x, y));
+        if (!std::isfinite(value)) continue;  // of a field beyond the range of floats
         scale.low = std::min(scale.low, value);
         scale.high = std::max(scale.high, value);
       }
@@ -63,13 +64,15 @@ static double roundedUp(double value) {
 Scale errorScale(const CutComparison& cut, double range) {
   std::vector<float> errors;
   if (!cut.field.empty())
-    forEachError(cut, range,
-                 [&](size_t, size_t, double e) { errors.push_back(static_cast<float>(e)); });
+    forEachError(cut, range, [&](size_t, size_t, double e) {
+      if (std::isfinite(e)) errors.push_back(static_cast<float>(e));
+    });
   if (errors.empty()) return {0, 1};
   const auto at =
       errors.begin() + static_cast<std::ptrdiff_t>(kShown * static_cast<double>(errors.size() - 1));
   std::nth_element(errors.begin(), at, errors.end());
-  return {0, *at > 0 ? roundedUp(static_cast<double>(*at)) : 1};
+  const auto shown = static_cast<double>(*at);
+  return {0, shown > 0 && std::isfinite(shown) ? roundedUp(shown) : 1};
 }
 
 // How dark edges are: by the mean width of the cells.

@@ -62,10 +62,12 @@ std::vector<Tick> ticksUpTo(double end, int wanted) {
 }
 
 std::vector<Tick> ticksBetween(double low, double high, int wanted) {
-  std::vector<Tick> ticks;
-  if (!(high > low) || !std::isfinite(high - low)) return {{low, textOf("%.4g", low)}};
-  const double step = roundStep((high - low) / wanted);
+  // Numbers that hardly a digit tells apart are one.
   const double largest = std::max(std::fabs(low), std::fabs(high));
+  if (!(high - low > std::max(1e-13 * largest, 1e-300)) || !std::isfinite(high - low))
+    return {{low, textOf("%.4g", low)}};
+  std::vector<Tick> ticks;
+  const double step = roundStep((high - low) / wanted);
   const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(largest / step))) + 1, 1, 15);
   for (double n = std::ceil(low / step); n * step <= high + 1e-9 * step; ++n)
     ticks.push_back({n * step, textOf("%.*g", digits, n == 0 ? 0.0 : n * step)});

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "compressed_bytes.h"
 #include "status.h"
 
 namespace tetstream {
@@ -58,6 +59,39 @@ static const Format kFormats[] = {
      true,
      openSvb,
      createSvb},
+    {"msh",
+     ".msh",
+     "Gmsh 4.1 and 2.2, binary and text",
+     {true, -1, true},
+     true,
+     true,
+     openMsh,
+     createMsh},
+    {"mesh",
+     ".mesh",
+     "MEDIT, text; fields in a .sol file beside it",
+     {true, -1, true},
+     true,
+     true,
+     openMedit,
+     createMesh},
+    {"meshb",
+     ".meshb",
+     "MEDIT, binary; fields in a .solb file beside it",
+     {true, -1, true},
+     true,
+     true,
+     openMedit,
+     createMeshb},
+    {"tetgen",
+     ".node .ele",
+     "TetGen: points in .node, cells in .ele, faces in .face",
+     {true, -1, true},
+     false,
+     false,
+     openTetgen,
+     nullptr},
+    {"su2", ".su2", "SU2", {true, -1, true}, true, false, openSu2, nullptr},
 };
 
 const Format* formats(size_t* count) {
@@ -80,7 +114,9 @@ static bool listHas(const char* list, const std::string& word) {
   return false;
 }
 
-const Format* formatOfPath(const std::string& path) {
+const Format* formatOfPath(const std::string& wrapped_path) {
+  std::string path;
+  wrappingOf(wrapped_path, &path);
   const size_t slash = path.find_last_of('/');
   const size_t dot = path.find_last_of('.');
   if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return nullptr;

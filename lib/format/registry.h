@@ -14,12 +14,17 @@ namespace tetstream {
 struct ReadOptions {
   std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
   std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
+  std::string path;    // of a file; empty: the bytes come from elsewhere, nothing lies beside them
+  bool split = false;  // hexahedra, prisms and pyramids into tetrahedra; else they are errors
 };
 
 struct WriteOptions {
   std::string temp_dir;
   std::function<void(const std::string&)> note;
+  std::string path;         // as for reading
   bool compress = true;     // .tets: zstd where built in; .vtu: zlib
+  bool binary = true;       // .msh: else text
+  bool newest = true;       // .msh: 4.1, else 2.2
   bool post_order = false;  // .sva, .svb
 };
 
@@ -42,8 +47,9 @@ struct Format {
 };
 
 const Format* formats(size_t* count);
-const Format* findFormat(const std::string& name);    // null: no such format
-const Format* formatOfPath(const std::string& path);  // by extension; null: unknown
+const Format* findFormat(const std::string& name);  // null: no such format
+// By extension, after which .gz or .zst may follow; null: unknown.
+const Format* formatOfPath(const std::string& path);
 // As above, but throw kUnsupported with a sentence that lists what there is. `name` may be empty:
 // then the path's extension decides.
 const Format& needFormat(const std::string& name, const std::string& path);
@@ -55,12 +61,19 @@ Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openVtkHdf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openSu2(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openMedit(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createVtk(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createVtkHdf(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMesh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMeshb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createTets(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 
 }  // namespace tetstream

@@ -1,37 +1,9 @@
 #include "sv_bytes.h"
 
-#include <cstring>
-
 namespace tetstream {
 
 // One read; large enough that the calls do not count, small against the 2 MB of an L2 cache.
 static constexpr size_t kReadBytes = 1 << 16;
-
-namespace {
-
-// A source whose first bytes have been read already.
-class PrefixedSource final : public ByteSource {
- public:
-  PrefixedSource(std::vector<unsigned char> prefix, std::unique_ptr<ByteSource> rest)
-      : ByteSource(rest->name()), prefix_(std::move(prefix)), rest_(std::move(rest)) {}
-  size_t read(void* out, size_t size) override {
-    if (place_ == prefix_.size()) return rest_->read(out, size);
-    const size_t got = size < prefix_.size() - place_ ? size : prefix_.size() - place_;
-    if (got) std::memcpy(out, prefix_.data() + place_, got);
-    place_ += got;
-    return got;
-  }
-  size_t readAt(uint64_t, void*, size_t) override { return 0; }
-  bool seekable() const override { return false; }
-  uint64_t size() const override { return 0; }
-
- private:
-  std::vector<unsigned char> prefix_;
-  size_t place_ = 0;
-  std::unique_ptr<ByteSource> rest_;
-};
-
-}  // namespace
 
 SvBytes::SvBytes(std::unique_ptr<ByteSource> source) : source_(std::move(source)) {
   buffer_.reserve(2 * kReadBytes);  // so that data() is never null
@@ -61,8 +33,7 @@ void SvBytes::makeSeekable(const std::string& temp_dir) {
   buffer_.clear();
   begin_ = 0;
   origin_ = offset_;
-  source_ = tetstream::makeSeekable(
-      std::make_unique<PrefixedSource>(std::move(rest), std::move(source_)), temp_dir);
+  source_ = tetstream::makeSeekable(withPrefix(std::move(rest), std::move(source_)), temp_dir);
 }
 
 }  // namespace tetstream

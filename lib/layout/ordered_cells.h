@@ -32,6 +32,7 @@ class OrderedCells {
 
   void sortCells(RankedVertices& vertices, bool sorts, const RankedVertices::Budget& budget,
                  const Tell& tell);
+  void countCells(RankedVertices& vertices, const RankedVertices::Budget& budget, const Tell& tell);
   void findLastUses(uint64_t vertices, Account& account, const Tell& tell);
 
   IndexedSource& source_;

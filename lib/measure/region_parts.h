@@ -16,8 +16,8 @@ struct RegionFigures {
 // Of one array.
 class RegionParts {
  public:
-  // With `drops_ids` an array of ids, with more labels than one for two cells, is dropped. Otherwise
-  // there are as many labels as the account allows.
+  // With `drops_ids` an array of ids, with more labels than one for two cells, is dropped.
+  // Otherwise there are as many labels as the account allows.
   RegionParts(Account& account, bool drops_ids)
       : account_(account), drops_ids_(drops_ids), sets_(account), cells_(account) {}
   ~RegionParts() { account_.release(charged_); }

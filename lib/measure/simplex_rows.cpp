@@ -21,9 +21,12 @@ void Box::add(const double place[3]) {
   }
 }
 
+// Of nothing, too, which changes nothing.
 void Box::add(const Box& other) {
-  add(other.low);
-  add(other.high);
+  for (int k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], other.low[k]);
+    high[k] = std::max(high[k], other.high[k]);
+  }
 }
 
 Box RowShape::boxOf(const double* row) const {

@@ -45,7 +45,7 @@ struct StarCell {
   uint32_t corner;  // the centre's, 4 * cell + j
   uint32_t t[3];
   uint32_t cell() const { return corner / 4; }
-  bool has(uint32_t v) const { return t[0] == v || t[1] == v || t[2] == v; }
+  bool has(uint32_t v) const { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
 };
 
 // The face opposite corner j, so that (j, t0, t1, t2) is an even permutation of 0 1 2 3.

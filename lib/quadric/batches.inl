@@ -26,6 +26,25 @@ S solveEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, 
 template <class Layout, int N>
 constexpr bool kFitsLanes = N > 0 || Layout::size(kMaxDimension) < 1000;
 
+// Half of the edges from one vertex to eight.
+[[gnu::always_inline]] inline void halfEdges(const float* from, const float* const to[8],
+                                             const float* scale, int n, Float8* h) {
+  for (int i = 0; i < n; i += 4) loadColumns<float>(to, i, h + i);
+  for (int i = 0; i < n; ++i) h[i] = 0.5f * ((h[i] - from[i]) * scale[i]);
+}
+// Rounded when they are differences: far from the origin nothing is lost.
+[[gnu::always_inline]] inline void halfEdges(const double* from, const double* const to[8],
+                                             const double* scale, int n, Float8* h) {
+  for (int i = 0; i < n; i += 4) {
+    Double4 half = Double4{};
+    for (int j = 0; j < 4 && i + j < n; ++j) half[j] = 0.5 * scale[i + j];
+    Float4 r[8];
+    for (int k = 0; k < 8; ++k)
+      r[k] = __builtin_convertvector((fourAt(to[k] + i) - fourAt(from + i)) * half, Float4);
+    toColumns<float>(r, h + i);
+  }
+}
+
 template <class Layout, class S, int N>
 void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others, int count,
                 const S* scale, int n_given, S* errors) {
@@ -36,11 +55,10 @@ void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others,
           solveEdge<Layout, S, N>(table.quadric(u), table.value(u), table.quadric(others[i]),
                                   table.value(others[i]), scale, n_given, z);
   } else {
-    using V = typename Lanes<S>::Eight;
     const int n = dimension<N>(n_given), size = Layout::size(n);
     const S *qu = table.quadric(u), *xu = table.value(u);
-    EdgeSolver<Layout, S, V, N> edges;
-    for (int i = 0; i < size; ++i) edges.a1[i] = V{} + qu[i];
+    EdgeSolver<Layout, float, Float8, N> edges;
+    for (int i = 0; i < size; ++i) edges.a1[i] = Float8{} + static_cast<float>(qu[i]);
     for (int first = 0; first < count; first += 8) {
       const int filled = count - first < 8 ? count - first : 8;
       const S *q[8], *x[8];
@@ -49,13 +67,12 @@ void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others,
         q[k] = table.quadric(v);
         x[k] = table.value(v);
       }
-      for (int i = 0; i < size; i += 4) loadColumns(q, i, edges.a2 + i);
-      for (int i = 0; i < n; i += 4) loadColumns(x, i, edges.h + i);
-      for (int i = 0; i < n; ++i) edges.h[i] = S(0.5) * ((edges.h[i] - xu[i]) * scale[i]);
+      for (int i = 0; i < size; i += 4) loadColumns<float>(q, i, edges.a2 + i);
+      halfEdges(xu, x, scale, n, edges.h);
       edges.solve(n);
-      V error;
+      Float8 error;
       edges.measure(n, &error);
-      for (int k = 0; k < filled; ++k) errors[first + k] = error[k];
+      for (int k = 0; k < filled; ++k) errors[first + k] = static_cast<S>(error[k]);
     }
   }
 }
@@ -83,12 +100,12 @@ void solveEdges(const VertexTable<S>& table, const uint32_t* ends, int count, co
     EdgeSolver<Layout, S, V, N> edges;
     V from[kValueRoom<N>], error;
     for (int i = 0; i < size; i += 4) {
-      loadColumns(q1, i, edges.a1 + i);
-      loadColumns(q2, i, edges.a2 + i);
+      loadColumns<S>(q1, i, edges.a1 + i);
+      loadColumns<S>(q2, i, edges.a2 + i);
     }
     for (int i = 0; i < n; i += 4) {
-      loadColumns(x1, i, from + i);
-      loadColumns(x2, i, edges.h + i);
+      loadColumns<S>(x1, i, from + i);
+      loadColumns<S>(x2, i, edges.h + i);
     }
     for (int i = 0; i < n; ++i) edges.h[i] = S(0.5) * ((edges.h[i] - from[i]) * scale[i]);
     edges.solve(n);

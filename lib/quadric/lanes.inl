@@ -35,13 +35,18 @@ struct Lanes<double> {
 
 // Functions on vectors must be inlined: no call passes those that are wider than the processor's.
 
-// rows[k][first .. first + 4) of eight rows, as four columns.
 template <class S>
-[[gnu::always_inline]] inline void loadColumns(const S* const rows[8], int first,
-                                               typename Lanes<S>::Eight* columns) {
-  typename Lanes<S>::Four r[8];
+[[gnu::always_inline]] inline typename Lanes<S>::Four fourAt(const S* p) {
+  typename Lanes<S>::Four r;
+  __builtin_memcpy(&r, p, sizeof r);
+  return r;
+}
+
+// Four numbers of each of eight rows, as four columns.
+template <class S>
+[[gnu::always_inline]] inline void toColumns(const typename Lanes<S>::Four r[8],
+                                             typename Lanes<S>::Eight* columns) {
   typename Lanes<S>::Eight a[4];
-  for (int k = 0; k < 8; ++k) __builtin_memcpy(&r[k], rows[k] + first, sizeof r[k]);
   for (int k = 0; k < 4; ++k)
     a[k] = __builtin_shufflevector(r[k], r[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
   const auto low01 = __builtin_shufflevector(a[0], a[1], 0, 8, 1, 9, 4, 12, 5, 13);
@@ -52,6 +57,16 @@ template <class S>
   columns[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
   columns[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
   columns[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+// rows[k][first .. first + 4) of eight rows, as four columns, rounded to T.
+template <class T, class S>
+[[gnu::always_inline]] inline void loadColumns(const S* const rows[8], int first,
+                                               typename Lanes<T>::Eight* columns) {
+  typename Lanes<T>::Four r[8];
+  for (int k = 0; k < 8; ++k)
+    r[k] = __builtin_convertvector(fourAt(rows[k] + first), typename Lanes<T>::Four);
+  toColumns<T>(r, columns);
 }
 
 template <class T>

@@ -235,8 +235,7 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
   simplify.memory_bytes = options.simplify.memory_bytes;
   for (const Column& c : schema.fields)  // carried: there may be too many to be measured
     if (isFloat(c.type)) simplify.fields.emplace_back(c.name, 0);
-  return {schema, facts.figures(), Simplifier::windowCells(schema, simplify),
-          facts.faceLabels()};
+  return {schema, facts.figures(), Simplifier::windowCells(schema, simplify), facts.faceLabels()};
 }
 
 // The schema with the box and the counts, from a first reading if need be.

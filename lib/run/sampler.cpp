@@ -215,7 +215,6 @@ Pilot Sampler::fly(const SimplifyOptions& options) {
   SimplifyOptions whole = options;
   whole.window_cells = static_cast<int64_t>(all.cell_count);
   whole.cells = 0;
-  whole.rough = true;
   whole.ratio = ratioFor(kLeft);
   Survivors survivors(*this);
   Simplifier simplifier(whole, survivors, nullptr);

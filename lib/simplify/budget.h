@@ -76,8 +76,10 @@ class UniformRatio final : public Budget {
 // that what is to come resembles what has been.
 class CommonBound final : public Budget {
  public:
-  CommonBound(const Target& target, int64_t total, const Pilot& pilot)
-      : Budget(target, total), pilot_(pilot) {}
+  // `is_tight`: memory is bounded. Then no bound is approached: patches of the few vertices that
+  // have an edge below a low one have more of a rim than a budget foresees.
+  CommonBound(const Target& target, int64_t total, const Pilot& pilot, bool is_tight = false)
+      : Budget(target, total), pilot_(pilot), is_tight_(is_tight) {}
 
   Goal goalOf(const Ledger& ledger) override;
   Goal lastGoal(const Ledger& ledger) override;
@@ -91,8 +93,13 @@ class CommonBound final : public Budget {
   double boundForCells(const Ledger& ledger) const;
   double nextBound(const Ledger& ledger) const;
   int64_t leastOf(const Ledger& ledger) const;
+  bool countsCells() const { return target_.ratio > 0 || target_.cells > 0; }
+  bool spreads(const Ledger& ledger) const;
+  int approaches(const Ledger& ledger) const;
+  void spread(double due, const Ledger& ledger, Goal& goal) const;
 
   Pilot pilot_;
+  bool is_tight_;
   double pilot_bound_ = 0;  // in normalised units
   double error_room_ = 1;   // error allowed / error made, after the last window
   bool limit_met_ = false;  // by the last window

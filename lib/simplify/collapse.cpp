@@ -408,22 +408,34 @@ void Collapser<Mesh>::pickNearest(uint32_t u, uint32_t v) {
 template <class Mesh>
 void Collapser<Mesh>::handOverCellData(uint32_t v) {
   const int n = core_.plan.cell_means;
-  for (const StarCell& dying : stars_.ring) {
-    uint32_t heirs[2];
-    int count = 0;
-    for (const Star* star : {&stars_.u, &stars_.v})
-      for (const StarCell& s : *star) {
-        int shared = 0;
-        for (uint32_t t : dying.t) shared += t != v && s.has(t);
-        if (shared == 2 && count < 2) heirs[count++] = s.cell();
-      }
-    const double* from = mesh_.cellMeans(dying.cell());
-    for (int h = 0; h < count; ++h) {
-      double* to = mesh_.cellMeans(heirs[h]);
-      const double share = from[0] / count, sum = to[0] + share;
+  findHeirs(v);
+  for (const Heirs& h : heirs_) {
+    const double* from = mesh_.cellMeans(h.dying);
+    for (uint32_t k = 0; k < h.count; ++k) {
+      double* to = mesh_.cellMeans(h.cell[k]);
+      const double share = from[0] / h.count, sum = to[0] + share;
       for (int i = 1; i <= n && sum > 0; ++i) to[i] += (from[i] - to[i]) * (share / sum);
       to[0] = sum;
     }
+  }
+}
+
+// All of them before any data is touched: that lies outside the patch, and is on its way meanwhile.
+template <class Mesh>
+void Collapser<Mesh>::findHeirs(uint32_t v) {
+  heirs_.clear();
+  for (const StarCell& dying : stars_.ring) {
+    // Its corners beside u and v.
+    const bool is_first = dying.t[0] == v;
+    const uint32_t a = dying.t[is_first ? 1 : 0], b = dying.t[is_first || dying.t[1] == v ? 2 : 1];
+    Heirs& h = heirs_.emplace_back(Heirs{dying.cell(), {}, 0});
+    __builtin_prefetch(mesh_.cellMeans(h.dying));
+    for (const Star* star : {&stars_.u, &stars_.v})
+      for (const StarCell& s : *star)
+        if (s.has(a) & s.has(b) && h.count < 2) {
+          __builtin_prefetch(mesh_.cellMeans(s.cell()));
+          h.cell[h.count++] = s.cell();
+        }
   }
 }
 

@@ -83,11 +83,16 @@ class Collapser {
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
+  void findHeirs(uint32_t v);
   uint32_t cornerOf(uint32_t cell, uint32_t v) const;
   void handOverFaces(uint32_t u, uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
   void trace(uint32_t u, uint32_t v, double error);
 
+  // The cells beyond the faces of a dying cell that become one.
+  struct Heirs {
+    uint32_t dying, cell[2], count;
+  };
   // The cell for which an edge was refused. Tried again, it mostly is for the same.
   struct Refusal {
     uint32_t u, v, cell;
@@ -104,6 +109,7 @@ class Collapser {
   Stars stars_;
   std::vector<S> merged_;  // values of the merged vertex
   std::vector<S> z_;       // its place, normalised and relative to the edge's midpoint
+  std::vector<Heirs> heirs_;
   std::vector<uint32_t> traced_before_;  // in slots of the window
   std::vector<PlacedCell> traced_after_;
 };

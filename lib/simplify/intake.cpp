@@ -58,8 +58,8 @@ uint32_t Intake<S>::earlySlot(const char* what, size_t row, int64_t vertex) {
   const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
   if (slot == kNoSlot)
     fail(Status::kBadData,
-         "%s %zu: vertex %lld was finalized in a batch before: it must come with the batch of the "
-         "last cell of its vertices, or earlier",
+         "%s %zu: vertex %lld was finalized in a batch before: it is no part of a cell, or comes "
+         "later than with the batch in which the first of its vertices gets its last use",
          what, row, static_cast<long long>(vertex));
   return slot;
 }

@@ -40,7 +40,6 @@ struct SimplifyOptions {
   Shape shape = Shape::kField;
   int64_t window_cells = 0;  // 0: from the front
   int64_t memory_bytes = 0;  // 0: no limit
-  bool rough = false;        // a sample: only how the cells that are left spread matters
   // For comparisons, beyond what users are offered.
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
   bool uniform_ratio = false;  // all along the stream, whatever the mode

@@ -132,20 +132,22 @@ class SweepSelector final : public Selector {
 template <class S>
 void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   if (mustStop(core_.window.liveCells())) return;
-  double bound = std::min<double>(goal_.first_bound * unit_, std::numeric_limits<float>::max());
-  bounds_.forget();
+  int approaches = goal_.approaches;
+  double bound = bounds_.start(goal_.first_bound * unit_, approaches);
   for (bool first = true;; first = false) {
-    tiling_.build(round_++,
-                  bound > 0 ? static_cast<float>(bound) : std::numeric_limits<float>::infinity());
+    constexpr float kAll = std::numeric_limits<float>::infinity();
+    tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll);
     if (!(bound > 0)) bound = firstBound();
     const int64_t before = core_.window.liveCells();
     const bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
     // A pass that the limit on the error ended was left half done: the one before tells the bound.
     if (!core_.error_reached || first) bound_ = bound;
-    if (!more || reached() || core_.error >= goal_.most_error) return;
+    if (!more) return;
+    const bool on_the_way = approaches-- > 0 && core_.window.liveCells() > goal_.enough_cells;
+    if (!on_the_way && (reached() || core_.error >= goal_.most_error)) return;
     if (!first)  // in that, most vertices are new
       bounds_.learn(before - core_.window.liveCells(), tiling_.looking());
-    bound = bounds_.next(bound, goal_);
+    bound = on_the_way ? 2 * bound : bounds_.next(bound, goal_);
   }
 }
 
@@ -192,7 +194,7 @@ double SweepSelector<S>::firstBound() {
         if (std::isfinite(choices_.least(v))) errors.push_back(choices_.least(v));
     });
   }
-  return bounds_.first(errors);
+  return bounds_.first(errors, goal_);
 }
 
 // Until a round, whose seams lie elsewhere, finds nothing more.

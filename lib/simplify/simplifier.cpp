@@ -17,6 +17,8 @@ namespace {
 
 // A window holds at least this many cells, some tiles: smaller ones save no memory worth having.
 constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
+// A mesh of so many cells is held whole: finding out about it beforehand would take as much.
+constexpr int64_t kSmallMesh = 1 << 18;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 constexpr int64_t kFrontsPerWindow = 4;
@@ -78,7 +80,10 @@ int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, const
 // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
 int64_t windowFor(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
   const int64_t front = std::min(schema.front_cells, kWidestFront);
-  const int64_t least = followsPaper(options.mode) ? kLeastPaperWindow : kLeastWindow;
+  const bool is_small = schema.cell_count >= 0 && schema.cell_count <= kSmallMesh;
+  const int64_t least = followsPaper(options.mode) ? kLeastPaperWindow
+                        : is_small                 ? kSmallMesh
+                                                   : kLeastWindow;
   int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
                   : front >= 0             ? std::max(kFrontsPerWindow * front, least)
                                            : kFirstWindow;
@@ -92,7 +97,7 @@ std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& 
   const Target target = targetOf(schema, options);
   if (followsPaper(options.mode) || options.uniform_ratio)
     return std::make_unique<UniformRatio>(target, schema.cell_count);
-  return std::make_unique<CommonBound>(target, schema.cell_count, pilot);
+  return std::make_unique<CommonBound>(target, schema.cell_count, pilot, options.memory_bytes > 0);
 }
 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
@@ -149,6 +154,7 @@ class WindowedEngine final : public Simplifier::Engine {
     Ledger now = ledger();
     decimate(budget_->lastGoal(now));
     if (now.written == 0) survey(now.read);
+    selector_.reset();  // makes room for the output
     release_.write(0);
     release_.flush();
     if (tracer_) tracer_->flush();

@@ -13,17 +13,19 @@ class SweepBounds {
  public:
   explicit SweepBounds(Core<S>& core) : core_(core) {}
 
-  // Where nothing is known: below are the errors of a small part of these, the best edges of some
-  // vertices. What is simplified too far at first stays so.
-  double first(std::vector<float>& errors) const;
+  // The bound of the first pass, from which so many doublings lead to the one that is given.
+  double start(double first_bound, int approaches);
+  // Where nothing is known: a bound that falls short of the goal, from the errors of the best edges
+  // of some vertices. What is simplified too far at first stays so.
+  double first(std::vector<float>& errors, const Goal& goal) const;
   // After a pass up to `bound`: where the goal's cells should be reached.
   double next(double bound, const Goal& goal);
   // What a pass told: the cells that it took, and the vertices that had an edge below its bound.
   void learn(int64_t taken, int64_t looking);
-  void forget();
 
  private:
   double boundToTake(double cells) const;
+  double distance(double share_left, const Goal& goal) const;
 
   Core<S>& core_;
   double yield_ = 0;

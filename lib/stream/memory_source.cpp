@@ -7,12 +7,13 @@
 
 namespace tetstream {
 
-MemorySource::MemorySource(const Schema& schema, const BatchView& mesh)
+MemorySource::MemorySource(const Schema& schema, const BatchView& mesh, bool narrow_cells)
     : schema_(schema),
       fields_(mesh.fields, mesh.fields + schema.fields.size()),
       cell_data_(mesh.cell_data, mesh.cell_data + schema.cell_data.size()),
       mesh_(mesh),
-      locked_(account_) {
+      locked_(account_),
+      narrow_cells_(narrow_cells) {
   mesh_.fields = fields_.data();
   mesh_.cell_data = cell_data_.data();
   schema_.vertex_count = static_cast<int64_t>(mesh.vertex_count);
@@ -59,7 +60,12 @@ void MemorySource::readField(size_t column, uint64_t first, size_t count, void* 
 }
 
 void MemorySource::readCells(uint64_t first, size_t count, int64_t* out) {
-  copyRows(mesh_.cells, first, count, 4 * sizeof(int64_t), out);
+  if (narrow_cells_) {
+    const auto* const narrow = reinterpret_cast<const int32_t*>(mesh_.cells) + 4 * first;
+    std::copy(narrow, narrow + 4 * count, out);
+  } else {
+    copyRows(mesh_.cells, first, count, 4 * sizeof(int64_t), out);
+  }
   for (size_t i = 0; i < 4 * count; ++i) checkVertex("cell", first + i / 4, out[i], schema_);
 }
 

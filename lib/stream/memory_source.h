@@ -10,10 +10,10 @@ namespace tetstream {
 
 // The whole mesh is one batch, whose arrays must live as long as the source; its finalizations are
 // not looked at. Vertex ids are checked when cells and faces are read, those of locked edges and
-// faces at once.
+// faces at once; with `narrow_cells` those of cells are int32.
 class MemorySource : public IndexedSource {
  public:
-  MemorySource(const Schema& schema, const BatchView& mesh);
+  MemorySource(const Schema& schema, const BatchView& mesh, bool narrow_cells = false);
   const Schema& schema() const override { return schema_; }
   bool randomAccess() const override { return true; }
   const uint8_t* locked() const override { return mesh_.locked; }
@@ -31,6 +31,7 @@ class MemorySource : public IndexedSource {
   BatchView mesh_;
   Account account_;
   Array<uint8_t> locked_;  // where edges or faces are locked
+  bool narrow_cells_;
 };
 
 }  // namespace tetstream

@@ -1,7 +1,8 @@
 /* Comparisons through the C interface: figures known in closed form, any order of cells, and every
  * way in which one can be asked for too early, too late or for nothing. */
-#define _POSIX_C_SOURCE 200809L
+#define _DEFAULT_SOURCE
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -291,7 +292,7 @@ static void misuse_is_refused_and_does_no_harm(void) {
   CHECK_EQUAL(tetstream_comparison_get_region(comparison, 2, &region), TETSTREAM_BAD_ARGUMENT);
   CHECK_EQUAL(tetstream_comparison_get_mesh(comparison, 2, &figures), TETSTREAM_BAD_ARGUMENT);
   CHECK_EQUAL(tetstream_comparison_get_info(comparison, NULL), TETSTREAM_BAD_ARGUMENT);
-  info.struct_size = sizeof info - 1;
+  info.struct_size = offsetof(tetstream_comparison_info, peak_bytes); /* shorter than the first */
   CHECK_EQUAL(tetstream_comparison_get_info(comparison, &info), TETSTREAM_BAD_ARGUMENT);
   CHECK_EQUAL(tetstream_comparison_write(comparison, NULL, NULL), TETSTREAM_BAD_ARGUMENT);
   CHECK_SAYS(tetstream_comparison_message(NULL), "NULL");
@@ -300,9 +301,11 @@ static void misuse_is_refused_and_does_no_harm(void) {
   tetstream_reader_destroy(reader);
 }
 
+/* Nor does a picture need anything of it on the plane. */
 static void a_mesh_of_nothing_can_be_compared(void) {
+  char svg[] = "/tmp/tetstream-nothing-XXXXXX.svg";
   hostile_reader hostile;
-  tetstream_comparison* comparison = comparison_with(NULL, NULL);
+  tetstream_comparison* comparison = comparison_with("cut", "auto");
   tetstream_reader* first = arrays_of(mesh);
   tetstream_reader* second = callbacks(&hostile, mesh, HOSTILE_ODD, 0);
   hostile.empty = 1;
@@ -311,6 +314,13 @@ static void a_mesh_of_nothing_can_be_compared(void) {
   CHECK_EQUAL(info.topology_kept, 0);
   CHECK_EQUAL(figures_of(comparison, TETSTREAM_SIMPLIFIED).cells, 0);
   CHECK(fabs(info.outside_volume - figures_of(comparison, TETSTREAM_ORIGINAL).volume) < 1e-9);
+  const int fd = mkstemps(svg, 4);
+  if (CHECK(fd >= 0)) {
+    CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL),
+                draws() ? TETSTREAM_OK : TETSTREAM_UNSUPPORTED);
+    close(fd);
+    CHECK_EQUAL(remove(svg), 0);
+  }
   tetstream_comparison_destroy(comparison);
   tetstream_reader_destroy(first);
   tetstream_reader_destroy(second);

@@ -69,6 +69,18 @@ only_files in.vtu pipe out.tets
 [[ $(<out.tets) == precious ]] || fail "the old file was changed"
 rm in.vtu out.tets
 
+# In the middle of a comparison, whose rows are in temporary files and which would draw.
+mkdir spool
+tetstream generate ball --cells 200000 ball.tets
+start compare ball.tets ball.tets --memory 8M --tmpdir spool --picture page.svg --progress
+until_true grep -q compare "$logs/err"
+kill -INT "$pid"
+ended 7
+contains "$(<"$logs/err")" "cancelled"
+[[ -z $(ls -A spool) ]] || fail "left in the temporary folder: $(ls -A spool)"
+only_files ball.tets pipe spool
+rm -r ball.tets spool
+
 # While it waits for input that does not come.
 exec 3<>pipe
 start simplify - out.tets --ratio 0.1 <pipe

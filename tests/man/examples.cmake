@@ -1,5 +1,6 @@
 # Takes the literal blocks after "Sh EXAMPLES" out of the pages of section 3 and compiles them: a
-# block with a main as it is, others inside a function with the handles that they speak of.
+# block with a main as it is, others inside a function with the handles that they speak of. Those of
+# tetstream-python(3) are for tests/python.
 cmake_minimum_required(VERSION 3.25)
 
 set(before "#include <stdio.h>
@@ -15,7 +16,7 @@ set(open "void example(tetstream_options *options, tetstream_writer *writer,
 
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK})
-file(GLOB pages ${MAN}/man3/*.3)
+file(GLOB pages ${MAN}/man3/tetstream.3 ${MAN}/man3/tetstream_*.3)
 set(compiled 0)
 foreach(page IN LISTS pages)
   file(READ ${page} text)

@@ -2,6 +2,7 @@
 #include "look.h"
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include "drawable_text.h"
 
@@ -31,6 +32,17 @@ TEST(Look, PutsTicksAtRoundNumbers) {
   EXPECT_EQ(ticksUpTo(1.2e6, 6)[1].label, "200\u2009k");
   EXPECT_EQ(ticksUpTo(1.2e6, 6)[6].label, "1.2\u2009M");
   EXPECT_EQ(ticksUpTo(3, 2)[1].label, "2");
+}
+
+// Between numbers that differ in their last bits only there is nothing to be told.
+TEST(Ticks, EndBetweenAnyTwoNumbers) {
+  for (double low : {-3.0, 0.0, 1e-300, 101325.0, 1e17, 1e300})
+    for (double high : {std::nextafter(low, 1e308), low + 16, low * (1 + 1e-12), 2 * low, 1e308}) {
+      const std::vector<Tick> ticks = ticksBetween(low, high, 4);
+      EXPECT_GE(ticks.size(), 1u) << low << " " << high;
+      EXPECT_LE(ticks.size(), 10u) << low << " " << high;
+    }
+  EXPECT_EQ(ticksBetween(101325, std::nextafter(101325, 2e5), 4)[0].label, "1.013e+05");
 }
 
 TEST(DrawableText, KeepsLettersOfAnyLanguage) {

@@ -73,8 +73,8 @@ TEST(SeveralFields, LoseLittleAgainstEachAlone) {
       cut.say_box = box;
       const std::vector<double> together = errorsOf(mesh, measuring({}), cut);
       for (size_t f = 0; f < alone.size(); ++f)
-        EXPECT_LT(together[f], 3 * alone[f]) << mesh.schema.fields[f].name << " box " << box;
-      EXPECT_LT(geometricMean(together, alone), 1.6) << "box " << box;
+        EXPECT_LT(together[f], 3.5 * alone[f]) << mesh.schema.fields[f].name << " box " << box;
+      EXPECT_LT(geometricMean(together, alone), 1.8) << "box " << box;
     }
   }
 }

@@ -1,0 +1,212 @@
+// python: what the shared part leaves to a language, and how numpy's arrays and Python's exceptions
+// cross. Part of the wrapper that SWIG generates.
+#define NPY_NO_DEPRECATED_API NPY_1_7_API_VERSION
+#include <numpy/arrayobject.h>
+
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "failure.h"
+#include "handles.h"
+
+namespace tetstream::swig {
+
+// ------------------------------------------------------------------------- the lock, functions
+
+// The interpreter's lock, whether or not this thread has it.
+class Locked {
+ public:
+  Locked() : state_(PyGILState_Ensure()) {}
+  Locked(const Locked&) = delete;
+  Locked& operator=(const Locked&) = delete;
+  ~Locked() { PyGILState_Release(state_); }
+
+ private:
+  PyGILState_STATE state_;
+};
+
+Unlocked::Unlocked() : state_(PyEval_SaveThread()) {}
+
+Unlocked::~Unlocked() {
+  PyEval_RestoreThread(static_cast<PyThreadState*>(state_));
+}
+
+// An exception of Python's on its way through C++: type, value, traceback. It is the last of its
+// copies that gives them up, which happens where the wrapper has the lock.
+class Raised {
+ public:
+  Raised() : parts_(new Parts, [](Parts* parts) { drop(parts); }) {
+    PyErr_Fetch(&parts_->type, &parts_->value, &parts_->traceback);
+  }
+  void restore() const {
+    PyErr_Restore(parts_->type, parts_->value, parts_->traceback);
+    *parts_ = {};
+  }
+
+ private:
+  struct Parts {
+    PyObject *type = nullptr, *value = nullptr, *traceback = nullptr;
+  };
+  static void drop(Parts* parts) {
+    const Locked locked;
+    Py_XDECREF(parts->type);
+    Py_XDECREF(parts->value);
+    Py_XDECREF(parts->traceback);
+    delete parts;
+  }
+
+  std::shared_ptr<Parts> parts_;
+};
+
+Function::Function(void* object) : object_(object) {
+  Py_XINCREF(static_cast<PyObject*>(object_));
+}
+
+Function::Function(const Function& other) : Function(other.object_) {}
+
+Function::~Function() {
+  if (!object_) return;
+  const Locked locked;
+  Py_DECREF(static_cast<PyObject*>(object_));
+}
+
+void Function::operator()(const char* type, void* object) const {
+  const Locked locked;
+  swig_type_info* const wrapped_as = SWIG_TypeQuery(type);
+  PyObject* const argument = SWIG_NewPointerObj(object, wrapped_as, 0);
+  PyObject* const result =
+      argument ? PyObject_CallFunctionObjArgs(static_cast<PyObject*>(object_), argument, nullptr)
+               : nullptr;
+  Py_XDECREF(argument);
+  if (!result) throw Raised();
+  Py_DECREF(result);
+}
+
+void checkInterrupt() {
+  const Locked locked;
+  if (PyErr_CheckSignals() != 0) throw Raised();
+}
+
+// ---------------------------------------------------------------------------------- exceptions
+
+// tetstream.errors makes the exception that belongs to a status.
+static void raiseStatus(tetstream_status status, const char* sentence) {
+  PyObject* const module = PyImport_ImportModule("tetstream.errors");
+  if (!module) return;
+  PyObject* const exception = PyObject_CallMethod(module, "_from_status", "is", status, sentence);
+  if (exception) PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception)), exception);
+  Py_XDECREF(exception);
+  Py_DECREF(module);
+}
+
+// Called while a C++ exception is handled: sets Python's.
+static void raise() {
+  try {
+    throw;
+  } catch (const Raised& raised) {
+    raised.restore();
+  } catch (const Failure& failure) {
+    raiseStatus(failure.status(), failure.what());
+  } catch (const std::bad_alloc&) {
+    raiseStatus(TETSTREAM_NO_MEMORY, "there is no memory for the result");
+  } catch (const std::exception& other) {
+    raiseStatus(TETSTREAM_INTERNAL, other.what());
+  }
+}
+
+// -------------------------------------------------------------------------------------- arrays
+
+struct NumberType {
+  int32_t type;
+  int numpy;
+};
+static constexpr NumberType kNumberTypes[] = {{TETSTREAM_TYPE_FLOAT32, NPY_FLOAT32},
+                                              {TETSTREAM_TYPE_FLOAT64, NPY_FLOAT64},
+                                              {TETSTREAM_TYPE_INT32, NPY_INT32},
+                                              {TETSTREAM_TYPE_INT64, NPY_INT64},
+                                              {kBytes, NPY_UINT8}};
+
+static int32_t typeOf(PyArrayObject* array) {
+  for (const NumberType& t : kNumberTypes)
+    if (PyArray_EquivTypenums(PyArray_TYPE(array), t.numpy)) return t.type;
+  return 0;
+}
+
+static int numpyType(int32_t type) {
+  for (const NumberType& t : kNumberTypes)
+    if (t.type == type) return t.numpy;
+  return NPY_NOTYPE;
+}
+
+// A dense array of one or two axes as it lies, or None. False with an exception set for another.
+static bool viewOf(PyObject* object, ArrayView& view) {
+  if (object == Py_None) return true;
+  if (!PyArray_Check(object)) {
+    PyErr_Format(PyExc_TypeError, "a numpy array is wanted, not %s", Py_TYPE(object)->tp_name);
+    return false;
+  }
+  auto* const array = reinterpret_cast<PyArrayObject*>(object);
+  const int axes = PyArray_NDIM(array);
+  const int32_t type = typeOf(array);
+  const bool is_dense = PyArray_ISCARRAY_RO(array);
+  if (!is_dense || type == 0 || axes < 1 || axes > 2 ||
+      (axes == 2 && PyArray_DIM(array, 1) > INT32_MAX)) {
+    PyErr_SetString(PyExc_TypeError,
+                    "a dense array [n] or [n][k] of float32, float64, int32, int64 or uint8 is "
+                    "wanted");
+    return false;
+  }
+  view.data = PyArray_DATA(array);
+  view.type = type;
+  view.rows = PyArray_DIM(array, 0);
+  view.columns = axes == 2 ? static_cast<int32_t>(PyArray_DIM(array, 1)) : 1;
+  return true;
+}
+
+// [rows], or [rows][columns] where there are several.
+static int shapeOf(int64_t rows, int32_t columns, npy_intp shape[2]) {
+  shape[0] = static_cast<npy_intp>(rows);
+  shape[1] = columns;
+  return columns == 1 ? 1 : 2;
+}
+
+// None where there is no array.
+static PyObject* copyOf(const ArrayView& view) {
+  if (!view.data) Py_RETURN_NONE;
+  npy_intp shape[2];
+  const int axes = shapeOf(view.rows, view.columns, shape);
+  PyObject* const array = PyArray_SimpleNew(axes, shape, numpyType(view.type));
+  if (array && view.rows > 0)
+    std::memcpy(
+        PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)), view.data,
+        static_cast<size_t>(view.rows) * static_cast<size_t>(view.columns) * sizeOfType(view.type));
+  return array;
+}
+
+// An array that frees the memory when nobody needs it any more.
+static PyObject* handOver(OwnedArray& owned) {
+  npy_intp shape[2];
+  const int axes = shapeOf(owned.rows(), owned.columns(), shape);
+  const int type = numpyType(owned.type());
+  void* const data = owned.release();
+  PyObject* const owner = PyCapsule_New(
+      data, nullptr, [](PyObject* capsule) { std::free(PyCapsule_GetPointer(capsule, nullptr)); });
+  if (!owner) {
+    std::free(data);
+    return nullptr;
+  }
+  PyObject* const array = PyArray_SimpleNewFromData(axes, shape, type, data);
+  if (!array) {
+    Py_DECREF(owner);
+    return nullptr;
+  }
+  // note: it takes `owner` also when it fails.
+  if (PyArray_SetBaseObject(reinterpret_cast<PyArrayObject*>(array), owner) != 0) {
+    Py_DECREF(array);
+    return nullptr;
+  }
+  return array;
+}
+
+}  // namespace tetstream::swig

@@ -1,0 +1,282 @@
+# Types of the package. Shapes and units stand in the docstrings. tests/python/stubs_test.py compares
+# names and parameters with what is there, and the options with the library's table.
+import os
+from collections.abc import Callable, Generator, Iterable, Mapping
+from types import SimpleNamespace
+from typing import Any, Literal, TypedDict, Union
+
+import numpy
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+from typing_extensions import Unpack
+
+__version__: str
+
+_Path = Union[str, bytes, os.PathLike[str], os.PathLike[bytes]]
+_Arrays = Mapping[str, ArrayLike]
+_Columns = Mapping[str, Union[DTypeLike, tuple[DTypeLike, int]]]
+_Source = Union[_Path, "Mesh", "Reader"]
+_Target = Union[_Path, "Writer"]
+_Told = Union[Callable[["Progress"], object], bool, None]
+
+class _Options(TypedDict, total=False):
+    ratio: float | str
+    cells: int | str
+    error: float | str
+    boundary_weight: float | str
+    feature_angle: float | str
+    mode: Literal["sweep", "paper", "queue"]
+    seed: int | str
+    quadric: Literal["determinant", "garland-zhou"]
+    candidates: int | str
+    pilot: Literal["auto", "none"]
+    release: Literal["order", "error"]
+    shape: Literal["field", "solver"]
+    samples: int | str
+    cut: str
+    window: int | str
+    memory: int | str
+    tmpdir: str
+    axis: Literal["auto", "x", "y", "z"]
+    order: str
+
+class _OptionsWithRegions(_Options, total=False):
+    regions: str
+
+# ------------------------------------------------------------------------------- exceptions
+
+class Error(Exception):
+    status: int | None
+
+class BadArgument(Error, ValueError): ...
+class BadState(Error, RuntimeError): ...
+class NoMemory(Error, MemoryError): ...
+class BadData(Error, ValueError): ...
+class InputOutput(Error, OSError): ...
+class Unsupported(Error, ValueError): ...
+class Cancelled(Error): ...
+class CallbackFailed(Error): ...
+class InternalError(Error, RuntimeError): ...
+class TargetMissedWarning(UserWarning): ...
+
+# ---------------------------------------------------------------------------------- figures
+
+class Record(SimpleNamespace):
+    def __getattr__(self, name: str) -> Any: ...
+
+class Progress(Record):
+    fraction: float
+    phase: str
+    cells_read: int
+    cells_total: int
+    cells_written: int
+    temporary_bytes: int
+
+class Report(Record):
+    cells_in: int
+    vertices_in: int
+    cells_out: int
+    vertices_out: int
+    target_cells: int
+    window_cells: int
+    estimated_error: float
+    seconds: float
+    peak_window_bytes: int
+    regions: str
+    limited_by: str
+    reached: str
+    order: str
+    notes: list[str]
+
+class LayoutReport(Record):
+    order: str
+    vertices: int
+    cells: int
+    front_width: int
+    seconds: float
+    notes: list[str]
+
+class StreamInfo(Record):
+    position_type: numpy.dtype[Any]
+    fields: dict[str, tuple[numpy.dtype[Any], int]]
+    cell_data: dict[str, tuple[numpy.dtype[Any], int]]
+    vertex_count: int
+    cell_count: int
+    front_width: int
+    front_span: int
+    front_cells: int
+    indexed: bool
+    box: NDArray[numpy.float64] | None
+    ranges: dict[str, NDArray[numpy.float64] | None]
+    notes: list[str]
+
+class Diagram(Record):
+    coverage: NDArray[numpy.float32]
+    widths: NDArray[numpy.int64]
+    lowest: NDArray[numpy.int64]
+    newest: NDArray[numpy.int64]
+    front_width: int
+    front_span: int
+    def plot(self, ax: Any = None, **look: Any) -> Any: ...
+    def write(self, path: _Path, title: str | None = None) -> None: ...
+
+class Comparison(Record):
+    original: Record
+    simplified: Record
+    fields: dict[str, Record]
+    regions: dict[int, Record]
+    labels: str
+    topology_kept: int
+    distance: float
+    outside_volume: float
+    def write(self, path: _Path, title: str | None = None) -> None: ...
+
+class Options:
+    ratio: float | str
+    cells: int | str
+    error: float | str
+    boundary_weight: float | str
+    regions: str
+    feature_angle: float | str
+    mode: str
+    seed: int | str
+    quadric: str
+    candidates: int | str
+    pilot: str
+    release: str
+    shape: str
+    samples: int | str
+    cut: str
+    window: int | str
+    memory: int | str
+    tmpdir: str
+    axis: str
+    order: str
+    def __init__(self, **values: Unpack[_OptionsWithRegions]) -> None: ...
+    def add_field(self, name: str, weight: float = 1.0) -> None: ...
+
+# ----------------------------------------------------------------------------------- meshes
+
+class Mesh:
+    points: ArrayLike
+    cells: ArrayLike
+    fields: dict[str, Any]
+    cell_data: dict[str, Any]
+    locked: ArrayLike | None
+    faces: ArrayLike | None
+    face_labels: ArrayLike | None
+    locked_faces: ArrayLike | None
+    locked_edges: ArrayLike | None
+    def __init__(self, points: ArrayLike, cells: ArrayLike, fields: _Arrays | None = None,
+                 cell_data: _Arrays | None = None, *, locked: ArrayLike | None = None,
+                 faces: ArrayLike | None = None, face_labels: ArrayLike | None = None,
+                 locked_faces: ArrayLike | None = None,
+                 locked_edges: ArrayLike | None = None) -> None: ...
+    def simplify(self, *, regions: ArrayLike | str | None = None,
+                 weights: Mapping[str, float] | None = None, vertex_map: bool = False,
+                 progress: _Told = None, **options: Unpack[_Options]) -> Simplified: ...
+    def write(self, path: _Path, format: str | None = None, **properties: str) -> list[str]: ...
+    def to_pyvista(self) -> Any: ...
+    def to_meshio(self) -> Any: ...
+
+class VertexMap:
+    cells: NDArray[numpy.int64]
+    weights: NDArray[numpy.float64]
+    def prolong(self, values: ArrayLike) -> NDArray[numpy.float64]: ...
+    def matrix(self) -> Any: ...
+
+class Simplified(Mesh):
+    points: NDArray[Any]
+    cells: NDArray[Any]
+    regions: NDArray[Any] | None
+    report: Report
+    vertex_map: VertexMap | None
+
+class Batch:
+    points: ArrayLike | None
+    fields: dict[str, Any]
+    locked: ArrayLike | None
+    cells: ArrayLike | None
+    last_uses: ArrayLike | None
+    cell_data: dict[str, Any]
+    finalized: ArrayLike | None
+    faces: ArrayLike | None
+    face_labels: ArrayLike | None
+    locked_faces: ArrayLike | None
+    locked_edges: ArrayLike | None
+    def __init__(self, points: ArrayLike | None = None, cells: ArrayLike | None = None,
+                 fields: _Arrays | None = None, cell_data: _Arrays | None = None,
+                 **more: ArrayLike | None) -> None: ...
+
+_Batches = Iterable[Union[Batch, dict[str, Any]]]
+
+class Reader:
+    @classmethod
+    def file(cls, path: _Path, format: str | None = None) -> Reader: ...
+    @classmethod
+    def memory(cls, data: Any, format: str) -> Reader: ...
+    @classmethod
+    def mesh(cls, mesh: Mesh) -> Reader: ...
+    @classmethod
+    def stream(cls, mesh: Mesh) -> Reader: ...
+    @classmethod
+    def generate(cls, kind: Literal["fluid", "ball", "fluid+stress", "ball+stress"], cells: float,
+                 seed: int = 1) -> Reader: ...
+    @classmethod
+    def batches(cls, batches: _Batches, points: DTypeLike = "float64",
+                fields: _Columns | None = None, cell_data: _Columns | None = None, *,
+                indexed: bool = False, vertex_count: int = -1, cell_count: int = -1,
+                front_width: int = -1, front_span: int = -1, front_cells: int = -1) -> Reader: ...
+    def info(self) -> StreamInfo: ...
+    @property
+    def notes(self) -> list[str]: ...
+
+class Writer:
+    @classmethod
+    def file(cls, path: _Path, format: str | None = None, **properties: str) -> Writer: ...
+    @classmethod
+    def memory(cls, format: str, **properties: str) -> Writer: ...
+    @classmethod
+    def arrays(cls, cell_type: DTypeLike = "int64") -> Writer: ...
+    @classmethod
+    def batches(cls, put: Callable[[Batch], object] | Generator[Any, Batch, Any],
+                open: Callable[[StreamInfo], object] | None = None,
+                finish: Callable[[], object] | None = None) -> Writer: ...
+    def getbytes(self) -> bytes: ...
+    def getmesh(self) -> Mesh: ...
+    @property
+    def notes(self) -> list[str]: ...
+
+# -------------------------------------------------------------------------------- functions
+
+def simplify(__points: ArrayLike, __tetrahedra: ArrayLike, fields: _Arrays | None = None, *,
+             cell_data: _Arrays | None = None, regions: ArrayLike | str | None = None,
+             locked: ArrayLike | None = None, faces: ArrayLike | None = None,
+             face_labels: ArrayLike | None = None, locked_faces: ArrayLike | None = None,
+             locked_edges: ArrayLike | None = None, weights: Mapping[str, float] | None = None,
+             vertex_map: bool = False, progress: _Told = None,
+             **options: Unpack[_Options]) -> Simplified: ...
+def simplify_file(source: _Source, target: _Target, *, weights: Mapping[str, float] | None = None,
+                  map_file: _Path | None = None, log_file: _Path | None = None,
+                  progress: _Told = None, **options: Unpack[_OptionsWithRegions]) -> Report: ...
+def simplify_batches(batches: _Batches, points: DTypeLike = "float64",
+                     fields: _Columns | None = None, cell_data: _Columns | None = None, *,
+                     weights: Mapping[str, float] | None = None, vertex_count: int = -1,
+                     cell_count: int = -1, front_width: int = -1, front_span: int = -1,
+                     front_cells: int = -1,
+                     **options: Unpack[_OptionsWithRegions]) -> Generator[Batch, None, Report]: ...
+def layout(source: _Source, target: _Target, *, progress: _Told = None,
+           **options: Unpack[_OptionsWithRegions]) -> LayoutReport: ...
+def convert(source: _Source, target: _Target, *, progress: _Told = None,
+            **options: Unpack[_OptionsWithRegions]) -> list[str]: ...
+def read(source: _Source, *, cell_type: DTypeLike = "int64", progress: _Told = None) -> Mesh: ...
+def info(source: _Source, *, progress: _Told = None,
+         **options: Unpack[_OptionsWithRegions]) -> StreamInfo: ...
+def diagram(source: _Source, *, columns: int = 1200, rows: int = 800, sweep: bool = False,
+            progress: _Told = None, **options: Unpack[_OptionsWithRegions]) -> Diagram: ...
+def compare(original: _Source, simplified: _Source, *, weights: Mapping[str, float] | None = None,
+            progress: _Told = None, **options: Unpack[_OptionsWithRegions]) -> Comparison: ...
+def formats() -> list[Record]: ...
+def from_pyvista(grid: Any) -> Mesh: ...
+def to_pyvista(mesh: Mesh) -> Any: ...
+def from_meshio(mesh: Any) -> Mesh: ...
+def to_meshio(mesh: Mesh) -> Any: ...

@@ -1,0 +1,110 @@
+"""The library's options as properties, made from its own table."""
+import operator
+
+from . import core
+from .errors import BadArgument
+
+
+class _Row:
+    """A row of the table."""
+
+    def __init__(self, index):
+        info = core.option_at(index)
+        self.id, self.type, self.flag = info.id, info.type, info.name
+        self.text, self.default, self.choices = info.text, info.default_text, info.choices
+        self.minimum, self.maximum = info.minimum, info.maximum
+        self.name = self.flag.replace("-", "_")
+
+    def range_text(self):
+        if self.type == core.OPTION_IS_TEXT:
+            return f"one of: {self.choices}" if self.choices else "text"
+        kind = "int" if self.type == core.OPTION_IS_INT64 else "float"
+        if abs(self.maximum) >= 2.0 ** 63 or self.minimum < 0:
+            return kind
+        return f"{kind}, {self.minimum:g} to {self.maximum:g}"
+
+    def describe(self):
+        default = f"; default {self.default}" if self.default else ""
+        return f"{self.text} ({self.range_text()}{default})"
+
+    def get(self, handle):
+        if self.type == core.OPTION_IS_INT64:
+            return handle.get_int64(self.id)
+        if self.type == core.OPTION_IS_DOUBLE:
+            return handle.get_double(self.id)
+        return handle.get_text(self.id)
+
+    def set(self, handle, value):
+        if self.type == core.OPTION_IS_TEXT:
+            if not isinstance(value, str):
+                raise TypeError(f"{self.name}: a str is wanted, not {type(value).__name__}")
+            handle.set_text(self.id, value)
+        elif isinstance(value, str):  # "2G", "1e6"
+            handle.parse(self.flag, value)
+        elif self.type == core.OPTION_IS_INT64:
+            handle.set_int64(self.id, self._int64(value))
+        else:
+            handle.set_double(self.id, float(value))
+
+    def _int64(self, value):
+        try:
+            number = operator.index(value)
+        except TypeError:
+            raise TypeError(f"{self.name}: an int is wanted, not {type(value).__name__}") from None
+        if not -2 ** 63 <= number < 2 ** 63:
+            raise BadArgument(f"{self.name}: {number} has more than 64 bits")
+        return number
+
+
+ROWS = {row.name: row for row in map(_Row, range(core.option_count()))}
+
+
+class Options:
+    """The options of a run, each a property; those that are not set have their defaults.
+
+    ``Options(ratio=0.1, memory="64M")``; numbers may be given as text, with a suffix k, M or G.
+    """
+
+    def __init__(self, **values):
+        self._handle = core.Options()
+        for name, value in values.items():
+            if name not in ROWS:
+                raise TypeError(f"there is no option {name}; there are {', '.join(ROWS)}")
+            if value is not None:
+                setattr(self, name, value)
+
+    def add_field(self, name, weight=1.0):
+        """Measures this field with this weight; 0: carried along. Fields that are not named are
+        then carried."""
+        self._handle.add_field(name, float(weight))
+
+    def __repr__(self):
+        return f"Options({', '.join(f'{name}={getattr(self, name)!r}' for name in ROWS)})"
+
+
+def _add_property(row):
+    setattr(Options, row.name, property(lambda self: row.get(self._handle),
+                                        lambda self, value: row.set(self._handle, value),
+                                        doc=row.describe()))
+
+
+for _row in ROWS.values():
+    _add_property(_row)
+
+
+def made(values, weights=None):
+    """Options from keyword arguments and a dict of fields' weights."""
+    options = Options(**values)
+    for name, weight in dict(weights or {}).items():
+        options.add_field(name, weight)
+    return options
+
+
+def documented(*names):
+    """A decorator: adds these options, or all, to what a function says of itself."""
+    def with_table(function):
+        rows = [ROWS[name] for name in names] if names else ROWS.values()
+        lines = [f"    {row.name}: {row.describe()}" for row in rows]
+        function.__doc__ += "\n    Options:\n\n" + "\n".join("    " + line for line in lines) + "\n"
+        return function
+    return with_table

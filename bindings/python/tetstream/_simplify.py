@@ -1,0 +1,193 @@
+"""The simplification: of arrays, of files, of streams."""
+import warnings
+
+from . import _arrays, _mesh, _options, _progress, _streams, core
+from ._records import Report
+from .errors import TargetMissedWarning
+
+_TARGETS = ("ratio", "cells", "error")
+
+
+def _made_options(options, weights):
+    if not any(options.get(target) for target in _TARGETS):
+        raise TypeError("a target is missing: give ratio= (cells out / cells in), cells= or error= "
+                        "(percent of the fields' range)")
+    return _options.made(options, weights)
+
+
+def _run(options, reader, writer, progress, prepare, depth):
+    """One simplification; `prepare` is called with the simplifier before. The Report."""
+    with _progress.told(progress) as tell:
+        simplifier = core.Simplifier(options._handle, writer._handle, tell)
+        prepare(simplifier)
+        simplifier.run(reader._handle)
+    return _reported(simplifier, depth, reader, writer)
+
+
+def _reported(simplifier, depth, *handles):
+    """The Report; a missed target is a warning at the frame of the caller, `depth` frames up."""
+    report = _streams.noted(Report.copied(simplifier.get_report()), *handles)
+    if report.limited_by:
+        warnings.warn(f"the target of {report.target_cells} cells was missed, {report.cells_out} "
+                      f"are left; limited by: {report.limited_by}", TargetMissedWarning,
+                      stacklevel=depth)
+    return report
+
+
+def _with_regions(mesh, regions, options):
+    """The mesh with labels of its own as one more cell array, and the option that names it."""
+    if regions is None:
+        return mesh, options
+    if isinstance(regions, str):
+        return mesh, {**options, "regions": regions}
+    name = "region"
+    while name in mesh.cell_data:
+        name += "_"
+    labelled = _mesh.Mesh(mesh.points, mesh.cells, mesh.fields,
+                          {**mesh.cell_data, name: regions}, locked=mesh.locked, faces=mesh.faces,
+                          face_labels=mesh.face_labels, locked_faces=mesh.locked_faces,
+                          locked_edges=mesh.locked_edges)
+    return labelled, {**options, "regions": name}
+
+
+def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progress=None, **options):
+    """tetstream.simplify of a Mesh."""
+    labelled, options = _with_regions(mesh, regions, options)
+    made = _made_options(options, weights)
+    points, cells, columns, cell_columns = _streams.mesh_columns(labelled)
+    collector = core.MeshCollector(_arrays.TYPES[cells.dtype])
+    reader = _streams.Reader._of_columns(labelled, points, cells, columns, cell_columns)
+    writer = _streams.Writer(core.Writer.collect(collector))
+    mapped = core.MapCollector(len(points)) if vertex_map else None
+
+    def prepare(simplifier):
+        if vertex_map:
+            simplifier.set_map(mapped)
+
+    report = _run(made, reader, writer, progress, prepare, 5)
+    result = _mesh.collected(collector, columns, cell_columns, _mesh.Simplified)
+    result.report = report
+    if labelled is not mesh:
+        result.regions = result.cell_data.pop(options["regions"])
+    if vertex_map:
+        result.vertex_map = _mesh.VertexMap(mapped.cells(), mapped.weights(), result.cells)
+    return result
+
+
+@_options.documented()
+def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None, locked=None,
+             faces=None, face_labels=None, locked_faces=None, locked_edges=None, weights=None,
+             vertex_map=False, progress=None, **options):
+    """Simplifies a mesh in arrays: ``simplify(points, cells, {"p": p}, ratio=0.1)``.
+
+    Dense arrays of the types below are read where they lie; others are copied first. Memory beyond
+    the arrays is that of the window and of ordering.
+
+    Args:
+        points: [n][3], float32 or float64, in any unit of length.
+        tetrahedra: [m][4], int32 or int64, the cells: points from 0, in either orientation.
+        fields: dict of name to [n] or [n][components], values at the points, in any units. Floats
+            are interpolated, integers picked.
+        cell_data: dict of name to [m] or [m][components]. Floats are averaged by volume, integers
+            picked.
+        regions: [m], integers: the region of each cell; regions and the interfaces between them are
+            kept, and the result has `regions`, too. Or the name of one of `cell_data`, "auto" or
+            "none", as the option.
+        locked: [n] of bool: points that are never moved.
+        faces: [f][3], labelled faces of cells, with `face_labels`: [f], and `locked_faces`: [f] of
+            bool; `locked_edges`: [e][2].
+        weights: dict of field to its weight in the error; others are then only carried along. None:
+            all float fields count alike.
+        vertex_map: whether the result tells where each point went.
+        progress: a function that is called with a Progress some times a second, on the thread of
+            the caller; True: a bar, with tqdm. What it raises ends the run.
+        **options: the target, one or more of `ratio`, `cells` and `error`, of which the first that
+            is reached ends the run, and what else is listed below.
+
+    Returns:
+        A Simplified: points, cells, fields, cell_data, report, vertex_map. Integers have the types
+        that they came with.
+
+    Raises:
+        tetstream.Error or one of its kinds, TypeError, or what `progress` raised. KeyboardInterrupt
+        ends a run within a second.
+
+    Warns:
+        TargetMissedWarning: where the result has more cells than asked for.
+    """
+    mesh = _mesh.Mesh(points, tetrahedra, fields, cell_data, locked=locked, faces=faces,
+                      face_labels=face_labels, locked_faces=locked_faces,
+                      locked_edges=locked_edges)
+    return simplify_mesh(mesh, regions=regions, weights=weights, vertex_map=vertex_map,
+                         progress=progress, **options)
+
+
+@_options.documented()
+def simplify_file(source, target, *, weights=None, map_file=None, log_file=None, progress=None,
+                  **options):
+    """Simplifies a file into another, in memory that depends on the front and not on the mesh:
+    ``simplify_file("jet.vtu", "jet-10.vtu", ratio=0.1)``. The bytes are those of the command
+    `tetstream simplify` with the same options.
+
+    Args:
+        source: a path, a Reader or a Mesh.
+        target: a path or a Writer.
+        weights, progress: as in simplify.
+        map_file: where a map of the vertices is written, .tetmap or .csv.
+        log_file: where the log of collapses is written, .tetlog or .csv.
+        **options: as in simplify.
+
+    Returns:
+        A Report.
+    """
+    def prepare(simplifier):
+        if map_file is not None:
+            simplifier.set_map_file(map_file, None)
+        if log_file is not None:
+            simplifier.set_log_file(log_file, None)
+
+    # The options first, then the source: nothing is created where one of them is refused.
+    made, reader = _made_options(options, weights), _streams.reader_of(source)
+    return _run(made, reader, _streams.writer_of(target), progress, prepare, 4)
+
+
+@_options.documented()
+def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, weights=None,
+                     vertex_count=-1, cell_count=-1, front_width=-1, front_span=-1, front_cells=-1,
+                     **options):
+    """Simplifies a stream as a generator: takes Batches, gives Batches, while the input runs.
+
+        for batch in tetstream.simplify_batches(solver(), fields={"p": "float64"}, ratio=0.1):
+            ...
+
+    Args:
+        batches: an iterable of Batches, or of dicts with a Batch's arguments.
+        points, fields, cell_data, counts and front: as in Reader.batches.
+        weights, **options: as in simplify. A ratio needs `cell_count` to be met early.
+
+    Yields:
+        Batches of the result, in final form: what was given is never changed.
+
+    Returns:
+        A Report, as the generator's value.
+    """
+    schema = _streams._Schema.announced(points, fields, cell_data, {
+        "vertex_count": vertex_count, "cell_count": cell_count, "front_width": front_width,
+        "front_span": front_span, "front_cells": front_cells})
+    ready = []
+    writer = _streams.Writer.batches(ready.append)
+    simplifier = core.Simplifier(_made_options(options, weights)._handle, writer._handle, None)
+    return _pushed(schema, simplifier, writer, ready, batches)
+
+
+def _pushed(schema, simplifier, writer, ready, batches):
+    simplifier.begin(schema.info)
+    for batch in batches:
+        events = core.StreamBatch()
+        kept = schema.fill(events, batch)  # noqa: F841  alive until they have been read
+        simplifier.push(events)
+        yield from ready
+        ready.clear()
+    simplifier.finish()
+    yield from ready
+    return _reported(simplifier, 3, writer)

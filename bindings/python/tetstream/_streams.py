@@ -1,0 +1,422 @@
+"""Readers and writers: files, memory, arrays, generators and functions."""
+import os
+
+import numpy
+
+from . import _arrays, _mesh, core
+from ._records import Record, StreamInfo
+from .errors import BadArgument
+
+
+class Batch:
+    """Events of a stream: its points, then its cells in order. None, or nothing in a dict: there are
+    none.
+
+    points: [n][3], of the stream's type; they are numbered from 0 on through all batches.
+    fields: dict of name to [n] or [n][components].
+    locked: [n] of bool: points that are never moved.
+    cells: [m][4], the numbers of points of this batch or earlier ones.
+    last_uses: [m] of uint8; bit j: no later cell uses the point of corner j.
+    cell_data: dict of name to [m] or [m][components].
+    finalized: [k]: points that no later cell uses.
+    faces: [f][3], labelled faces, with face_labels: [f], and locked_faces: [f] of bool.
+    locked_edges: [e][2]: edges whose ends are never moved.
+    """
+
+    __slots__ = ("points", "fields", "locked", "cells", "last_uses", "cell_data", "finalized",
+                 "faces", "face_labels", "locked_faces", "locked_edges")
+
+    def __init__(self, points=None, cells=None, fields=None, cell_data=None, **more):
+        for name in self.__slots__:
+            setattr(self, name, more.pop(name, None))
+        if more:
+            raise TypeError(f"a Batch has no {', '.join(more)}")
+        self.points, self.cells = points, cells
+        self.fields, self.cell_data = dict(fields or {}), dict(cell_data or {})
+
+    def __repr__(self):
+        points = 0 if self.points is None else len(self.points)
+        cells = 0 if self.cells is None else len(self.cells)
+        return f"<Batch of {points} points and {cells} cells>"
+
+
+class _Schema:
+    """What a stream of batches carries, and how a Batch becomes the library's and back."""
+
+    def __init__(self, info):
+        self.info = info
+        self.fields = [(info.field_name(i), _arrays.DTYPES[info.field_type(i)],
+                        info.field_components(i)) for i in range(info.field_count())]
+        self.cell_data = [(info.cell_data_name(i), _arrays.DTYPES[info.cell_data_type(i)],
+                           info.cell_data_components(i)) for i in range(info.cell_data_count())]
+        self.points = _arrays.DTYPES[info.position_type]
+
+    @classmethod
+    def announced(cls, points, fields, cell_data, counts, indexed=False):
+        info = core.StreamInfo()
+        info.position_type = _type("points", points)
+        info.is_indexed = bool(indexed)
+        for name, column in _columns(fields):
+            info.add_field(name, column[1], column[0])
+        for name, column in _columns(cell_data):
+            info.add_cell_data(name, column[1], column[0])
+        for name, count in counts.items():
+            setattr(info, name, count)
+        return cls(info)
+
+    def fill(self, target, batch):
+        """Puts a Batch's arrays into the library's. The arrays, which the caller keeps until they
+        have been read."""
+        if isinstance(batch, dict):
+            batch = Batch(**batch)
+        if not isinstance(batch, Batch):
+            raise TypeError(f"a reader gives a Batch or a dict, not {type(batch).__name__}")
+        kept = []
+
+        def put(function, array):
+            kept.append(array)
+            function(array)
+
+        points = 0 if batch.points is None else len(batch.points)
+        if points:
+            put(target.set_positions, _needs("points", batch.points, self.points, (points, 3)))
+            self._put_columns(put, target.add_field, batch.fields, self.fields, points)
+        if points and batch.locked is not None:
+            put(target.set_locked, _arrays.flags("locked", batch.locked, points))
+        cells = 0 if batch.cells is None else len(batch.cells)
+        if cells:
+            put(target.set_cells, _arrays.wide_ids("cells", batch.cells, 4))
+            self._put_columns(put, target.add_cell_data, batch.cell_data, self.cell_data, cells)
+        if cells and batch.last_uses is not None:
+            put(target.set_last_uses, _arrays.bits("last_uses", batch.last_uses, cells))
+        for name, columns in (("finalized", 1), ("faces", 3), ("face_labels", 1),
+                              ("locked_edges", 2)):
+            value = getattr(batch, name)
+            if value is not None and len(value):
+                put(getattr(target, "set_" + name), _arrays.wide_ids(name, value, columns))
+        if batch.faces is not None and batch.locked_faces is not None:
+            put(target.set_locked_faces,
+                _arrays.flags("locked_faces", batch.locked_faces, len(batch.faces)))
+        return kept
+
+    @staticmethod
+    def _put_columns(put, add, arrays, columns, rows):
+        unknown = set(arrays) - {name for name, _, _ in columns}
+        if unknown:
+            raise BadArgument(f'"{sorted(unknown)[0]}" was not announced')
+        for name, dtype, components in columns:
+            if name not in arrays:
+                raise BadArgument(f'"{name}" was announced, and is not in the batch')
+            column = _arrays.Column(name, _numbers(arrays[name], dtype), rows)
+            if column.components != components:
+                raise BadArgument(f'"{name}": {column.components} numbers in a row, {components} '
+                                  "were announced")
+            put(add, _cast(name, column.rows, dtype))
+
+    def batch(self, source):
+        """A Batch with copies of the library's arrays."""
+        flags = {name: None if array is None else array.astype(bool)
+                 for name, array in (("locked", source.locked()),
+                                     ("locked_faces", source.locked_faces()))}
+        return Batch(
+            points=_rows(source.positions(), 3, self.points), cells=_rows(source.cells(), 4, "i8"),
+            fields={name: source.field(i) if len_of(source.positions()) else
+                    numpy.zeros((0, n)[:1 + (n > 1)], dtype)
+                    for i, (name, dtype, n) in enumerate(self.fields)},
+            cell_data={name: source.cell_data(i) if len_of(source.cells()) else
+                       numpy.zeros((0, n)[:1 + (n > 1)], dtype)
+                       for i, (name, dtype, n) in enumerate(self.cell_data)},
+            last_uses=source.last_uses(), finalized=source.finalized(), faces=source.faces(),
+            face_labels=source.face_labels(), locked_edges=source.locked_edges(), **flags)
+
+
+def len_of(array):
+    return 0 if array is None else len(array)
+
+
+def _rows(array, columns, dtype):
+    return numpy.zeros((0, columns), dtype) if array is None else array
+
+
+def _numbers(values, dtype):
+    """Numbers that have no type yet, as those of a list, get the one that was announced."""
+    return values if isinstance(values, numpy.ndarray) else numpy.asarray(values, dtype)
+
+
+def _cast(name, array, dtype):
+    if not numpy.can_cast(array.dtype, dtype, "safe"):
+        raise TypeError(f"{name}: its numbers are {array.dtype}, {dtype} was announced")
+    return numpy.require(array, dtype, ("C", "A"))
+
+
+def _needs(name, values, dtype, shape):
+    array = _numbers(values, dtype)
+    if array.shape != shape:
+        raise BadArgument(f"{name}: the shape is {array.shape}, {shape} is wanted")
+    return _cast(name, array, dtype)
+
+
+def _type(name, dtype):
+    dtype = numpy.dtype(dtype)
+    if dtype not in _arrays.TYPES:
+        raise TypeError(f"{name}: {dtype} is none of float32, float64, int32 and int64")
+    return _arrays.TYPES[dtype]
+
+
+def _columns(announced):
+    """Pairs of name and (type, components) of what the caller announces: a dict of name to dtype, to
+    (dtype, components) or to None, for one float64."""
+    for name, what in dict(announced or {}).items():
+        dtype, components = what if isinstance(what, tuple) else (what, 1)
+        yield name, (_type(name, dtype or "f8"), components)
+
+
+def _notes(handle):
+    notes = []
+    while (note := handle.note(len(notes))) is not None:
+        notes.append(note)
+    return notes
+
+
+class Reader:
+    """Where a mesh comes from. It serves one run.
+
+    Made by Reader.file, Reader.memory, Reader.mesh, Reader.stream, Reader.generate and
+    Reader.batches; functions that read also take a path, or a Mesh, in its place.
+    """
+
+    def __init__(self, handle, *kept):
+        self._handle, self._kept = handle, kept  # arrays that the library reads where they lie
+
+    @classmethod
+    def file(cls, path, format=None):
+        """A file; `format` is a name such as "vtu", or None: by the path's ending."""
+        return cls(core.Reader.open_file(path, format))
+
+    @classmethod
+    def memory(cls, data, format):
+        """The bytes of a file: a bytes object or another buffer."""
+        array = numpy.frombuffer(data, numpy.uint8)
+        return cls(core.Reader.open_memory(array, format), array)
+
+    @classmethod
+    def mesh(cls, mesh):
+        """An indexed Mesh, whose arrays are not copied if they are dense and of types that the
+        library has. They must stay as they are until the run is over."""
+        return cls._of_columns(mesh, *mesh_columns(mesh))
+
+    @classmethod
+    def _of_columns(cls, mesh, points, cells, columns, cell_columns):
+        info, batch = core.StreamInfo(), core.StreamBatch()
+        kept = [points, cells]
+        info.position_type = _arrays.TYPES[points.dtype]
+        batch.set_positions(points)
+        batch.set_cells(cells)
+        for column in columns:
+            info.add_field(column.name, column.components, column.type)
+            batch.add_field(column.rows)
+        for column in cell_columns:
+            info.add_cell_data(column.name, column.components, column.type)
+            batch.add_cell_data(column.rows)
+        kept += [column.rows for column in (*columns, *cell_columns)]
+
+        def put(function, array):
+            kept.append(array)
+            function(array)
+
+        if mesh.locked is not None:
+            put(batch.set_locked, _arrays.flags("locked", mesh.locked, len(points)))
+        if mesh.faces is not None:
+            faces = _arrays.wide_ids("faces", mesh.faces, 3)
+            labels = numpy.zeros(len(faces), int) if mesh.face_labels is None else mesh.face_labels
+            put(batch.set_faces, faces)
+            put(batch.set_face_labels, _arrays.wide_ids("face_labels", labels, 1))
+            if mesh.locked_faces is not None:
+                put(batch.set_locked_faces,
+                    _arrays.flags("locked_faces", mesh.locked_faces, len(faces)))
+        if mesh.locked_edges is not None:
+            put(batch.set_locked_edges, _arrays.wide_ids("locked_edges", mesh.locked_edges, 2))
+        return cls(core.Reader.open_mesh(info, batch), kept)
+
+    @classmethod
+    def stream(cls, mesh):
+        """A Mesh as a stream: its points and cells come in the order that they have, finalized where
+        they can be. Labelled faces and locked edges come first, and all points with them."""
+        return _mesh.batches_of(mesh)
+
+    @classmethod
+    def generate(cls, kind, cells, seed=1):
+        """A mesh made on the fly, of about that many cells: "fluid", "ball", "fluid+stress",
+        "ball+stress"."""
+        return cls(core.Reader.generate(kind, int(cells), seed))
+
+    @classmethod
+    def batches(cls, batches, points="float64", fields=None, cell_data=None, *, indexed=False,
+                vertex_count=-1, cell_count=-1, front_width=-1, front_span=-1, front_cells=-1):
+        """A stream out of an iterable, such as a generator, of Batches or of dicts with a Batch's
+        arguments.
+
+        points: the type of the points, float32 or float64.
+        fields, cell_data: dicts of name to dtype or to (dtype, components).
+        indexed: nothing is finalized; the library orders the mesh before it is streamed.
+        Counts and the front are told if they are known; the front sets the window.
+        """
+        schema = _Schema.announced(points, fields, cell_data, {
+            "vertex_count": vertex_count, "cell_count": cell_count, "front_width": front_width,
+            "front_span": front_span, "front_cells": front_cells}, indexed)
+        iterator = iter(batches)
+        kept = []
+
+        def is_empty(target):
+            return all(array is None for array in (target.positions(), target.cells(),
+                                                   target.finalized()))
+
+        def give(target):
+            # note: an empty batch ends the library's stream; an iterable may give some.
+            for batch in iterator:
+                kept[:] = schema.fill(target, batch)
+                if kept and not is_empty(target):
+                    return
+            kept.clear()
+
+        return cls(core.Reader.create(schema.info, give), batches)
+
+    def info(self):
+        """What is known without reading: a StreamInfo."""
+        return stream_info(self._handle.get_info(), notes=self.notes)
+
+    @property
+    def notes(self):
+        """Sentences on what was left out or assumed."""
+        return _notes(self._handle)
+
+
+def stream_info(info, **more):
+    """A StreamInfo of the library's."""
+    schema = _Schema(info)
+    least, largest = info.box_min(), info.box_max()
+    box = None if least is None or largest is None else numpy.stack([least, largest])
+    ranges, at = {}, 3
+    for name, _, components in schema.fields:
+        ranges[name] = None if box is None else box[:, at:at + components]
+        at += components
+    return StreamInfo(position_type=schema.points,
+                      fields={name: (dtype, n) for name, dtype, n in schema.fields},
+                      cell_data={name: (dtype, n) for name, dtype, n in schema.cell_data},
+                      vertex_count=info.vertex_count, cell_count=info.cell_count,
+                      front_width=info.front_width, front_span=info.front_span,
+                      front_cells=info.front_cells, indexed=info.is_indexed,
+                      box=None if box is None else box[:, :3], ranges=ranges, **more)
+
+
+def mesh_columns(mesh):
+    """Points, cells, fields and cell data of a Mesh as the library takes them."""
+    points, cells = _arrays.points(mesh.points), _arrays.cells(mesh.cells)
+    return (points, cells, _arrays.columns(mesh.fields, len(points)),
+            _arrays.columns(mesh.cell_data, len(cells)))
+
+
+class Writer:
+    """Where a mesh goes. It serves one run.
+
+    Made by Writer.file, Writer.memory, Writer.arrays and Writer.batches; functions that write also
+    take a path in its place.
+    """
+
+    def __init__(self, handle, *kept):
+        self._handle, self._kept = handle, kept
+
+    def _with(self, properties):
+        for name, value in properties.items():
+            self._handle.set(name, value)
+        return self
+
+    @classmethod
+    def file(cls, path, format=None, **properties):
+        """A file, which takes its name when it is complete. `format` as in Reader.file; `properties`
+        of the format: compress="yes" or "no" (.tets, .vtu), order="pre" or "post" (.sva, .svb)."""
+        return cls(core.Writer.create_file(path, format))._with(properties)
+
+    @classmethod
+    def memory(cls, format, **properties):
+        """The bytes of a file, which getbytes() gives when the run is over."""
+        return cls(core.Writer.create_memory(format))._with(properties)
+
+    @classmethod
+    def arrays(cls, cell_type="int64"):
+        """Arrays: getmesh() gives a Mesh when the run is over. `cell_type`: int32 or int64."""
+        collector = core.MeshCollector(_type("cells", cell_type))
+        return cls(core.Writer.collect(collector), collector)
+
+    @classmethod
+    def batches(cls, put, open=None, finish=None):
+        """A function that is called with each Batch; or a generator, to which each is sent, which is
+        closed at the end.
+
+        open: called first, with a StreamInfo; finish: called after a complete stream; or None.
+        """
+        if hasattr(put, "send"):
+            next(put)
+            put, finish = put.send, _closing(put, finish)
+        schema = []
+
+        def begin(info):
+            schema[:] = [_Schema(core.StreamInfo(info))]
+            if open is not None:
+                open(stream_info(info, notes=[]))
+
+        def take(batch):
+            put(schema[0].batch(batch))
+
+        def end(_):
+            if finish is not None:
+                finish()
+
+        return cls(core.Writer.create(begin, take, end))
+
+    def getbytes(self):
+        """The bytes of a Writer.memory."""
+        return self._handle.get_memory().tobytes()
+
+    def getmesh(self):
+        """The Mesh of a Writer.arrays; it is given once."""
+        return _mesh.collected(self._kept[0])
+
+    @property
+    def notes(self):
+        """Sentences on what the format could not hold and was left out."""
+        return _notes(self._handle)
+
+
+def _closing(generator, finish):
+    def end():
+        generator.close()
+        if finish is not None:
+            finish()
+    return end
+
+
+def reader_of(source):
+    """A Reader of what somebody calls a source."""
+    if isinstance(source, Reader):
+        return source
+    if isinstance(source, _mesh.Mesh):
+        return Reader.mesh(source)
+    if isinstance(source, (str, bytes, os.PathLike)):
+        return Reader.file(source)
+    raise TypeError(f"a path, a Mesh or a Reader is wanted, not {type(source).__name__}")
+
+
+def writer_of(target):
+    """A Writer of what somebody calls a target."""
+    if isinstance(target, Writer):
+        return target
+    if isinstance(target, (str, bytes, os.PathLike)):
+        return Writer.file(target)
+    raise TypeError(f"a path or a Writer is wanted, not {type(target).__name__}")
+
+
+def noted(record, *handles):
+    """The record with the notes of readers and writers."""
+    record.notes = [note for handle in handles for note in handle.notes]
+    return record

@@ -1,0 +1,20 @@
+#include "failure.h"
+
+namespace tetstream::swig {
+
+thread_local LibraryCall* LibraryCall::innermost_ = nullptr;
+
+void LibraryCall::keep(std::exception_ptr thrown) noexcept {
+  if (innermost_ && !innermost_->thrown_) innermost_->thrown_ = std::move(thrown);
+}
+
+void failArgument(const std::string& sentence) {
+  throw Failure(TETSTREAM_BAD_ARGUMENT, sentence);
+}
+
+void check(tetstream_status status, const char* function) {
+  if (status < 0)
+    throw Failure(status, std::string(function) + ": " + tetstream_status_name(status));
+}
+
+}  // namespace tetstream::swig

@@ -1,0 +1,59 @@
+// swig: a whole stream collected into arrays, and a vertex map by vertex: what comes back from the
+// library without calling the language. Depends on stream_batch.h.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "stream_batch.h"
+
+namespace tetstream::swig {
+
+// Takes what a writer is given. The arrays can be taken once, when the stream is complete.
+class MeshCollector {
+ public:
+  // `cell_type`: of the cells' ids; an int32 mesh must have fewer than 2^31 vertices.
+  explicit MeshCollector(int32_t cell_type);
+
+  const StreamInfo& info() const;  // Throws Failure before the stream has begun
+  OwnedArray& positions() { return positions_; }
+  OwnedArray& field(int32_t index);
+  OwnedArray& cells() { return cells_; }
+  OwnedArray& cellData(int32_t index);
+  OwnedArray& locked() { return locked_; }  // empty if no vertex is
+  OwnedArray& faces() { return faces_; }
+  OwnedArray& faceLabels() { return face_labels_; }
+  OwnedArray& lockedFaces() { return locked_faces_; }  // empty if none is
+  OwnedArray& lockedEdges() { return locked_edges_; }
+
+  // Its user is this.
+  tetstream_writer_callbacks callbacks();
+
+ private:
+  void open(const tetstream_stream_info& info);
+  void put(const tetstream_batch& batch);
+  void putCells(const tetstream_batch& batch);
+
+  int32_t cell_type_;
+  std::unique_ptr<StreamInfo> info_;
+  OwnedArray positions_, cells_, locked_, faces_, face_labels_, locked_faces_, locked_edges_;
+  std::vector<OwnedArray> fields_, cell_data_;
+};
+
+// Takes a map, whose rows come in the order of the output's cells, and has them by vertex.
+class MapCollector {
+ public:
+  explicit MapCollector(int64_t vertices);
+
+  OwnedArray& cells() { return cells_; }      // [vertices] int64; -1: the vertex was in no cell
+  OwnedArray& weights() { return weights_; }  // [vertices][4] float64
+
+  tetstream_map_callbacks callbacks();
+
+ private:
+  void put(const tetstream_map_rows& rows);
+
+  OwnedArray cells_, weights_;
+};
+
+}  // namespace tetstream::swig

@@ -1,0 +1,82 @@
+#include "stream_info.h"
+
+#include "failure.h"
+
+namespace tetstream::swig {
+
+StreamInfo::StreamInfo(const tetstream_stream_info& info)
+    : position_type(info.position_type),
+      is_indexed((info.flags & TETSTREAM_STREAM_INDEXED) != 0),
+      vertex_count(info.vertex_count),
+      cell_count(info.cell_count),
+      front_width(info.front_width),
+      front_span(info.front_span),
+      front_cells(info.front_cells) {
+  size_t box = 3;
+  for (int32_t i = 0; i < info.field_count; ++i) {
+    const tetstream_column& c = info.fields[i];
+    addField(c.name, c.components, c.type);
+    box += static_cast<size_t>(c.components);
+  }
+  for (int32_t i = 0; i < info.cell_data_count; ++i) {
+    const tetstream_column& c = info.cell_data[i];
+    addCellData(c.name, c.components, c.type);
+  }
+  if (info.box_min) box_min_.assign(info.box_min, info.box_min + box);
+  if (info.box_max) box_max_.assign(info.box_max, info.box_max + box);
+}
+
+void StreamInfo::add(std::vector<tetstream_column>& columns, const char* name, int32_t components,
+                     int32_t type) {
+  if (!name) failArgument("an array has no name");
+  columns.push_back({names_.emplace_back(name).c_str(), components, type});
+}
+
+void StreamInfo::addField(const char* name, int32_t components, int32_t type) {
+  add(fields_, name, components, type);
+}
+
+void StreamInfo::addCellData(const char* name, int32_t components, int32_t type) {
+  add(cell_data_, name, components, type);
+}
+
+static const tetstream_column& columnAt(const std::vector<tetstream_column>& columns,
+                                        int32_t index) {
+  if (index < 0 || static_cast<size_t>(index) >= columns.size())
+    failArgument("there is no array " + std::to_string(index));
+  return columns[static_cast<size_t>(index)];
+}
+
+const tetstream_column& StreamInfo::field(int32_t index) const {
+  return columnAt(fields_, index);
+}
+
+const tetstream_column& StreamInfo::cellData(int32_t index) const {
+  return columnAt(cell_data_, index);
+}
+
+ArrayView StreamInfo::view(const std::vector<double>& box) {
+  if (box.empty()) return {};
+  return {box.data(), TETSTREAM_TYPE_FLOAT64, static_cast<int64_t>(box.size()), 1};
+}
+
+tetstream_stream_info StreamInfo::info() const {
+  tetstream_stream_info out = {};
+  out.struct_size = sizeof out;
+  out.position_type = position_type;
+  out.flags = is_indexed ? TETSTREAM_STREAM_INDEXED : 0;
+  out.field_count = fieldCount();
+  out.cell_data_count = cellDataCount();
+  out.fields = fields_.data();
+  out.cell_data = cell_data_.data();
+  out.vertex_count = vertex_count;
+  out.cell_count = cell_count;
+  out.front_width = front_width;
+  out.front_span = front_span;
+  out.front_cells = front_cells;
+  out.box_min = box_min_.empty() ? nullptr : box_min_.data();
+  out.box_max = box_max_.empty() ? nullptr : box_max_.data();
+  return out;
+}
+
+}  // namespace tetstream::swig

@@ -1,0 +1,63 @@
+#include "compressed_bytes.h"
+
+#include "wrapping_parts.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kMagicBytes = 4;
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+Wrapping wrappingOf(const unsigned char* head, size_t size) {
+  if (size >= 2 && head[0] == 0x1f && head[1] == 0x8b) return Wrapping::kGzip;
+  const bool zstd =
+      size >= 4 && head[0] == 0x28 && head[1] == 0xb5 && head[2] == 0x2f && head[3] == 0xfd;
+  return zstd ? Wrapping::kZstd : Wrapping::kNone;
+}
+
+}  // namespace
+
+Wrapping wrappingOf(const std::string& path, std::string* rest) {
+  *rest = path;
+  const Wrapping wrapping = endsWith(path, ".gz")    ? Wrapping::kGzip
+                            : endsWith(path, ".zst") ? Wrapping::kZstd
+                                                     : Wrapping::kNone;
+  if (wrapping != Wrapping::kNone) rest->resize(path.find_last_of('.'));
+  return wrapping;
+}
+
+std::unique_ptr<ByteSource> unwrapped(std::unique_ptr<ByteSource> bytes) {
+  unsigned char head[kMagicBytes];
+  size_t size = 0;
+  if (bytes->seekable()) {
+    size = bytes->readAt(0, head, sizeof head);
+  } else {
+    while (size < sizeof head) {
+      const size_t got = bytes->read(head + size, sizeof head - size);
+      if (got == 0) break;
+      size += got;
+    }
+    bytes = withPrefix(std::vector<unsigned char>(head, head + size), std::move(bytes));
+  }
+  switch (wrappingOf(head, size)) {
+    case Wrapping::kGzip:
+      return openGzip(std::move(bytes));
+    case Wrapping::kZstd:
+      return openZstd(std::move(bytes));
+    case Wrapping::kNone:
+      break;
+  }
+  return bytes;
+}
+
+std::unique_ptr<ByteSink> wrapped(std::unique_ptr<ByteSink> bytes, Wrapping wrapping) {
+  if (wrapping == Wrapping::kGzip) return createGzip(std::move(bytes));
+  if (wrapping == Wrapping::kZstd) return createZstd(std::move(bytes));
+  return bytes;
+}
+
+}  // namespace tetstream

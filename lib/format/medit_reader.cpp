@@ -1,0 +1,148 @@
+// Reads MEDIT's meshes, text (.mesh) and binary (.meshb), versions 1 to 4, in one go, with the
+// solutions that lie beside them (.sol, .solb). Vertices are numbered from 1; references are the
+// labels of cells and faces.
+#include <algorithm>
+
+#include "medit_scan.h"
+#include "medit_sol.h"
+#include "mesh_intake.h"
+#include "status.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kMostMeditNodes = 27;
+
+class MeditReader {
+ public:
+  MeditReader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
+      : scan_(std::move(bytes)),
+        options_(options),
+        // note: text of version 1 is written with a double's digits by many.
+        intake_(
+            scan_.file(), options,
+            scan_.binary() && scan_.version() == 1 ? ScalarType::kFloat32 : ScalarType::kFloat64) {
+    const bool wide = scan_.version() == 4;
+    intake_.addLabels(kMeditReference, wide);
+    intake_.addPointLabels(kMeditReference, wide);
+  }
+
+  std::unique_ptr<IndexedSource> read() {
+    for (MeditSection section; scan_.next(&section);) readSection(section);
+    if (!any_vertices_) scan_.file().failBad("there are no Vertices");
+    rows_.points = intake_.mesh().pointCount();
+    readSolutions();
+    return intake_.finish();
+  }
+
+ private:
+  void readSection(const MeditSection& section) {
+    const MeditKeyword* keyword = section.number ? meditKeyword(section.number) : nullptr;
+    if (section.number == kMeditDimension) {
+      readDimension();
+    } else if (section.number == kMeditVertices) {
+      readVertices();
+    } else if (section.number == kMeditRequiredVertices) {
+      readRequired();
+    } else if (section.number == kMeditSolAtVertices || section.number == kMeditSolAtTetrahedra) {
+      rows_.points = intake_.mesh().pointCount();
+      solutions_.read(scan_, intake_, rows_, section.number == kMeditSolAtTetrahedra);
+    } else if (keyword && keyword->kind) {
+      readCells(section, *keyword->kind);
+    } else {
+      leaveOut(section);
+    }
+  }
+
+  void readDimension() {
+    const int64_t dimension = scan_.small("the dimension");
+    if (dimension != 3)
+      scan_.file().failHere(Status::kUnsupported, textOf("dimension %lld; only 3 is read",
+                                                         static_cast<long long>(dimension)));
+  }
+
+  void readVertices() {
+    if (any_vertices_) scan_.file().failBad("a second section of Vertices");
+    any_vertices_ = true;
+    const uint64_t count = scan_.rows(1, 3, "vertices");
+    double position[3];
+    for (uint64_t i = 0; i < count; ++i) {
+      int64_t reference;
+      scan_.reals(position, 3, "the position of a vertex");
+      scan_.integers(&reference, 1, "the reference of a vertex");
+      intake_.addPoint(position);
+      intake_.labelPoint(reference);
+    }
+  }
+
+  // Corners may be told before there are vertices; the intake checks them then.
+  void readCells(const MeditSection& section, CellKind kind) {
+    const auto nodes = static_cast<size_t>(kind.nodes);
+    const uint64_t count = scan_.rows(nodes + 1, 0, section.name.c_str());
+    if (section.number == kMeditTetrahedra) {
+      rows_.first_tetrahedron = intake_.cellCount();
+      rows_.tetrahedra = count;
+    }
+    int64_t row[kMostMeditNodes + 1];
+    for (uint64_t i = 0; i < count; ++i) {
+      scan_.integers(row, nodes + 1, section.name.c_str());
+      for (int k = 0; k < cornersOf(kind.shape); ++k) checkVertex(row[k]--);
+      if (dimensionOf(kind.shape) == 3)
+        intake_.addCell(kind, row, row + nodes, static_cast<int64_t>(i + 1));
+      else
+        intake_.addFace(kind, row, row[nodes]);
+    }
+  }
+
+  void checkVertex(int64_t vertex) {
+    const auto known = static_cast<int64_t>(intake_.mesh().pointCount());
+    if (vertex < 1 || (any_vertices_ && vertex > known))
+      scan_.file().failBad(textOf("vertex %lld, where there are 1 to %lld",
+                                  static_cast<long long>(vertex), static_cast<long long>(known)));
+  }
+
+  void readRequired() {
+    const uint64_t count = scan_.rows(1, 0, "required vertices");
+    for (uint64_t i = 0; i < count; ++i) {
+      int64_t vertex;
+      scan_.integers(&vertex, 1, "a required vertex");
+      if (!any_vertices_) continue;
+      checkVertex(vertex);
+      intake_.mesh().lock(static_cast<uint64_t>(vertex - 1));
+    }
+    if (!any_vertices_ && count > 0)
+      intake_.leaveOut("required vertices, which come before the vertices,", count);
+  }
+
+  void leaveOut(const MeditSection& section) {
+    intake_.note("the section " + section.name + " is left out");
+    scan_.skip();
+  }
+
+  void readSolutions() {
+    if (options_.path.empty()) return;
+    std::string path;
+    std::unique_ptr<ByteSource> bytes = openMeditSolution(options_.path, &path);
+    if (!bytes) return;
+    intake_.note("its solutions are read from " + path);
+    solutions_.readFile(std::move(bytes), intake_, rows_);
+  }
+
+  MeditScan scan_;
+  const ReadOptions& options_;
+  MeshIntake intake_;
+  MeditSolutions solutions_;
+  MeditRows rows_;
+  bool any_vertices_ = false;
+};
+
+}  // namespace
+
+Input openMedit(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
+  Input input;
+  input.indexed = MeditReader(std::move(bytes), options).read();
+  return input;
+}
+
+}  // namespace tetstream

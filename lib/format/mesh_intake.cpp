@@ -1,0 +1,256 @@
+#include "mesh_intake.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "memory.h"
+#include "status.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kAtOnce = 1024;  // rows that are copied or checked
+
+std::string plural(uint64_t count, const std::string& things) {
+  return std::to_string(count) + " " + things;
+}
+
+}  // namespace
+
+MeshIntake::MeshIntake(const FileScan& file, const ReadOptions& options, ScalarType position_type)
+    : file_(file),
+      options_(options),
+      name_(file.name()),
+      mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir)),
+      faces_(sizeof(int64_t[4]), options.temp_dir, {2, 256 << 10}) {}
+
+void MeshIntake::addLabels(const char* name, bool wide) {
+  const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;
+  labels_.push_back({mesh_->addCellData({name, 1, type}), wide, false, {}});
+}
+
+void MeshIntake::addPointLabels(const char* name, bool wide) {
+  const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;
+  point_labels_.push_back({mesh_->addField({name, 1, type}), wide, false, {}});
+}
+
+void MeshIntake::takeLabel(Labels& labels, int64_t label, size_t count, const char* of,
+                           int64_t number) {
+  const auto narrow = static_cast<int32_t>(label);
+  if (!labels.wide && narrow != label)
+    file_.failHere(Status::kUnsupported, "label " + std::to_string(label) + " of " + of + " " +
+                                             std::to_string(number) + " has more than 32 bits");
+  labels.any = labels.any || label != 0;
+  const auto* bytes = reinterpret_cast<const unsigned char*>(&label);
+  if (!labels.wide) bytes = reinterpret_cast<const unsigned char*>(&narrow);
+  for (size_t i = 0; i < count; ++i)
+    labels.held.insert(labels.held.end(), bytes, bytes + (labels.wide ? 8 : 4));
+}
+
+void MeshIntake::labelPoint(int64_t label) {
+  Labels& labels = point_labels_.front();
+  takeLabel(labels, label, 1, "point", static_cast<int64_t>(mesh_->pointCount()));
+  mesh_->appendField(labels.column, labels.held.data(), 1);
+  labels.held.clear();
+}
+
+void MeshIntake::note(const std::string& text) {
+  if (options_.note) options_.note(name_ + ": " + text);
+}
+
+// ------------------------------------------------------------------------------ points and cells
+
+void MeshIntake::addPoint(const double position[3]) {
+  if (!std::isfinite(position[0]) || !std::isfinite(position[1]) || !std::isfinite(position[2]))
+    file_.failBad("a position is not a finite number");
+  if (mesh_->schema().position_type == ScalarType::kFloat64)
+    return mesh_->appendPositions(position, 1);
+  float narrow[3];
+  for (int k = 0; k < 3; ++k) narrow[k] = static_cast<float>(position[k]);
+  mesh_->appendPositions(narrow, 1);
+}
+
+size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t* labels,
+                           int64_t number) {
+  if (kind.shape != CellShape::kTetra && !options_.split)
+    file_.failHere(Status::kUnsupported,
+                   "cell " + std::to_string(number) + " is a " + nameOf(kind.shape) +
+                       "; only tetrahedra are read, unless other cells are to be split into them "
+                       "(option split)");
+  int64_t made[kMostSplit][4];
+  const size_t count = splitCell(kind.shape, corners, made);
+  quadratic_ += kind.nodes > cornersOf(kind.shape);
+  split_ += kind.shape != CellShape::kTetra;
+  for (int c = 0; c < cornersOf(kind.shape); ++c)
+    largest_corner_ = std::max(largest_corner_, corners[c]);
+  held_cells_.insert(held_cells_.end(), made[0], made[0] + 4 * count);
+  for (size_t k = 0; k < labels_.size(); ++k)
+    takeLabel(labels_[k], labels[k], count, "cell", number);
+  if (held_cells_.size() >= 4 * kAtOnce) writeHeld();
+  return count;
+}
+
+void MeshIntake::writeHeld() {
+  const size_t count = held_cells_.size() / 4;
+  mesh_->appendCells(held_cells_.data(), count);
+  held_cells_.clear();
+  for (Labels& labels : labels_) {
+    mesh_->appendCellData(labels.column, labels.held.data(), count);
+    labels.held.clear();
+  }
+}
+
+void MeshIntake::addFace(CellKind kind, const int64_t* corners, int64_t label) {
+  int64_t made[2][3];
+  const size_t count = splitFace(kind.shape, corners, made);
+  for (int c = 0; c < cornersOf(kind.shape); ++c)
+    largest_corner_ = std::max(largest_corner_, corners[c]);
+  for (size_t i = 0; i < count; ++i) {
+    const int64_t row[4] = {made[i][0], made[i][1], made[i][2], label};
+    faces_.append(row, 1);
+  }
+}
+
+// ------------------------------------------------------------------------------------------ data
+
+size_t MeshIntake::addData(const Column& column, bool of_cells) {
+  data_.push_back(std::make_unique<Data>(column, of_cells, options_.temp_dir));
+  return data_.size() - 1;
+}
+
+size_t MeshIntake::addCellNumbers(const std::string& name) {
+  const size_t data = addData({name, 1, ScalarType::kFloat64}, true);
+  data_[data]->maybe_integers = true;
+  return data;
+}
+
+void MeshIntake::putData(size_t data, uint64_t row, const double* values) {
+  Data& d = *data_[data];
+  const auto count = static_cast<size_t>(d.column.components);
+  d.maybe_integers = d.maybe_integers && *values >= INT32_MIN && *values <= INT32_MAX &&
+                     *values == std::trunc(*values);
+  if (d.column.type == ScalarType::kFloat64) return d.rows.put(row, values);
+  int64_t rounded[kMaxComponents];  // room for any type
+  if (d.column.type == ScalarType::kFloat32) {
+    convertScalars(values, ScalarType::kFloat64, rounded, ScalarType::kFloat32, count);
+  } else {
+    for (size_t k = 0; k < count; ++k) {
+      const double limit = d.column.type == ScalarType::kInt32 ? 0x1p31 : 0x1p63;
+      if (!(values[k] >= -limit && values[k] < limit && values[k] == std::trunc(values[k])))
+        file_.failBad("\"" + d.column.name + "\" is said to hold integers, and here is none");
+      const auto value = static_cast<int64_t>(values[k]);
+      const auto narrow = static_cast<int32_t>(value);
+      auto* to = reinterpret_cast<unsigned char*>(rounded) + k * sizeOf(d.column.type);
+      if (d.column.type == ScalarType::kInt32)
+        std::memcpy(to, &narrow, sizeof narrow);
+      else
+        std::memcpy(to, &value, sizeof value);
+    }
+  }
+  d.rows.put(row, rounded);
+}
+
+// In place: each is read before it is written over.
+static void toIntegers(std::vector<unsigned char>& rows, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    double value;
+    std::memcpy(&value, rows.data() + i * sizeof value, sizeof value);
+    const auto integer = static_cast<int32_t>(value);
+    std::memcpy(rows.data() + i * sizeof integer, &integer, sizeof integer);
+  }
+}
+
+void MeshIntake::copyData() {
+  std::vector<unsigned char> rows;
+  for (auto& d : data_) {
+    const uint64_t count = d->of_cells ? mesh_->cellCount() : mesh_->pointCount();
+    d->rows.finish(count);
+    if (d->rows.given() < count)
+      note("\"" + d->column.name + "\" has no value at " +
+           plural(count - d->rows.given(), d->of_cells ? "tetrahedra" : "points") +
+           ", where it is taken as 0");
+    if (d->maybe_integers) d->column.type = ScalarType::kInt32;
+    const size_t column = d->of_cells ? mesh_->addCellData(d->column) : mesh_->addField(d->column);
+    rows.resize(kAtOnce * d->rows.rowBytes());
+    for (uint64_t at = 0; at < count; at += kAtOnce) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, count - at));
+      d->rows.read(at, n, rows.data());
+      if (d->maybe_integers) toIntegers(rows, n);
+      if (d->of_cells)
+        mesh_->appendCellData(column, rows.data(), n);
+      else
+        mesh_->appendField(column, rows.data(), n);
+    }
+    d.reset();  // and its file
+  }
+}
+
+// ---------------------------------------------------------------------------------------- the end
+
+void MeshIntake::checkCorners() {
+  const auto points = static_cast<int64_t>(mesh_->pointCount());
+  if (largest_corner_ < points) return;
+  std::vector<int64_t> rows(4 * kAtOnce);
+  for (uint64_t at = 0; at < mesh_->cellCount(); at += kAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_->cellCount() - at));
+    mesh_->readCells(at, n, rows.data());
+    for (size_t i = 0; i < 4 * n; ++i)
+      if (rows[i] >= points)
+        fail(Status::kBadData,
+             "%s: tetrahedron %llu uses point %lld, counted from 0; there are %lld", name_.c_str(),
+             static_cast<unsigned long long>(at + i / 4), static_cast<long long>(rows[i]),
+             static_cast<long long>(points));
+  }
+  fail(Status::kBadData, "%s: a cell or face uses point %lld, counted from 0; there are %lld",
+       name_.c_str(), static_cast<long long>(largest_corner_), static_cast<long long>(points));
+}
+
+// Of faces that no cell has, most have points that no cell has either.
+void MeshIntake::takeFaces() {
+  faces_.finish();
+  if (faces_.rows() == 0) return;
+  Account account;
+  Array<uint64_t> used(account, static_cast<size_t>(mesh_->pointCount() / 64 + 1));
+  std::fill_n(used.data(), used.size(), uint64_t{0});
+  std::vector<int64_t> rows(4 * kAtOnce);
+  for (uint64_t at = 0; at < mesh_->cellCount(); at += kAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_->cellCount() - at));
+    mesh_->readCells(at, n, rows.data());
+    for (size_t i = 0; i < 4 * n; ++i)
+      used[static_cast<size_t>(rows[i] / 64)] |= uint64_t{1} << rows[i] % 64;
+  }
+  const auto isUsed = [&](int64_t p) { return used[static_cast<size_t>(p / 64)] >> p % 64 & 1; };
+  for (uint64_t i = 0; i < faces_.rows(); ++i) {
+    const auto* row = static_cast<const int64_t*>(faces_.row(i));
+    if (isUsed(row[0]) && isUsed(row[1]) && isUsed(row[2]))
+      mesh_->appendFace(row, row[3]);
+    else
+      leaveOut("triangles that are no faces of cells");
+  }
+  mesh_->finishFaces();
+}
+
+std::unique_ptr<IndexedSource> MeshIntake::finish() {
+  writeHeld();
+  copyData();
+  for (size_t k = labels_.size(); k-- > 0;)  // a label that nobody has
+    if (!labels_[k].any) mesh_->removeCellData(labels_[k].column);
+  for (const Labels& labels : point_labels_)
+    if (!labels.any) mesh_->removeField(labels.column);
+  mesh_->finish();
+  checkCorners();
+  takeFaces();
+  if (mesh_->cellCount() == 0 && mesh_->pointCount() > 0)
+    fail(Status::kUnsupported, "%s: there are points, but no tetrahedron", name_.c_str());
+  if (quadratic_ > 0)
+    note(plural(quadratic_,
+                "cells of higher order are read by their corners: what lies between "
+                "is left out"));
+  if (split_ > 0) note(plural(split_, "cells that are no tetrahedra are split into them"));
+  for (const auto& [things, count] : left_out_) note(plural(count, things + " are left out"));
+  return std::move(mesh_);
+}
+
+}  // namespace tetstream

@@ -1,0 +1,99 @@
+// Nodes and elements of Gmsh's format 2.
+#include <algorithm>
+
+#include "msh_mesh.h"
+#include "status.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr int64_t kMostTags = 4096;     // of one element: groups and partitions
+constexpr int64_t kMostMshNodes = 125;  // of one element
+constexpr size_t kElementsAtOnce = 256;
+
+void addElement(MshMesh& mesh, CellKind kind, int64_t tag, const int64_t* tags, size_t tag_count,
+                const int64_t* nodes) {
+  mesh.addCell(kind, nodes, tag, tag_count > 0 ? tags[0] : 0, tag_count > 1 ? tags[1] : 0);
+}
+
+CellKind needKind(MshMesh& mesh, int64_t number) {
+  if (const CellKind* kind = mshKind(number)) return *kind;
+  mesh.file.failHere(Status::kUnsupported,
+                     "an element of type " + std::to_string(number) + ", which is not known");
+}
+
+void readTextElements(MshMesh& mesh, uint64_t count) {
+  int64_t tags[kMostTags], nodes[kMostMshNodes];
+  for (uint64_t i = 0; i < count; ++i) {
+    int64_t head[3];  // number, type, tags
+    mesh.file.integers(head, 3, "an element");
+    const CellKind kind = needKind(mesh, head[1]);
+    if (head[0] < 0 || head[0] > INT64_MAX / 2 || head[2] < 0 || head[2] > kMostTags)
+      mesh.file.failBad(textOf("element %lld has %lld tags", static_cast<long long>(head[0]),
+                               static_cast<long long>(head[2])));
+    const int64_t tag = head[0], tag_count = head[2];
+    mesh.file.integers(tags, static_cast<size_t>(tag_count), "a tag of an element");
+    mesh.file.integers(nodes, static_cast<size_t>(kind.nodes), "a node of an element");
+    addElement(mesh, kind, tag, tags, static_cast<size_t>(tag_count), nodes);
+  }
+}
+
+void readBlocks(MshMesh& mesh, uint64_t count) {
+  std::vector<int64_t> rows;
+  while (count > 0) {
+    int64_t head[3];  // type, elements, tags of each
+    mesh.numbers.integers(head, 3, kMshInt, "a block of elements");
+    const CellKind kind = needKind(mesh, head[0]);
+    if (head[1] < 1 || static_cast<uint64_t>(head[1]) > count)
+      mesh.file.failBad(textOf("a block of %lld elements, where %llu are left",
+                               static_cast<long long>(head[1]),
+                               static_cast<unsigned long long>(count)));
+    if (head[2] < 0 || head[2] > kMostTags)
+      mesh.file.failBad(textOf("elements with %lld tags", static_cast<long long>(head[2])));
+    const auto tags = static_cast<size_t>(head[2]);
+    const size_t width = 1 + tags + static_cast<size_t>(kind.nodes);
+    rows.resize(kElementsAtOnce * width);
+    count -= static_cast<uint64_t>(head[1]);
+    for (auto left = static_cast<size_t>(head[1]); left > 0;) {
+      const size_t n = std::min(left, kElementsAtOnce);
+      mesh.numbers.integers(rows.data(), n * width, kMshInt, "an element");
+      for (size_t i = 0; i < n; ++i) {
+        const int64_t* row = &rows[i * width];
+        addElement(mesh, kind, row[0], row + 1, tags, row + 1 + tags);
+      }
+      left -= n;
+    }
+  }
+}
+
+}  // namespace
+
+void readNodes2(MshMesh& mesh) {
+  mesh.beginNodes();
+  const uint64_t count =
+      static_cast<uint64_t>(mesh.file.integer("the number of nodes", 0, INT64_MAX));
+  mesh.file.checkClaim(count, mesh.numbers.binary() ? kMshInt + 3 * kMshDouble : 8, "nodes");
+  if (mesh.numbers.binary()) mesh.file.line();
+  for (uint64_t i = 0; i < count; ++i) {
+    double position[3];
+    const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");
+    if (tag < 0 || tag > INT64_MAX / 2)
+      mesh.file.failBad(textOf("node %lld", static_cast<long long>(tag)));
+    mesh.numbers.reals(position, 3, kMshDouble, "the position of a node");
+    mesh.points.add(tag, static_cast<int64_t>(i));
+    mesh.intake->addPoint(position);
+  }
+  mesh.endNodes();
+}
+
+void readElements2(MshMesh& mesh) {
+  const uint64_t count =
+      static_cast<uint64_t>(mesh.file.integer("the number of elements", 0, INT64_MAX));
+  mesh.file.checkClaim(count, mesh.numbers.binary() ? 2 * kMshInt : 8, "elements");
+  if (!mesh.numbers.binary()) return readTextElements(mesh, count);
+  mesh.file.line();
+  readBlocks(mesh, count);
+}
+
+}  // namespace tetstream

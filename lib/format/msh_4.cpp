@@ -1,0 +1,169 @@
+// Entities, nodes and elements of Gmsh's format 4.1: blocks, each of one entity.
+#include <algorithm>
+
+#include "msh_mesh.h"
+#include "status.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kRowsAtOnce = 1024;
+constexpr int64_t kMostTag = INT64_MAX / 2;
+
+// Numbers that say nothing to us.
+void skipIntegers(MshMesh& mesh, uint64_t count, const char* what) {
+  for (uint64_t i = 0; i < count; ++i) mesh.numbers.integer(kMshInt, what);
+}
+
+void skipReals(MshMesh& mesh, size_t count, const char* what) {
+  double values[6];
+  mesh.numbers.reals(values, count, kMshDouble, what);
+}
+
+void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
+  const int64_t tag = mesh.numbers.integer(kMshInt, "the tag of an entity");
+  if (partitioned) {
+    skipIntegers(mesh, 2, "the parent of an entity");
+    const uint64_t parts =
+        mesh.numbers.count(mesh.size_bytes, 1, "the number of partitions of an entity");
+    skipIntegers(mesh, parts, "a partition of an entity");
+  }
+  skipReals(mesh, dimension == 0 ? 3 : 6, "the box of an entity");
+  const uint64_t groups =
+      mesh.numbers.count(mesh.size_bytes, 1, "the number of physical groups of an entity");
+  for (uint64_t i = 0; i < groups; ++i) {
+    const int64_t group = mesh.numbers.integer(kMshInt, "a physical group of an entity");
+    if (i == 0) mesh.physical[{dimension, tag}] = group < 0 ? -group : group;
+  }
+  if (groups > 1) mesh.further_groups += groups - 1;
+  if (dimension == 0) return;
+  const uint64_t bounds =
+      mesh.numbers.count(mesh.size_bytes, 1, "the number of bounds of an entity");
+  skipIntegers(mesh, bounds, "a bound of an entity");
+}
+
+// The head of a section of blocks: their number, and that of what is in all of them.
+struct BlockCounts {
+  uint64_t blocks, rows;
+};
+
+BlockCounts readCounts(MshMesh& mesh, size_t least_bytes, const char* blocks, const char* rows) {
+  BlockCounts counts;
+  counts.blocks = mesh.numbers.count(mesh.size_bytes, 1, blocks);
+  counts.rows = mesh.numbers.count(mesh.size_bytes, least_bytes, rows);
+  mesh.numbers.integer(mesh.size_bytes, "the smallest tag");
+  mesh.numbers.integer(mesh.size_bytes, "the largest tag");
+  return counts;
+}
+
+// The number of rows of the next block, of which no more than `left` can be there.
+uint64_t rowsOfBlock(MshMesh& mesh, uint64_t left, const char* what) {
+  const uint64_t rows = mesh.numbers.count(mesh.size_bytes, 1, what);
+  if (rows > left)
+    mesh.file.failBad(textOf("%s is %llu, where only %llu are left", what,
+                             static_cast<unsigned long long>(rows),
+                             static_cast<unsigned long long>(left)));
+  return rows;
+}
+
+void checkRead(MshMesh& mesh, uint64_t left, const char* what) {
+  if (left == 0) return;
+  mesh.file.failBad(textOf("the blocks hold %llu %s less than there should be",
+                           static_cast<unsigned long long>(left), what));
+}
+
+void checkTag(MshMesh& mesh, int64_t tag) {
+  if (tag < 0 || tag > kMostTag)
+    mesh.file.failBad(textOf("%lld is no tag", static_cast<long long>(tag)));
+}
+
+void readNodeTags(MshMesh& mesh, uint64_t first, uint64_t count) {
+  int64_t tags[kRowsAtOnce];
+  for (uint64_t done = 0; done < count;) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - done));
+    mesh.numbers.integers(tags, n, mesh.size_bytes, "the tag of a node");
+    for (size_t i = 0; i < n; ++i) {
+      checkTag(mesh, tags[i]);
+      mesh.points.add(tags[i], static_cast<int64_t>(first + done + i));
+    }
+    done += n;
+  }
+}
+
+void readPositions(MshMesh& mesh, uint64_t count, size_t parameters) {
+  const size_t width = 3 + parameters;
+  double rows[kRowsAtOnce];
+  for (uint64_t done = 0; done < count;) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce / width, count - done));
+    mesh.numbers.reals(rows, n * width, kMshDouble, "the position of a node");
+    for (size_t i = 0; i < n; ++i) mesh.intake->addPoint(rows + i * width);
+    done += n;
+  }
+}
+
+}  // namespace
+
+void readEntities4(MshMesh& mesh, bool partitioned) {
+  if (partitioned) {
+    mesh.numbers.integer(mesh.size_bytes, "the number of partitions");
+    const uint64_t ghosts = mesh.numbers.count(mesh.size_bytes, 2, "the number of ghost entities");
+    skipIntegers(mesh, 2 * ghosts, "a ghost entity");
+  }
+  uint64_t counts[4];
+  for (uint64_t& count : counts)
+    count = mesh.numbers.count(mesh.size_bytes, 1, "the number of entities");
+  for (int dimension = 0; dimension < 4; ++dimension)
+    for (uint64_t i = 0; i < counts[dimension]; ++i) readEntity(mesh, dimension, partitioned);
+}
+
+void readNodes4(MshMesh& mesh) {
+  mesh.beginNodes();
+  const BlockCounts counts = readCounts(mesh, 8, "the number of blocks of nodes", "nodes");
+  uint64_t left = counts.rows;
+  for (uint64_t block = 0; block < counts.blocks; ++block) {
+    int64_t head[3];  // dimension, entity, whether there are parameters
+    mesh.numbers.integers(head, 3, kMshInt, "a block of nodes");
+    if (head[0] < 0 || head[0] > 3)
+      mesh.file.failBad(textOf("an entity of dimension %lld", static_cast<long long>(head[0])));
+    const uint64_t rows = rowsOfBlock(mesh, left, "the number of nodes of a block");
+    readNodeTags(mesh, counts.rows - left, rows);
+    readPositions(mesh, rows, head[2] ? static_cast<size_t>(head[0]) : 0);
+    left -= rows;
+  }
+  checkRead(mesh, left, "nodes");
+  mesh.endNodes();
+}
+
+void readElements4(MshMesh& mesh) {
+  const BlockCounts counts = readCounts(mesh, 4, "the number of blocks of elements", "elements");
+  uint64_t left = counts.rows;
+  std::vector<int64_t> elements;
+  for (uint64_t block = 0; block < counts.blocks; ++block) {
+    int64_t head[3];  // dimension, entity, type
+    mesh.numbers.integers(head, 3, kMshInt, "a block of elements");
+    const CellKind* kind = mshKind(head[2]);
+    if (!kind)
+      mesh.file.failHere(Status::kUnsupported,
+                         "elements of type " + std::to_string(head[2]) + ", which is not known");
+    const auto found = mesh.physical.find({static_cast<int>(head[0]), head[1]});
+    const int64_t group = found == mesh.physical.end() ? 0 : found->second;
+    const uint64_t rows = rowsOfBlock(mesh, left, "the number of elements of a block");
+    const size_t width = 1 + static_cast<size_t>(kind->nodes);
+    elements.resize(width * kRowsAtOnce);
+    for (uint64_t done = 0; done < rows;) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, rows - done));
+      mesh.numbers.integers(elements.data(), n * width, mesh.size_bytes, "an element");
+      for (size_t i = 0; i < n; ++i) {
+        const int64_t* row = &elements[i * width];
+        checkTag(mesh, row[0]);
+        mesh.addCell(*kind, row + 1, row[0], group, head[1]);
+      }
+      done += n;
+    }
+    left -= rows;
+  }
+  checkRead(mesh, left, "elements");
+}
+
+}  // namespace tetstream

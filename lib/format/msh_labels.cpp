@@ -1,0 +1,117 @@
+#include "msh_labels.h"
+
+#include <algorithm>
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kLabelsAtOnce = 1024;
+
+bool isIntegerColumn(const Column& column) {
+  return column.components == 1 && !isFloat(column.type);
+}
+
+}  // namespace
+
+MshLabels::MshLabels(MeshSpool& mesh) : mesh_(mesh) {
+  chooseColumns();
+  findVolumes();
+  findSurfaces();
+}
+
+void MshLabels::read(const std::optional<size_t>& column, uint64_t first, size_t count,
+                     int64_t* out) {
+  if (!column) return;
+  int64_t raw[kLabelsAtOnce];
+  mesh_.readCellData(*column, first, count, raw);
+  convertScalars(raw, mesh_.schema().cell_data[*column].type, out, ScalarType::kInt64, count);
+}
+
+// Whether a column can be groups: no number below `least` or above what Gmsh holds, not too many.
+bool MshLabels::isUsable(size_t column, int64_t least) {
+  std::set<int64_t> found;
+  int64_t rows[kLabelsAtOnce], last = 0;
+  bool any = false;
+  for (uint64_t first = 0; first < mesh_.cellCount(); first += kLabelsAtOnce) {
+    const auto n =
+        static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, mesh_.cellCount() - first));
+    read(column, first, n, rows);
+    for (size_t i = 0; i < n; ++i) {
+      if (any && rows[i] == last) continue;
+      last = rows[i];
+      any = true;
+      if (last < least || last > INT32_MAX) return false;
+      found.insert(last);
+      if (found.size() > kMostGroups) return false;
+    }
+  }
+  return true;
+}
+
+void MshLabels::chooseColumns() {
+  const std::vector<Column>& columns = mesh_.schema().cell_data;
+  const auto named = [&](const char* name) {
+    const int found = findColumn(columns, name);
+    return found >= 0 && isIntegerColumn(columns[static_cast<size_t>(found)]) ? found : -1;
+  };
+  const int entity = named(kMshEntity);
+  if (entity >= 0 && isUsable(static_cast<size_t>(entity), 1))
+    entity_column_ = static_cast<size_t>(entity);
+  const int group = named(kMshPhysical);
+  if (group >= 0) {
+    if (isUsable(static_cast<size_t>(group), 0)) group_column_ = static_cast<size_t>(group);
+    return;
+  }
+  for (size_t i = 0; i < columns.size() && !group_column_; ++i)
+    if (isIntegerColumn(columns[i]) && static_cast<int>(i) != entity && isUsable(i, 0))
+      group_column_ = i;
+}
+
+// A tag is the entity's, or the group's, where that is free; else one above all of them.
+void MshLabels::findVolumes() {
+  int64_t groups[kLabelsAtOnce] = {}, entities[kLabelsAtOnce] = {};
+  int64_t highest = 0;
+  for (uint64_t first = 0; first < mesh_.cellCount(); first += kLabelsAtOnce) {
+    const auto n =
+        static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, mesh_.cellCount() - first));
+    read(group_column_, first, n, groups);
+    read(entity_column_, first, n, entities);
+    for (size_t i = 0; i < n; ++i) {
+      volumes_.try_emplace({groups[i], entities[i]}, MshEntity{0, static_cast<int32_t>(groups[i])});
+      highest = std::max({highest, groups[i], entities[i]});
+    }
+  }
+  std::set<int64_t> used;
+  const auto take = [&](MshEntity& entity, int64_t tag) {
+    if (tag > 0 && used.insert(tag).second) entity.tag = static_cast<int32_t>(tag);
+  };
+  for (auto& [key, entity] : volumes_) take(entity, entity_column_ ? key.second : key.first);
+  int64_t low = 1;
+  for (auto& [key, entity] : volumes_) {
+    while (entity.tag == 0) {
+      if (highest < INT32_MAX)
+        take(entity, ++highest);
+      else
+        take(entity, low++);
+    }
+  }
+}
+
+void MshLabels::findSurfaces() {
+  int64_t corners[3 * kLabelsAtOnce], labels[kLabelsAtOnce];
+  const auto count = mesh_.faceCount();
+  for (uint64_t first = 0; first < count; first += kLabelsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, count - first));
+    mesh_.readFaces(first, n, corners, labels);
+    for (size_t i = 0; i < n; ++i) {
+      const bool known =
+          isFaceLabel(labels[i]) &&
+          (surfaces_.size() < kMostGroups || surfaces_.count(static_cast<int32_t>(labels[i])) > 0);
+      if (known) surfaces_.insert(static_cast<int32_t>(labels[i]));
+      ++(known ? faces_ : faces_left_out_);
+    }
+  }
+}
+
+}  // namespace tetstream

@@ -1,0 +1,49 @@
+#include "msh_mesh.h"
+
+#include "status.h"
+
+namespace tetstream {
+
+void MshMesh::beginNodes() {
+  if (intake) file.failBad("a second section of nodes");
+  intake = std::make_unique<MeshIntake>(file, options, hints.position_type);
+  const auto addLabels = [this](const std::string& name) {
+    if (name.empty()) return;
+    const auto type = hints.cell_data.find(name);
+    intake->addLabels(name.c_str(),
+                      type != hints.cell_data.end() && type->second == ScalarType::kInt64);
+  };
+  addLabels(hints.physical);
+  if (hints.entity != hints.physical) addLabels(hints.entity);
+}
+
+void MshMesh::endNodes() {
+  int64_t twice;
+  if (!points.finish(&twice)) file.failBad("node " + std::to_string(twice) + " is there twice");
+}
+
+void MshMesh::addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity) {
+  if (face_labels == FaceLabels::kUndecided)
+    face_labels = group != 0 ? FaceLabels::kGroups : FaceLabels::kEntities;
+  const int64_t label = face_labels == FaceLabels::kGroups ? group : entity;
+  if (label == 0) return intake->leaveOut("triangles without a label");
+  intake->addFace(kind, corners, label);
+}
+
+void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group,
+                      int64_t entity) {
+  const int dimension = dimensionOf(kind.shape);
+  if (dimension < 2) return intake->leaveOut(dimension == 0 ? "points" : "lines");
+  int64_t corners[8];
+  for (int k = 0; k < cornersOf(kind.shape); ++k)
+    if (!points.find(nodes[k], &corners[k]))
+      file.failBad("element " + std::to_string(tag) + " uses node " + std::to_string(nodes[k]) +
+                   ", which is not there");
+  if (dimension == 2) return addFace(kind, corners, group, entity);
+  const int64_t both[] = {group, entity};
+  const int64_t* labels = hints.physical.empty() ? both + 1 : both;
+  const auto first = static_cast<int64_t>(intake->cellCount());
+  cells.add(tag, first, static_cast<int64_t>(intake->addCell(kind, corners, labels, tag)));
+}
+
+}  // namespace tetstream

@@ -1,0 +1,379 @@
+// Writes Gmsh's files, format 4.1 or 2.2, binary or text. Labels of cells and faces are physical
+// groups, other columns $NodeData and $ElementData; what the format cannot say is in $Comments.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesh_collector.h"
+#include "msh_kinds.h"
+#include "msh_labels.h"
+#include "number_sink.h"
+#include "status.h"
+
+namespace tetstream {
+
+namespace {
+
+struct Box {
+  double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+};
+
+class MshWriter final : public MeshCollector {
+ public:
+  using MeshCollector::MeshCollector;
+
+ protected:
+  void write(MeshSpool& mesh) override {
+    mesh_ = &mesh;
+    MshLabels labels(mesh);
+    labels_ = &labels;
+    NumberSink out(bytes(), options().binary);
+    out_ = &out;
+    checkSizes();
+    noteLosses();
+    writeHead();
+    if (options().newest) {
+      writeEntities();
+      writeNodes4();
+      writeElements4();
+    } else {
+      writeNodes2();
+      writeElements2();
+    }
+    writeColumns();
+    out.flush();
+  }
+
+ private:
+  uint64_t points() const { return mesh_->pointCount(); }
+  uint64_t cells() const { return mesh_->cellCount(); }
+  uint64_t elements() const { return labels_->faces() + cells(); }
+  void section(const char* name) { out_->text(std::string("$") + name + "\n"); }
+  // After numbers, of which the last one ended its line if they are text.
+  void end(const char* name) {
+    out_->text(std::string(out_->binary() ? "\n" : "") + "$End" + name + "\n");
+  }
+  void sizeRow(std::initializer_list<uint64_t> values) {
+    for (uint64_t value : values) out_->integer<uint64_t>(static_cast<int64_t>(value));
+    out_->endRow();
+  }
+
+  // Data have 32-bit tags in both formats, nodes and elements in the older one.
+  void checkSizes() {
+    const bool any_data = !mesh_->schema().fields.empty() || elementData() > 0;
+    const auto most = static_cast<uint64_t>(std::numeric_limits<int32_t>::max());
+    if ((!options().newest || any_data) && (points() > most || elements() > most))
+      fail(Status::kUnsupported,
+           "%s: %llu points and %llu elements: Gmsh's format %s holds 2147483647 at most",
+           bytes().name().c_str(), static_cast<unsigned long long>(points()),
+           static_cast<unsigned long long>(elements()), options().newest ? "4.1 with data" : "2.2");
+  }
+
+  size_t elementData() const {
+    size_t count = 0;
+    for (size_t i = 0; i < mesh_->schema().cell_data.size(); ++i) count += !labels_->isLabel(i);
+    return count;
+  }
+
+  void noteLosses() {
+    if (labels_->facesLeftOut() > 0)
+      note(std::to_string(labels_->facesLeftOut()) +
+           " labelled faces are left out: physical groups have numbers from 1 to 2147483647");
+    for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data})
+      for (const Column& c : *columns) {
+        if (c.name.find('"') != c.name.npos || c.name.find('\n') != c.name.npos)
+          note("the name of \"" + c.name + "\" has characters that the format cannot hold");
+        if (c.components != 1 && c.components != 3 && c.components != 9)
+          note("Gmsh itself shows data of 1, 3 or 9 components; \"" + c.name + "\" has " +
+               std::to_string(c.components));
+      }
+  }
+
+  // --------------------------------------------------------------------------------- the head
+
+  void writeHead() {
+    section("MeshFormat");
+    out_->text(std::string(options().newest ? "4.1" : "2.2") +
+               (out_->binary() ? " 1 8\n" : " 0 8\n"));
+    if (out_->binary()) {
+      out_->integer<int32_t>(1);
+      out_->text("\n");
+    }
+    out_->text("$EndMeshFormat\n");
+    writeHints();
+  }
+
+  static std::string plain(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '"' || c == '\n' || c == '\r'; }, '_');
+    return name;
+  }
+
+  void writeHints() {
+    const Schema& schema = mesh_->schema();
+    std::string text = "$Comments\ntetstream position ";
+    text += std::string(mshTypeName(schema.position_type)) + "\n";
+    const auto hint = [&text](const char* what, const Column& c) {
+      text += std::string("tetstream ") + what + " " + mshTypeName(c.type) + " " + plain(c.name);
+      text += '\n';
+    };
+    const auto label = [&](const char* what, const std::optional<size_t>& column) {
+      text += std::string("tetstream ") + what;
+      if (column) text += std::string(" ") + plain(schema.cell_data[*column].name);
+      text += '\n';
+    };
+    label("physical", labels_->groups());
+    label("geometrical", labels_->entities());
+    for (const Column& c : schema.fields) hint("field", c);
+    for (const Column& c : schema.cell_data) hint("cells", c);
+    out_->text(text + "$EndComments\n");
+  }
+
+  // ------------------------------------------------------------------------------------ nodes
+
+  // visit(point, position of the schema's type)
+  template <class Visit>
+  void forEachPoint(Visit visit) {
+    const size_t bytes = 3 * sizeOf(mesh_->schema().position_type);
+    forEachRow(
+        points(), bytes,
+        [&](uint64_t first, size_t n, void* out) { mesh_->readPositions(first, n, out); }, visit);
+  }
+
+  void putPosition(const unsigned char* position) {
+    const ScalarType type = mesh_->schema().position_type;
+    for (size_t k = 0; k < 3; ++k) out_->real(position + k * sizeOf(type), type);
+    out_->endRow();
+  }
+
+  void writeNodes2() {
+    section("Nodes");
+    out_->text(std::to_string(points()) + "\n");
+    forEachPoint([&](uint64_t point, const unsigned char* position) {
+      out_->integer<int32_t>(static_cast<int64_t>(point + 1));
+      putPosition(position);
+    });
+    end("Nodes");
+  }
+
+  // One block, of the first volume.
+  void writeNodes4() {
+    section("Nodes");
+    const uint64_t blocks = points() > 0 ? 1 : 0;
+    sizeRow({blocks, points(), blocks, points()});
+    if (blocks > 0) {
+      out_->integer<int32_t>(3);
+      out_->integer<int32_t>(labels_->volumes().empty() ? 1
+                                                        : labels_->volumes().begin()->second.tag);
+      out_->integer<int32_t>(0);
+      sizeRow({points()});
+      for (uint64_t i = 1; i <= points(); ++i) sizeRow({i});
+      forEachPoint([&](uint64_t, const unsigned char* position) { putPosition(position); });
+    }
+    end("Nodes");
+  }
+
+  Box findBox() {
+    Box box;
+    forEachPoint([&](uint64_t point, const unsigned char* position) {
+      double p[3];
+      convertScalars(position, mesh_->schema().position_type, p, ScalarType::kFloat64, 3);
+      for (size_t k = 0; k < 3; ++k) {
+        box.low[k] = point == 0 ? p[k] : std::min(box.low[k], p[k]);
+        box.high[k] = point == 0 ? p[k] : std::max(box.high[k], p[k]);
+      }
+    });
+    return box;
+  }
+
+  // All have the box of the mesh, and no bounds.
+  void writeEntities() {
+    const Box box = findBox();
+    section("Entities");
+    sizeRow({0, 0, labels_->surfaces().size(), labels_->volumes().size()});
+    const auto entity = [&](int32_t tag, int32_t group) {
+      out_->integer<int32_t>(tag);
+      for (double x : box.low) out_->real(x);
+      for (double x : box.high) out_->real(x);
+      out_->integer<uint64_t>(group != 0 ? 1 : 0);
+      if (group != 0) out_->integer<int32_t>(group);
+      out_->integer<uint64_t>(0);
+      out_->endRow();
+    };
+    for (int32_t label : labels_->surfaces()) entity(label, label);
+    for (const auto& [key, volume] : labels_->volumes()) entity(volume.tag, volume.group);
+    end("Entities");
+  }
+
+  // --------------------------------------------------------------------------------- elements
+
+  // visit(label, corners) for the faces that can be written.
+  template <class Visit>
+  void forEachFace(Visit visit) {
+    constexpr size_t kAtOnce = 1024;
+    int64_t corners[3 * kAtOnce], labels[kAtOnce];
+    for (uint64_t first = 0; first < mesh_->faceCount(); first += kAtOnce) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_->faceCount() - first));
+      mesh_->readFaces(first, n, corners, labels);
+      for (size_t i = 0; i < n; ++i)
+        if (MshLabels::isFaceLabel(labels[i]) &&
+            labels_->surfaces().count(static_cast<int32_t>(labels[i])) > 0)
+          visit(static_cast<int32_t>(labels[i]), corners + 3 * i);
+    }
+  }
+
+  // visit(entity, corners)
+  template <class Visit>
+  void forEachCell(Visit visit) {
+    constexpr size_t kAtOnce = 1024;
+    int64_t corners[4 * kAtOnce];
+    labels_->forEachCell([&](uint64_t cell, const MshEntity& entity) {
+      if (cell % kAtOnce == 0)
+        mesh_->readCells(cell, static_cast<size_t>(std::min<uint64_t>(kAtOnce, cells() - cell)),
+                         corners);
+      visit(entity, corners + 4 * (cell % kAtOnce));
+    });
+  }
+
+  template <class Stored>
+  void putElement(uint64_t tag, std::initializer_list<int32_t> before, const int64_t* corners,
+                  size_t count) {
+    out_->integer<Stored>(static_cast<int64_t>(tag));
+    for (int32_t value : before) out_->integer<Stored>(value);
+    for (size_t k = 0; k < count; ++k) out_->integer<Stored>(corners[k] + 1);
+    out_->endRow();
+  }
+
+  // In binary, blocks of one kind, of at most so many.
+  void blockHead2(int32_t kind, uint64_t* in_block, uint64_t left) {
+    if (!out_->binary() || (*in_block)-- > 0) return;
+    *in_block = std::min<uint64_t>(left, 1 << 30);
+    out_->integer<int32_t>(kind);
+    out_->integer<int32_t>(static_cast<int64_t>((*in_block)--));
+    out_->integer<int32_t>(2);
+  }
+
+  void putElement2(int32_t kind, uint64_t tag, MshEntity entity, const int64_t* corners,
+                   size_t count) {
+    if (out_->binary()) return putElement<int32_t>(tag, {entity.group, entity.tag}, corners, count);
+    putElement<int32_t>(tag, {kind, 2, entity.group, entity.tag}, corners, count);
+  }
+
+  void writeElements2() {
+    section("Elements");
+    out_->text(std::to_string(elements()) + "\n");
+    uint64_t tag = 0, in_block = 0;
+    forEachFace([&](int32_t label, const int64_t* corners) {
+      blockHead2(kMshTriangle, &in_block, labels_->faces() - tag);
+      putElement2(kMshTriangle, ++tag, {label, label}, corners, 3);
+    });
+    in_block = 0;
+    forEachCell([&](MshEntity entity, const int64_t* corners) {
+      blockHead2(kMshTetra, &in_block, elements() - tag);
+      putElement2(kMshTetra, ++tag, entity, corners, 4);
+    });
+    end("Elements");
+  }
+
+  // A run of elements of one entity is a block. The first pass counts the runs' lengths, of which
+  // there may be as many as elements: they go to a spool.
+  struct Runs {
+    explicit Runs(const std::string& temp_dir)
+        : lengths(sizeof(uint64_t), temp_dir, {2, 1 << 16}) {}
+    RowSpool lengths;
+    int32_t tag = 0;
+    uint64_t length = 0;
+    void add(int32_t entity) {
+      if (length > 0 && entity != tag) end();
+      tag = entity;
+      ++length;
+    }
+    void end() {
+      if (length > 0) lengths.append(&length, 1);
+      length = 0;
+    }
+  };
+
+  void writeElements4() {
+    Runs runs(options().temp_dir);
+    forEachFace([&](int32_t label, const int64_t*) { runs.add(label); });
+    runs.end();
+    forEachCell([&](MshEntity entity, const int64_t*) { runs.add(entity.tag); });
+    runs.end();
+    runs.lengths.finish();
+    section("Elements");
+    sizeRow({runs.lengths.rows(), elements(), elements() > 0 ? 1u : 0u, elements()});
+    uint64_t tag = 0, run = 0, left = 0;
+    const auto head = [&](int32_t dimension, int32_t entity, int32_t kind) {
+      if (left-- > 0) return;
+      left = *static_cast<const uint64_t*>(runs.lengths.row(run++));
+      out_->integer<int32_t>(dimension);
+      out_->integer<int32_t>(entity);
+      out_->integer<int32_t>(kind);
+      sizeRow({left--});
+    };
+    forEachFace([&](int32_t label, const int64_t* corners) {
+      head(2, label, kMshTriangle);
+      putElement<uint64_t>(++tag, {}, corners, 3);
+    });
+    left = 0;
+    forEachCell([&](MshEntity entity, const int64_t* corners) {
+      head(3, entity.tag, kMshTetra);
+      putElement<uint64_t>(++tag, {}, corners, 4);
+    });
+    end("Elements");
+  }
+
+  // ------------------------------------------------------------------------------------- data
+
+  template <class Read>
+  void writeData(const char* name, const Column& column, uint64_t rows, uint64_t first_tag,
+                 Read read) {
+    section(name);
+    out_->text("1\n\"" + plain(column.name) + "\"\n1\n0\n3\n0\n" +
+               std::to_string(column.components) + "\n" + std::to_string(rows) + "\n");
+    bool exact = true;
+    forEachRow(rows, column.bytesPerRow(), read, [&](uint64_t row, const unsigned char* values) {
+      out_->integer<int32_t>(static_cast<int64_t>(first_tag + row));
+      for (int k = 0; k < column.components; ++k, values += sizeOf(column.type)) {
+        out_->real(values, column.type);
+        exact = exact && isExact(values, column.type);
+      }
+      out_->endRow();
+    });
+    end(name);
+    if (!exact && out_->binary())
+      note("\"" + column.name + "\" has integers that a float64 does not hold: they are rounded");
+  }
+
+  static bool isExact(const unsigned char* value, ScalarType type) {
+    if (type != ScalarType::kInt64) return true;
+    int64_t number;
+    std::memcpy(&number, value, sizeof number);
+    return number >= -(int64_t{1} << 53) && number <= int64_t{1} << 53;
+  }
+
+  void writeColumns() {
+    const Schema& schema = mesh_->schema();
+    for (size_t c = 0; c < schema.fields.size(); ++c)
+      writeData("NodeData", schema.fields[c], points(), 1,
+                [&](uint64_t first, size_t n, void* out) { mesh_->readField(c, first, n, out); });
+    for (size_t c = 0; c < schema.cell_data.size(); ++c)
+      if (!labels_->isLabel(c))
+        writeData(
+            "ElementData", schema.cell_data[c], cells(), labels_->faces() + 1,
+            [&](uint64_t first, size_t n, void* out) { mesh_->readCellData(c, first, n, out); });
+  }
+
+  MeshSpool* mesh_ = nullptr;
+  MshLabels* labels_ = nullptr;
+  NumberSink* out_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options) {
+  return std::make_unique<MshWriter>(std::move(bytes), options);
+}
+
+}  // namespace tetstream

@@ -1,0 +1,58 @@
+#include "number_scan.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kNumberBytes = 1 << 12;
+
+// Integers of type Stored, or floats, to wide ones.
+template <class Stored, class Wide>
+void convert(unsigned char* bytes, size_t count, bool swapped, Wide* out) {
+  for (size_t i = 0; i < count; ++i, bytes += sizeof(Stored)) {
+    if (swapped) std::reverse(bytes, bytes + sizeof(Stored));
+    Stored value;
+    std::memcpy(&value, bytes, sizeof value);
+    out[i] = static_cast<Wide>(value);
+  }
+}
+
+template <class Narrow, class Long, class Wide>
+void readBinary(FileScan& file, bool swapped, Wide* out, size_t count, size_t width,
+                const char* what) {
+  unsigned char bytes[kNumberBytes];
+  while (count > 0) {
+    const size_t n = std::min(count, sizeof bytes / width);
+    file.bytes(bytes, n * width, what);
+    if (width == sizeof(Narrow))
+      convert<Narrow>(bytes, n, swapped, out);
+    else
+      convert<Long>(bytes, n, swapped, out);
+    out += n;
+    count -= n;
+  }
+}
+
+}  // namespace
+
+void NumberScan::integers(int64_t* out, size_t count, size_t width, const char* what) {
+  if (binary_) return readBinary<int32_t, int64_t>(file_, swapped_, out, count, width, what);
+  file_.integers(out, count, what);
+}
+
+void NumberScan::reals(double* out, size_t count, size_t width, const char* what) {
+  if (binary_) return readBinary<float, double>(file_, swapped_, out, count, width, what);
+  for (size_t i = 0; i < count; ++i) out[i] = file_.real(what);
+}
+
+uint64_t NumberScan::count(size_t width, size_t least_bytes, const char* what) {
+  const int64_t found = integer(width, what);
+  if (found < 0) file_.failBad(textOf("%s is %lld", what, static_cast<long long>(found)));
+  file_.checkClaim(static_cast<uint64_t>(found), least_bytes, what);
+  return static_cast<uint64_t>(found);
+}
+
+}  // namespace tetstream

@@ -1,0 +1,136 @@
+// Reads TetGen's meshes: points in NAME.node, cells in NAME.ele, labelled faces in NAME.face where
+// that is there. Any of the three names the mesh.
+#include "compressed_bytes.h"
+#include "file_scan.h"
+#include "medit_sol.h"
+#include "mesh_intake.h"
+#include "status.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr int64_t kMostAttributes = 512;
+
+std::unique_ptr<ByteSource> openBeside(const std::string& path, const char* extension) {
+  return unwrapped(openFile(withExtension(path, extension)));
+}
+
+class TetgenReader {
+ public:
+  // The points, whose numbers tell whether all count from 0 or from 1.
+  TetgenReader(std::unique_ptr<ByteSource> nodes, const ReadOptions& options)
+      : nodes_(std::move(nodes), '#'), intake_(nodes_, options, ScalarType::kFloat64) {}
+
+  std::unique_ptr<IndexedSource> read(std::unique_ptr<ByteSource> cells,
+                                      std::unique_ptr<ByteSource> faces) {
+    readNodes();
+    readCells(std::move(cells));
+    if (faces) readFaces(std::move(faces));
+    return intake_.finish();
+  }
+
+ private:
+  // Points, 3, attributes, whether there are markers; then rows with the point's number first.
+  void readNodes() {
+    const auto count = static_cast<uint64_t>(nodes_.integer("the number of points", 0, INT64_MAX));
+    nodes_.checkClaim(count, 8, "points");
+    if (nodes_.integer("the dimension") != 3)
+      nodes_.failHere(Status::kUnsupported, "the dimension is not 3");
+    const int64_t attributes = nodes_.integer("the number of attributes", 0, kMostAttributes);
+    const bool markers = nodes_.integer("whether there are markers", 0, 1) != 0;
+    if (markers) intake_.addPointLabels("marker");
+    std::vector<size_t> columns;
+    for (int64_t a = 0; a < attributes; ++a)
+      columns.push_back(
+          intake_.addData({"attribute" + std::to_string(a), 1, ScalarType::kFloat64}, false));
+    for (uint64_t i = 0; i < count; ++i) {
+      const int64_t number = nodes_.integer("the number of a point");
+      if (i == 0) first_ = number;
+      if ((i == 0 && first_ != 0 && first_ != 1) || number != first_ + static_cast<int64_t>(i))
+        nodes_.failBad(textOf("point %lld, where they should count from 0 or 1",
+                              static_cast<long long>(number)));
+      double position[3];
+      for (double& x : position) x = nodes_.real("the position of a point");
+      intake_.addPoint(position);
+      for (size_t column : columns) {
+        const double value = nodes_.real("an attribute of a point");
+        intake_.putData(column, i, &value);
+      }
+      if (markers) intake_.labelPoint(nodes_.integer("the marker of a point"));
+    }
+  }
+
+  void readCorners(FileScan& file, size_t count, int64_t* corners) {
+    const auto points = static_cast<int64_t>(intake_.mesh().pointCount());
+    for (size_t k = 0; k < count; ++k)
+      corners[k] = file.integer("a corner of a cell", first_, first_ + points - 1) - first_;
+  }
+
+  // Cells, corners of each (4, or 10 of second order), attributes: the first one is the region.
+  void readCells(std::unique_ptr<ByteSource> bytes) {
+    FileScan file(std::move(bytes), '#');
+    const auto count = static_cast<uint64_t>(file.integer("the number of cells", 0, INT64_MAX));
+    file.checkClaim(count, 10, "cells");
+    const int64_t nodes = file.integer("the number of corners", 4, 10);
+    if (nodes != 4 && nodes != 10) file.failBad("cells with neither 4 nor 10 points");
+    const int64_t attributes = file.integer("the number of attributes", 0, kMostAttributes);
+    std::vector<size_t> columns;
+    for (int64_t a = 0; a < attributes; ++a)
+      columns.push_back(
+          intake_.addCellNumbers(a == 0 ? "region" : "attribute" + std::to_string(a)));
+    const CellKind kind = {CellShape::kTetra, static_cast<int>(nodes)};
+    for (uint64_t i = 0; i < count; ++i) {
+      const int64_t number = file.integer("the number of a cell");
+      int64_t corners[10];
+      readCorners(file, static_cast<size_t>(nodes), corners);
+      intake_.addCell(kind, corners, nullptr, number);
+      for (size_t column : columns) {
+        const double value = file.real("an attribute of a cell");
+        intake_.putData(column, i, &value);
+      }
+    }
+  }
+
+  // Faces, whether there are markers.
+  void readFaces(std::unique_ptr<ByteSource> bytes) {
+    FileScan file(std::move(bytes), '#');
+    const auto count = static_cast<uint64_t>(file.integer("the number of faces", 0, INT64_MAX));
+    file.checkClaim(count, 8, "faces");
+    const bool markers = file.integer("whether there are markers", 0, 1) != 0;
+    if (!markers) return intake_.leaveOut("faces without markers", count);
+    for (uint64_t i = 0; i < count; ++i) {
+      file.integer("the number of a face");
+      int64_t corners[3];
+      readCorners(file, 3, corners);
+      const int64_t label = file.integer("the marker of a face");
+      file.line();  // the cells on both sides
+      if (label == 0)
+        intake_.leaveOut("faces whose marker is 0");
+      else
+        intake_.addFace({CellShape::kTriangle, 3}, corners, label);
+    }
+  }
+
+  FileScan nodes_;
+  MeshIntake intake_;
+  int64_t first_ = 0;
+};
+
+}  // namespace
+
+Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
+  if (options.path.empty())
+    fail(Status::kUnsupported,
+         "%s: TetGen's meshes are two files, .node and .ele: give the name of one of them",
+         bytes->name().c_str());
+  bytes.reset();
+  const std::string face = withExtension(options.path, ".face");
+  TetgenReader reader(openBeside(options.path, ".node"), options);
+  Input input;
+  input.indexed = reader.read(openBeside(options.path, ".ele"),
+                              exists(face) ? openBeside(options.path, ".face") : nullptr);
+  return input;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,145 @@
+#include "mesh_spool.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "status.h"
+
+namespace tetstream {
+
+// Written and read in sequence.
+constexpr SpoolShape kInSequence = {2, 256 << 10};
+constexpr size_t kFaceWords = 4;
+
+MeshSpool::MeshSpool(ScalarType position_type, const std::string& temp_dir)
+    : temp_dir_(temp_dir),
+      positions_(3 * sizeOf(position_type), temp_dir, kInSequence),
+      cells_(4 * sizeof(int32_t), temp_dir, kInSequence),
+      wide_cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
+      faces_(kFaceWords * sizeof(int64_t), temp_dir, kInSequence),
+      locked_(account_) {
+  schema_.position_type = position_type;
+}
+
+size_t MeshSpool::addField(const Column& column) {
+  schema_.fields.push_back(column);
+  fields_.push_back(std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence));
+  return fields_.size() - 1;
+}
+
+size_t MeshSpool::addCellData(const Column& column) {
+  schema_.cell_data.push_back(column);
+  cell_data_.push_back(std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence));
+  return cell_data_.size() - 1;
+}
+
+static void removeAt(std::vector<Column>& columns, std::vector<std::unique_ptr<RowSpool>>& spools,
+                     size_t column) {
+  columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(column));
+  spools.erase(spools.begin() + static_cast<std::ptrdiff_t>(column));
+}
+
+void MeshSpool::appendCells(const int64_t* rows, size_t count) {
+  constexpr size_t kAtOnce = 1024;
+  int32_t narrow[4 * kAtOnce];
+  for (size_t n; count > 0; rows += 4 * n, count -= n) {
+    n = std::min(count, kAtOnce);
+    bool fits = wide_cells_.rows() == 0;
+    for (size_t k = 0; k < 4 * n; ++k) {
+      narrow[k] = static_cast<int32_t>(rows[k]);
+      fits = fits && narrow[k] == rows[k];
+    }
+    if (fits)
+      cells_.append(narrow, n);
+    else
+      wide_cells_.append(rows, n);
+  }
+}
+
+void MeshSpool::removeField(size_t column) {
+  removeAt(schema_.fields, fields_, column);
+}
+
+void MeshSpool::removeCellData(size_t column) {
+  removeAt(schema_.cell_data, cell_data_, column);
+}
+
+void MeshSpool::appendFace(const int64_t corners[3], int64_t label) {
+  const int64_t row[kFaceWords] = {corners[0], corners[1], corners[2], label};
+  faces_.append(row, 1);
+}
+
+void MeshSpool::lock(uint64_t point) {
+  const size_t known = locked_.size();
+  const auto points = static_cast<size_t>(positions_.rows());
+  if (known < points) {
+    locked_.resize(points);
+    std::fill(locked_.data() + known, locked_.data() + points, uint8_t{0});
+  }
+  locked_[static_cast<size_t>(point)] = 1;
+}
+
+void MeshSpool::checkRows(const std::vector<Column>& columns, const Spools& spools,
+                          uint64_t rows) const {
+  for (size_t i = 0; i < spools.size(); ++i)
+    if (spools[i]->rows() != rows)
+      fail(Status::kInternal, "column \"%s\" was given %llu rows of %llu", columns[i].name.c_str(),
+           static_cast<unsigned long long>(spools[i]->rows()),
+           static_cast<unsigned long long>(rows));
+}
+
+void MeshSpool::finish() {
+  checkSchema(schema_);
+  checkRows(schema_.fields, fields_, positions_.rows());
+  checkRows(schema_.cell_data, cell_data_, cellCount());
+  schema_.vertex_count = static_cast<int64_t>(positions_.rows());
+  schema_.cell_count = static_cast<int64_t>(cellCount());
+  for (RowSpool* spool : {&positions_, &cells_, &wide_cells_}) spool->finish();
+  for (Spools* spools : {&fields_, &cell_data_})
+    for (auto& spool : *spools) spool->finish();
+}
+
+void MeshSpool::finishFaces() {
+  schema_.face_count = static_cast<int64_t>(faces_.rows());
+  faces_.finish();
+}
+
+static void readRows(RowSpool& spool, size_t row_bytes, uint64_t first, size_t count, void* out) {
+  auto* to = static_cast<unsigned char*>(out);
+  for (size_t i = 0; i < count; ++i, to += row_bytes)
+    std::memcpy(to, spool.row(first + i), row_bytes);
+}
+
+void MeshSpool::readPositions(uint64_t first, size_t count, void* out) {
+  readRows(positions_, 3 * sizeOf(schema_.position_type), first, count, out);
+}
+
+void MeshSpool::readField(size_t column, uint64_t first, size_t count, void* out) {
+  readRows(*fields_[column], schema_.fields[column].bytesPerRow(), first, count, out);
+}
+
+void MeshSpool::readCells(uint64_t first, size_t count, int64_t* out) {
+  for (size_t i = 0; i < count; ++i, out += 4) {
+    const uint64_t cell = first + i;
+    if (cell >= cells_.rows()) {
+      std::memcpy(out, wide_cells_.row(cell - cells_.rows()), 4 * sizeof(int64_t));
+      continue;
+    }
+    const auto* narrow = static_cast<const int32_t*>(cells_.row(cell));
+    std::copy_n(narrow, 4, out);
+  }
+}
+
+void MeshSpool::readCellData(size_t column, uint64_t first, size_t count, void* out) {
+  readRows(*cell_data_[column], schema_.cell_data[column].bytesPerRow(), first, count, out);
+}
+
+void MeshSpool::readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
+  for (size_t i = 0; i < count; ++i, corners += 3) {
+    const auto* row = static_cast<const int64_t*>(faces_.row(first + i));
+    std::memcpy(corners, row, 3 * sizeof(int64_t));
+    labels[i] = row[3];
+  }
+}
+
+}  // namespace tetstream

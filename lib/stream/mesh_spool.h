@@ -1,0 +1,64 @@
+// stream: an indexed mesh in temporary files, for those who get it row by row. Depends on source.h,
+// row_spool.h.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "memory.h"
+#include "row_spool.h"
+#include "source.h"
+
+namespace tetstream {
+
+// Columns may be added until their first row comes; rows of different columns come in any order
+// among each other. What is small stays in memory.
+class MeshSpool : public IndexedSource {
+ public:
+  MeshSpool(ScalarType position_type, const std::string& temp_dir);
+
+  size_t addField(const Column& column);
+  size_t addCellData(const Column& column);
+  // With their rows.
+  void removeField(size_t column);
+  void removeCellData(size_t column);
+  void appendPositions(const void* rows, size_t count) { positions_.append(rows, count); }
+  void appendCells(const int64_t* rows, size_t count);
+  void appendField(size_t column, const void* rows, size_t count) {
+    fields_[column]->append(rows, count);
+  }
+  void appendCellData(size_t column, const void* rows, size_t count) {
+    cell_data_[column]->append(rows, count);
+  }
+  void appendFace(const int64_t corners[3], int64_t label);
+  void lock(uint64_t point);  // of those that came
+  uint64_t pointCount() const { return positions_.rows(); }
+  uint64_t cellCount() const { return cells_.rows() + wide_cells_.rows(); }
+  uint64_t faceCount() const { return faces_.rows(); }
+  // Before anything is read. Every column has its rows then; faces may follow, up to their own end.
+  void finish();
+  void finishFaces();
+
+  const Schema& schema() const override { return schema_; }
+  const uint8_t* locked() const override { return locked_.size() > 0 ? locked_.data() : nullptr; }
+  void readPositions(uint64_t first, size_t count, void* out) override;
+  void readField(size_t column, uint64_t first, size_t count, void* out) override;
+  void readCells(uint64_t first, size_t count, int64_t* out) override;
+  void readCellData(size_t column, uint64_t first, size_t count, void* out) override;
+  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override;
+
+ private:
+  using Spools = std::vector<std::unique_ptr<RowSpool>>;
+  void checkRows(const std::vector<Column>& columns, const Spools& spools, uint64_t rows) const;
+
+  Schema schema_;
+  std::string temp_dir_;
+  // Cells as int32 up to the first point that needs more. A face: three points and its label.
+  RowSpool positions_, cells_, wide_cells_, faces_;
+  Spools fields_, cell_data_;
+  Account account_;
+  Array<uint8_t> locked_;  // per point, if any is: in memory
+};
+
+}  // namespace tetstream

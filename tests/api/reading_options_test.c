@@ -1,0 +1,124 @@
+/* Options of the reading: other cells that are split, folders of temporary files; properties of the
+ * format msh. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <tetstream/tetstream.h>
+#include <unistd.h>
+
+#include "check.h"
+
+static const char kPyramid[] =
+    "MeshVersionFormatted 2\nDimension 3\nVertices 5\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n"
+    "0 0 1 0\nPyramids 1\n1 2 3 4 5 7\nEnd\n";
+
+static tetstream_options* with(int32_t id, const char* value) {
+  tetstream_options* options = NULL;
+  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_text(options, id, value), TETSTREAM_OK);
+  return options;
+}
+
+static int64_t cells_of(tetstream_reader* reader) {
+  tetstream_stream_info info = {0};
+  info.struct_size = sizeof info;
+  CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
+  return info.cell_count;
+}
+
+static void other_cells_are_split_only_if_asked_for(void) {
+  tetstream_options* split = with(TETSTREAM_OPTION_SPLIT, "yes");
+  tetstream_reader* reader = NULL;
+  const size_t size = sizeof kPyramid - 1;
+  CHECK_EQUAL(tetstream_reader_open_memory(kPyramid, size, "mesh", &reader), TETSTREAM_UNSUPPORTED);
+  CHECK_SAYS(tetstream_reader_message(reader), "cell 1 is a pyramid");
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_memory_with(kPyramid, size, "mesh", split, &reader),
+              TETSTREAM_OK);
+  CHECK_EQUAL(cells_of(reader), 2);
+  CHECK_SAYS(tetstream_reader_note(reader, 0), "are split into them");
+  tetstream_reader_destroy(reader);
+  tetstream_options_destroy(split);
+}
+
+static void every_way_of_opening_takes_options(void) {
+  char path[] = "/tmp/tetstream_reading.XXXXXX";
+  const int fd = mkstemp(path);
+  tetstream_options* split = with(TETSTREAM_OPTION_SPLIT, "yes");
+  tetstream_reader* reader = NULL;
+  CHECK(fd >= 0);
+  CHECK_EQUAL(write(fd, kPyramid, sizeof kPyramid - 1), sizeof kPyramid - 1);
+  CHECK_EQUAL(tetstream_reader_open_file_with(path, "mesh", split, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(cells_of(reader), 2);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(lseek(fd, 0, SEEK_SET), 0);
+  CHECK_EQUAL(tetstream_reader_open_fd_with(fd, "mesh", split, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(cells_of(reader), 2);
+  tetstream_reader_destroy(reader);
+  tetstream_options_destroy(split);
+  CHECK_EQUAL(close(fd), 0);
+  CHECK_EQUAL(unlink(path), 0);
+}
+
+static void a_pipe_is_spooled_where_the_options_say(void) {
+  tetstream_options* nowhere = with(TETSTREAM_OPTION_TMPDIR, "/nowhere/at/all");
+  tetstream_reader* reader = NULL;
+  int ends[2];
+  CHECK_EQUAL(pipe(ends), 0);
+  CHECK_EQUAL(close(ends[1]), 0);
+  CHECK_EQUAL(tetstream_reader_open_fd_with(ends[0], "vtu", nowhere, &reader), TETSTREAM_IO);
+  CHECK_SAYS(tetstream_reader_message(reader), "/nowhere/at/all");
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(close(ends[0]), 0);
+  tetstream_options_destroy(nowhere);
+}
+
+static void null_is_refused(void) {
+  tetstream_reader* reader = NULL;
+  CHECK_EQUAL(tetstream_reader_open_file_with(NULL, "mesh", NULL, &reader), TETSTREAM_BAD_ARGUMENT);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_fd_with(0, NULL, NULL, &reader), TETSTREAM_BAD_ARGUMENT);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_memory_with(NULL, 5, "mesh", NULL, &reader),
+              TETSTREAM_BAD_ARGUMENT);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_memory_with("", 0, "mesh", NULL, NULL), TETSTREAM_BAD_ARGUMENT);
+}
+
+/* The head of what a writer of msh gives, with a property. */
+static void expect_head(const char* property, const char* value, const char* head) {
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  const void* data = NULL;
+  size_t size = 0;
+  CHECK_EQUAL(tetstream_reader_generate("ball", 100, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory("msh", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_set(writer, property, value), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_get_memory(writer, &data, &size), TETSTREAM_OK);
+  CHECK(size > strlen(head) && memcmp(data, head, strlen(head)) == 0);
+  tetstream_writer_destroy(writer);
+  tetstream_reader_destroy(reader);
+}
+
+static void the_format_msh_has_an_encoding_and_a_version(void) {
+  tetstream_writer* writer = NULL;
+  expect_head("encoding", "text", "$MeshFormat\n4.1 0 8\n");
+  expect_head("encoding", "binary", "$MeshFormat\n4.1 1 8\n");
+  expect_head("version", "2.2", "$MeshFormat\n2.2 1 8\n");
+  CHECK_EQUAL(tetstream_writer_create_memory("msh", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_set(writer, "version", "3"), TETSTREAM_BAD_ARGUMENT);
+  tetstream_writer_destroy(writer);
+  CHECK_EQUAL(tetstream_writer_create_memory("vtu", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_set(writer, "encoding", "text"), TETSTREAM_BAD_ARGUMENT);
+  tetstream_writer_destroy(writer);
+}
+
+int main(void) {
+  RUN_CASE(other_cells_are_split_only_if_asked_for);
+  RUN_CASE(every_way_of_opening_takes_options);
+  RUN_CASE(a_pipe_is_spooled_where_the_options_say);
+  RUN_CASE(null_is_refused);
+  RUN_CASE(the_format_msh_has_an_encoding_and_a_version);
+  return check_end();
+}

@@ -1,0 +1,106 @@
+# Gmsh's, MEDIT's, TetGen's and SU2's files: what goes out comes back, with names and types or a
+# note; other cells; .gz and .zst.
+source "${BASH_SOURCE%/*}/common.bash"
+
+tetstream generate ball --cells 1000 mesh.tets
+cells=$(cells_in mesh.tets)
+expect 0 convert mesh.tets direct.vtu --quiet
+expect 0 convert direct.vtu direct.sva --order none --quiet
+
+# The same cells, values, types and names.
+for way in "--encoding binary" "--encoding text" "--msh-version 2.2" \
+  "--msh-version 2.2 --encoding text"; do
+  # shellcheck disable=SC2086
+  expect 0 convert mesh.tets way.msh $way --quiet
+  expect 0 convert way.msh back.sva --order none --quiet
+  cmp direct.sva back.sva || fail "msh $way does not give back the mesh"
+done
+for format in mesh meshb; do
+  expect 0 convert mesh.tets "way.$format"
+  contains "$err" "fields and cell data are written to way.sol"
+  contains "$err" '"density"'
+  expect 0 info "way.$format" --json
+  [[ $(member "$out" cells) == "$cells" ]] || fail "$format has other cells"
+  contains "$out" '"sol1"'
+  expect 0 convert "way.$format" "back-$format.msh" --order none --quiet
+done
+
+# Through pipes, where the format can be streamed; .sol has no place there.
+tetstream convert - - --format-in msh --format meshb --quiet <way.msh |
+  tetstream convert - piped.msh --format-in meshb --quiet
+[[ $(cells_in piped.msh) == "$cells" ]] || fail "pipes lose cells"
+expect_error 6 "two files" convert - none.tets --format-in tetgen <mesh.tets
+
+# gzip and zstd: by the name when written, by the first bytes when read.
+kinds=gz
+expect 0 --version
+[[ $out == *zstd* ]] && kinds="gz zst"
+for kind in $kinds; do
+  for format in sva msh mesh vtu tets; do
+    expect 0 convert mesh.tets "packed.$format.$kind" --quiet
+    (($(stat -c %s "packed.$format.$kind") > 100)) || fail "packed.$format.$kind is empty"
+    [[ $(cells_in "packed.$format.$kind") == "$cells" ]] || fail "$format.$kind loses cells"
+    mv "packed.$format.$kind" "named.$format"
+    [[ $(cells_in "named.$format") == "$cells" ]] || fail "$kind under another name"
+    rm "named.$format"
+  done
+  expect 0 convert mesh.tets "cut.sva.$kind" --quiet
+  head -c 1000 "cut.sva.$kind" >short.sva
+  expect_error 2 "ends within its compressed data" convert short.sva none.tets
+done
+[[ ! -e none.tets ]] || fail "a damaged input left a file"
+
+# Every way of the formats is listed.
+expect 0 --version
+for name in msh mesh meshb tetgen su2; do contains "$out" $'\n'"  $name "; done
+
+# Cells that are no tetrahedra.
+cat >prism.mesh <<'END'
+MeshVersionFormatted 2
+Dimension 3
+Vertices 7
+0 0 0 0
+1 0 0 0
+0 1 0 0
+0 0 1 0
+1 0 1 0
+0 1 1 0
+0 0 2 0
+Prisms 1
+1 2 3 4 5 6 3
+Tetrahedra 1
+4 5 6 7 5
+Quadrilaterals 1
+1 2 5 4 8
+End
+END
+expect_error 6 "prism.mesh: line 12: cell 1 is a prism" convert prism.mesh none.tets
+expect 0 convert prism.mesh split.tets --split
+contains "$err" "1 cells that are no tetrahedra are split"
+[[ $(cells_in split.tets) == 4 ]] || fail "a prism and a tetrahedron are not four"
+expect 0 info prism.mesh --split
+expect 0 simplify prism.mesh split.msh --split --cells 4 --quiet
+
+# TetGen's and SU2's, which are only read.
+printf '4 3 1 0\n0 0 0 0 5\n1 1 0 0 6\n2 0 1 0 7\n3 0 0 1 8\n' >one.node
+printf '1 4 1\n0 0 1 2 3 4\n' >one.ele
+expect 0 info one.ele --json
+contains "$out" '"attribute0"'
+contains "$out" '"region"'
+expect 0 info one.node
+printf 'NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >one.su2
+[[ $(cells_in one.su2) == 1 ]] || fail "one cell of SU2"
+expect_error 6 "read, but not written" convert mesh.tets none.su2
+expect_error 6 "read, but not written" convert mesh.tets none.ele
+
+# Lies about sizes are found at once.
+printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1152921504606846976\n1 0 0 0\n' >lie.msh
+(
+  ulimit -v 4000000 2>/dev/null || true
+  [[ -n ${TETSTREAM_LAUNCHER:-} || $TETSTREAM_SANITIZED == 1 ]] && ulimit -v unlimited
+  expect_error 2 "lie.msh: line 5: 1152921504606846976 nodes cannot be" info lie.msh
+)
+rm -f ./*.sol ./*.solb
+only_files back.sva back-mesh.msh back-meshb.msh direct.sva direct.vtu lie.msh mesh.tets one.ele one.node \
+  one.su2 piped.msh prism.mesh short.sva split.msh split.tets way.mesh way.meshb way.msh \
+  $(for kind in $kinds; do echo "cut.sva.$kind"; done)

@@ -1,0 +1,78 @@
+"""Reads a file with meshio, and with Gmsh where that is asked for, and compares it with the same mesh
+as .vtu: points, cells, fields and regions. Exit code 77: the module is not there."""
+
+import sys
+
+try:
+    import numpy
+    import meshio
+except ImportError as error:
+    print("not run:", error)
+    sys.exit(77)
+
+
+def tetrahedra(mesh):
+    """Corners, and the rows of cell data in all blocks of them."""
+    cells, rows = [], []
+    for index, block in enumerate(mesh.cells):
+        if block.type == "tetra":
+            cells.append(block.data)
+            rows.append(index)
+    return numpy.concatenate(cells), rows
+
+
+def check(what, a, b):
+    a, b = numpy.asarray(a), numpy.asarray(b)
+    if a.shape != b.shape or not (a == b).all():
+        sys.exit(f"{what} differ: {a.shape} {b.shape}")
+
+
+def with_meshio(path, wanted):
+    mesh = meshio.read(path)
+    check("points", mesh.points, wanted.points)
+    cells, rows = tetrahedra(mesh)
+    check("cells", cells, tetrahedra(wanted)[0])
+    for name, values in wanted.point_data.items():
+        if name in mesh.point_data:
+            check(name, numpy.squeeze(mesh.point_data[name]), values)
+    for name in ("gmsh:physical", "medit:ref"):
+        if name in mesh.cell_data:
+            found = numpy.concatenate([mesh.cell_data[name][row] for row in rows])
+            check(name, found, wanted.cell_data["region"][0])
+            return
+    sys.exit("there are no regions")
+
+
+def with_gmsh(path, wanted):
+    try:
+        import gmsh
+    except ImportError as error:
+        print("not run:", error)
+        sys.exit(77)
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.open(path)
+    tags, positions, _ = gmsh.model.mesh.getNodes()
+    order = numpy.argsort(tags)
+    check("points", positions.reshape(-1, 3)[order], wanted.points)
+    cells = {}
+    for _, entity in gmsh.model.getEntities(3):
+        groups = gmsh.model.getPhysicalGroupsForEntity(3, entity)
+        _, elements, nodes = gmsh.model.mesh.getElements(3, entity)
+        for element, corners in zip(elements[0], nodes[0].reshape(-1, 4)):
+            cells[element] = (list(corners - 1), groups[0])
+    found = [cells[element] for element in sorted(cells)]
+    check("cells", [c for c, _ in found], tetrahedra(wanted)[0])
+    check("regions", [g for _, g in found], wanted.cell_data["region"][0])
+    if "2.2" not in path:
+        views = {gmsh.option.getString(f"View[{gmsh.view.getIndex(t)}].Name"): t
+                 for t in gmsh.view.getTags()}
+        for name, values in wanted.point_data.items():
+            _, _, data, _, _ = gmsh.view.getModelData(views[name], 0)
+            check(name, numpy.squeeze(numpy.array(data)), values)
+    gmsh.finalize()
+
+
+if __name__ == "__main__":
+    reference = meshio.read(sys.argv[3])
+    {"meshio": with_meshio, "gmsh": with_gmsh}[sys.argv[1]](sys.argv[2], reference)

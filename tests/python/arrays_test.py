@@ -1,0 +1,254 @@
+"""simplify on arrays: types, shapes, what is copied and what is refused."""
+import gc
+import sys
+import unittest
+import warnings
+
+import numpy
+from meshes import box, halves, volume
+
+import tetstream
+
+
+class Arrays(unittest.TestCase):
+    def test_a_box_becomes_a_tenth_of_its_cells(self):
+        points, cells, field = box(8)
+        result = tetstream.simplify(points, cells, {"f": field}, ratio=0.1)
+        self.assertEqual(result.report.cells_in, len(cells))
+        self.assertEqual(result.report.cells_out, len(result.cells))
+        self.assertLessEqual(len(result.cells), len(cells) // 10)
+        self.assertGreater(len(result.cells), len(cells) // 10 - 15)
+        self.assertEqual(result.report.reached, "ratio")
+        self.assertEqual(result.points.shape, (len(result.fields["f"]), 3))
+        self.assertEqual((result.cells.min(), result.cells.max()), (0, len(result.points) - 1))
+        self.assertAlmostEqual(volume(result.points, result.cells), 2, places=3)
+
+    def test_types_of_points_and_cells_come_back(self):
+        for points_type in (numpy.float32, numpy.float64):
+            for cells_type in (numpy.int32, numpy.int64):
+                with self.subTest(points=points_type, cells=cells_type):
+                    points, cells, field = box(4, points_type, cells_type)
+                    result = tetstream.simplify(points, cells, {"f": field}, ratio=0.5)
+                    self.assertEqual(result.points.dtype, points_type)
+                    self.assertEqual(result.cells.dtype, cells_type)
+                    self.assertEqual(result.fields["f"].dtype, points_type)
+
+    def test_the_result_does_not_depend_on_how_the_numbers_are_stored(self):
+        points, cells, field = box(4)
+        expected = tetstream.simplify(points, cells, {"f": field}, ratio=0.3)
+        ways = {
+            "int32": (points, cells.astype(numpy.int32), field),
+            "Fortran order": (numpy.asfortranarray(points), numpy.asfortranarray(cells), field),
+            "other byte order": (points.astype(">f8"), cells.astype(">i8"), field.astype(">f8")),
+            "every second": (numpy.repeat(points, 2, axis=0)[::2], numpy.repeat(cells, 2, 0)[::2],
+                             numpy.repeat(field, 2)[::2]),
+            "unsigned": (points, cells.astype(numpy.uint64), field),
+            "small integers": (points, cells.astype(numpy.int16), field),
+            "lists": (points.tolist(), cells.tolist(), field.tolist()),
+            "not to be written": tuple(map(_read_only, (points, cells, field))),
+            "not aligned": (_unaligned(points), _unaligned(cells), _unaligned(field)),
+        }
+        for name, (p, c, f) in ways.items():
+            with self.subTest(name):
+                result = tetstream.simplify(p, c, {"f": f}, ratio=0.3)
+                numpy.testing.assert_array_equal(result.points, expected.points)
+                numpy.testing.assert_array_equal(result.cells, expected.cells)
+                numpy.testing.assert_array_equal(result.fields["f"], expected.fields["f"])
+
+    def test_inputs_stay_as_they_are(self):
+        arrays = box(4)
+        before = [array.copy() for array in arrays]
+        tetstream.simplify(arrays[0], arrays[1], {"f": arrays[2]}, ratio=0.2)
+        for array, old in zip(arrays, before):
+            numpy.testing.assert_array_equal(array, old)
+
+    def test_the_result_lives_longer_than_everything_else(self):
+        points, cells, field = box(4)
+        result = tetstream.simplify(points, cells, {"f": field}, ratio=0.2)
+        kept, copy = result.points, result.points.copy()
+        del result, points, cells, field
+        gc.collect()
+        numpy.testing.assert_array_equal(kept, copy)
+        kept[:] = 0  # it is the caller's to write, too
+
+    def test_nobody_keeps_the_inputs(self):
+        points, cells, field = box(3)
+        before = [sys.getrefcount(array) for array in (points, cells, field)]
+        tetstream.simplify(points, cells, {"f": field}, ratio=0.5, progress=lambda p: None)
+        self.assertEqual([sys.getrefcount(a) for a in (points, cells, field)], before)
+
+    def test_fields_of_many_kinds_keep_type_and_shape(self):
+        points, cells, field = box(4)
+        n = len(points)
+        fields = {"scalar": field, "column": field[:, None], "vector": points.astype("f4"),
+                  "tensor": numpy.tile(numpy.eye(3), (n, 1, 1)), "half": field.astype("f2"),
+                  "flag": field > 1, "id": numpy.arange(n), "short": numpy.arange(n, dtype="u2"),
+                  "zahl ü": field}
+        result = tetstream.simplify(points, cells, fields, ratio=0.3, weights={"scalar": 1})
+        shapes = {name: (values.dtype, values.shape[1:]) for name, values in result.fields.items()}
+        wanted = {name: (values.dtype, values.shape[1:]) for name, values in fields.items()}
+        wanted["half"] = (numpy.dtype("f4"), ())  # an interpolated value has more digits
+        self.assertEqual(shapes, wanted)
+        self.assertEqual(list(result.fields), list(fields))
+        self.assertLessEqual(set(result.fields["id"]), set(range(n)))
+        numpy.testing.assert_allclose(result.fields["vector"], result.points, atol=1e-3)
+
+    def test_cell_data_is_averaged_or_picked(self):
+        points, cells, field = box(4)
+        data = {"constant": numpy.full(len(cells), 2.5), "parity": (numpy.arange(len(cells)) % 2)}
+        result = tetstream.simplify(points, cells, {"f": field}, cell_data=data, ratio=0.3,
+                                    regions="none")
+        numpy.testing.assert_allclose(result.cell_data["constant"], 2.5)
+        self.assertLessEqual(set(result.cell_data["parity"]), {0, 1})
+
+    def test_regions_keep_their_volumes(self):
+        points, cells, field = box(6)
+        labels = halves(points, cells)
+        result = tetstream.simplify(points, cells, {"f": field}, regions=labels, ratio=0.2)
+        self.assertEqual(result.regions.dtype, labels.dtype)
+        self.assertEqual(result.cell_data, {})
+        for label in (3, 8):
+            self.assertAlmostEqual(volume(result.points, result.cells[result.regions == label]), 1,
+                                   places=6)
+
+    def test_regions_may_be_named(self):
+        points, cells, field = box(4)
+        result = tetstream.simplify(points, cells, {"f": field}, regions="part", ratio=0.3,
+                                    cell_data={"part": halves(points, cells)})
+        self.assertIn("part", result.report.regions)
+        self.assertEqual(set(result.cell_data["part"]), {3, 8})
+
+    def test_locked_points_stay(self):
+        points, cells, field = box(5)
+        locked = points[:, 2] == 1
+        result = tetstream.simplify(points, cells, {"f": field}, locked=locked, ratio=0.3)
+        kept = result.points[result.locked]
+        self.assertEqual({tuple(p) for p in kept}, {tuple(p) for p in points[locked]})
+
+    def test_labelled_faces_go_along(self):
+        points, cells, field = box(5)
+        faces = numpy.array([[p for p in cell if points[p, 2] == 0] for cell in cells
+                             if (points[cell, 2] == 0).sum() == 3])
+        result = tetstream.simplify(points, cells, {"f": field}, faces=faces,
+                                    face_labels=numpy.full(len(faces), 7), ratio=0.3)
+        self.assertEqual(set(result.face_labels), {7})
+        numpy.testing.assert_allclose(result.points[result.faces][..., 2], 0, atol=1e-4)
+
+    def test_a_vertex_map_carries_linear_fields_back(self):
+        points, cells, field = box(6)
+        linear = points @ [1.0, -2, 3]
+        result = tetstream.simplify(points, cells, {"f": field}, ratio=0.2, vertex_map=True)
+        there = result.points @ [1.0, -2, 3]
+        numpy.testing.assert_allclose(result.vertex_map.prolong(there), linear, atol=1e-9)
+        numpy.testing.assert_allclose(result.vertex_map.prolong(result.points), points, atol=1e-9)
+        plain = tetstream.simplify(points, cells, {"f": field}, ratio=0.2)
+        self.assertIsNone(plain.vertex_map)
+        numpy.testing.assert_array_equal(plain.cells, result.cells)
+
+    def test_points_of_no_cell_have_no_place(self):
+        points, cells, field = box(3)
+        points, field = numpy.append(points, [[9, 9, 9]], 0), numpy.append(field, 0)
+        result = tetstream.simplify(points, cells, {"f": field}, ratio=0.5, vertex_map=True)
+        self.assertEqual(result.report.unused_vertices, 1)
+        self.assertEqual(result.vertex_map.cells[-1], -1)
+        self.assertTrue(numpy.isnan(result.vertex_map.prolong(result.points)[-1]).all())
+
+    def test_a_missed_target_is_a_warning(self):
+        points, cells, field = box(3)
+        locked = numpy.ones(len(points), bool)
+        with self.assertWarnsRegex(tetstream.TargetMissedWarning, "limited by: ...") as caught:
+            result = tetstream.simplify(points, cells, {"f": field}, locked=locked, cells=10)
+        self.assertEqual(len(result.cells), len(cells))
+        self.assertNotEqual(result.report.limited_by, "")
+        self.assertEqual(caught.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            tetstream.simplify(points, cells, {"f": field}, error=50)
+
+
+def _read_only(array):
+    array = array.copy()
+    array.flags.writeable = False
+    return array
+
+
+def _unaligned(array):
+    buffer = bytearray(array.nbytes + 1)
+    out = numpy.frombuffer(buffer, numpy.uint8, offset=1)[:array.nbytes].view(array.dtype)
+    out = out.reshape(array.shape)
+    out[...] = array
+    assert not out.flags.aligned
+    return out
+
+
+class Refused(unittest.TestCase):
+    """Each bad input, with a part of the sentence that tells of it."""
+
+    def refused(self, kind, sentence, *arguments, **more):
+        with self.assertRaisesRegex(kind, sentence):
+            tetstream.simplify(*arguments, **{"ratio": 0.5, **more})
+
+    def setUp(self):
+        self.points, self.cells, self.field = box(2)
+
+    def test_shapes(self):
+        p, c, f = self.points, self.cells, self.field
+        self.refused(tetstream.BadArgument, r"points: the shape is \[\d+\]\[2\], \[n\]\[3\]", p[:, :2], c)
+        self.refused(tetstream.BadArgument, r"points", p.ravel(), c)
+        self.refused(tetstream.BadArgument, r"cells: .*\[n\]\[4\]", p, c[:, :3])
+        self.refused(tetstream.BadArgument, r'"f": the shape is', p, c, {"f": f[1:]})
+        self.refused(tetstream.BadArgument, r'"d"', p, c, cell_data={"d": c[1:, 0]})
+        self.refused(tetstream.BadArgument, r"10 numbers in a row", p, c,
+                     {"f": numpy.zeros((len(p), 10))})
+        self.refused(tetstream.BadArgument, "locked", p, c, locked=[True])
+        self.refused(tetstream.BadArgument, r'"region"', p, c, regions=[1, 2])
+        self.refused(ValueError, "points", numpy.float64(3), c)
+
+    def test_types(self):
+        p, c, f = self.points, self.cells, self.field
+        self.refused(TypeError, "points: .*complex128", p.astype(complex), c)
+        self.refused(TypeError, "cells: .*float64", p, c.astype(float))
+        self.refused(TypeError, "text", p, c, {"text": numpy.full(len(p), "a")})
+        self.refused(TypeError, "longdouble|float128", p, c, {"long": f.astype(numpy.longdouble)})
+        self.refused(TypeError, "uint64", p, c,
+                     {"id": numpy.full(len(p), 2 ** 63, dtype=numpy.uint64)})
+        self.refused(TypeError, "name is 3", p, c, {3: f})
+        self.refused(TypeError, "progress", p, c, progress="yes")
+
+    def test_values(self):
+        p, c, f = self.points, self.cells, self.field
+        for bad in (-1, len(p)):
+            wrong = c.copy()
+            wrong[7, 2] = bad
+            self.refused(tetstream.BadData, f"cell 7: vertex {bad} is not one of", p, wrong)
+            self.refused(tetstream.BadData, f"cell 7: vertex {bad} is not one of", p,
+                         wrong.astype(numpy.int32))
+        wrong = p.copy()
+        wrong[5, 1] = numpy.nan
+        self.refused(tetstream.BadData, "vertex 5|point 5", wrong, c)
+        self.refused(tetstream.BadArgument, "nowhere", p, c, {"f": f}, weights={"nowhere": 1})
+
+    def test_options(self):
+        p, c = self.points, self.cells
+        self.refused(tetstream.BadArgument, "ratio", p, c, ratio=1.5)
+        self.refused(tetstream.BadArgument, "mode", p, c, mode="fast")
+        self.refused(TypeError, "there is no option quality; there are ratio, cells", p, c, quality=3)
+        self.refused(TypeError, "window: an int is wanted, not float", p, c, window=3.5)
+        self.refused(TypeError, "axis: a str", p, c, axis=1)
+        self.refused(tetstream.BadArgument, "seed: .*64 bits", p, c, seed=2 ** 63)
+        with self.assertRaisesRegex(TypeError, "a target is missing"):
+            tetstream.simplify(p, c)
+
+    def test_an_empty_mesh_is_an_empty_mesh(self):
+        result = tetstream.simplify(numpy.zeros((0, 3)), numpy.zeros((0, 4), int), {"f": []},
+                                    ratio=0.5)
+        self.assertEqual((result.points.shape, result.cells.shape), ((0, 3), (0, 4)))
+
+    def test_after_a_refusal_all_is_well(self):
+        self.test_values()
+        result = tetstream.simplify(self.points, self.cells, {"f": self.field}, ratio=0.9)
+        self.assertLess(len(result.cells), len(self.cells))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,116 @@
+"""Files: the same bytes as the command's, and the same arrays."""
+import os
+import pathlib
+import tempfile
+import unittest
+
+import numpy
+from meshes import box, command, write_vtu
+
+import tetstream
+
+
+class Files(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.points, self.cells, self.field = box(9)
+        write_vtu(self.path("in.vtu"), self.points, self.cells, {"f": self.field})
+
+    def path(self, name):
+        return self.folder / name
+
+    def same_bytes(self, a, b):
+        self.assertEqual(self.path(a).read_bytes(), self.path(b).read_bytes())
+
+    def test_a_file_has_the_bytes_of_the_command(self):
+        for more, flags in (({}, ()), (dict(boundary_weight=3, axis="y"), ("--boundary-weight", 3,
+                                                                         "--axis", "y")),
+                            (dict(memory="8M", mode="paper"), ("--memory", "8M", "--mode", "paper"))):
+            with self.subTest(more):
+                command("simplify", self.path("in.vtu"), self.path("command.tets"), "--ratio", 0.1,
+                        *flags)
+                report = tetstream.simplify_file(self.path("in.vtu"), self.path("python.tets"),
+                                                 ratio=0.1, **more)
+                self.same_bytes("command.tets", "python.tets")
+                self.assertEqual(report.cells_out, tetstream.info(self.path("python.tets")).cell_count)
+
+    def test_arrays_have_the_bytes_of_the_command(self):
+        command("simplify", self.path("in.vtu"), self.path("command.tets"), "--ratio", 0.1)
+        mesh = tetstream.Mesh(self.points, self.cells, {"f": self.field})
+        tetstream.simplify_file(mesh, self.path("python.tets"), ratio=0.1)
+        self.same_bytes("command.tets", "python.tets")
+        result = tetstream.simplify(self.points, self.cells, {"f": self.field}, ratio=0.1)
+        theirs = tetstream.read(self.path("command.tets"))
+        self.assertEqual(result.points.tobytes(), theirs.points.tobytes())
+        self.assertEqual(result.cells.tobytes(), theirs.cells.tobytes())
+        self.assertEqual(result.fields["f"].tobytes(), theirs.fields["f"].tobytes())
+
+    def test_maps_and_logs_have_the_bytes_of_the_command(self):
+        command("simplify", self.path("in.vtu"), self.path("a.tets"), "--ratio", 0.1,
+                "--map", self.path("a.tetmap"), "--collapse-log", self.path("a.tetlog"))
+        tetstream.simplify_file(str(self.path("in.vtu")), str(self.path("b.tets")), ratio=0.1,
+                                map_file=self.path("b.tetmap"), log_file=self.path("b.tetlog"))
+        for kind in ("tets", "tetmap", "tetlog"):
+            self.same_bytes("a." + kind, "b." + kind)
+
+    def test_weights_are_those_of_the_command(self):
+        command("simplify", self.path("in.vtu"), self.path("a.tets"), "--ratio", 0.1,
+                "--field", "f:3")
+        tetstream.simplify_file(self.path("in.vtu"), self.path("b.tets"), ratio=0.1,
+                                weights={"f": 3})
+        self.same_bytes("a.tets", "b.tets")
+
+    def test_a_layout_has_the_bytes_of_the_command(self):
+        command("layout", self.path("in.vtu"), self.path("a.tets"), "--order", "hilbert")
+        report = tetstream.layout(self.path("in.vtu"), self.path("b.tets"), order="hilbert")
+        self.same_bytes("a.tets", "b.tets")
+        self.assertEqual(report.cells, len(self.cells))
+        self.assertIn("hilbert", report.order)
+
+    def test_a_mesh_that_is_written_keeps_its_order(self):
+        result = tetstream.simplify(self.points, self.cells, {"f": self.field}, ratio=0.1)
+        for name in ("out.tets", "out.svb"):
+            result.write(self.path(name))
+        again = tetstream.read(self.path("out.tets"))
+        numpy.testing.assert_array_equal(again.cells, result.cells)
+        numpy.testing.assert_array_equal(again.points, result.points)
+        self.assertIn("float32", " ".join(result.write(self.path("out.svb"))))
+        self.assertGreater(tetstream.info(self.path("out.tets")).front_width, 0)
+
+    def test_properties_of_a_format(self):
+        for compress in ("yes", "no"):
+            tetstream.convert(self.path("in.vtu"),
+                              tetstream.Writer.file(self.path(compress + ".tets"), compress=compress))
+        if "no zstd" not in tetstream.core.version_text():
+            self.assertLess(os.path.getsize(self.path("yes.tets")),
+                            os.path.getsize(self.path("no.tets")))
+        with self.assertRaisesRegex(tetstream.BadArgument, "no property"):
+            tetstream.Writer.file(self.path("a.tets"), colour="red")
+
+    def test_names_of_files_may_be_any(self):
+        for name in ("grün.tets", os.fsdecode(b"\xff.tets")):
+            tetstream.convert(self.path("in.vtu"), self.path(name))
+            self.assertEqual(tetstream.info(os.fsencode(self.path(name))).cell_count,
+                             len(self.cells))
+
+    def test_failures_are_those_of_python(self):
+        with self.assertRaisesRegex(OSError, "nowhere.tets"):
+            tetstream.read(self.path("nowhere.tets"))
+        with self.assertRaisesRegex(tetstream.Unsupported, "xyz"):
+            tetstream.read(self.path("in.xyz"))
+        self.path("bad.tets").write_bytes(b"nothing of the kind" * 20)
+        with self.assertRaises(tetstream.BadData):
+            tetstream.read(self.path("bad.tets"))
+        with self.assertRaisesRegex(TypeError, "a path, a Mesh or a Reader"):
+            tetstream.read(3)
+        with self.assertRaisesRegex(TypeError, "a path or a Writer"):
+            tetstream.convert(self.path("in.vtu"), 3)
+        with self.assertRaisesRegex(TypeError, "a target is missing"):
+            tetstream.simplify_file(self.path("in.vtu"), self.path("out.tets"))
+        self.assertFalse(self.path("out.tets").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,128 @@
+"""info, compare, diagram, formats, options: figures and pictures."""
+import os
+import tempfile
+import unittest
+
+import numpy
+from meshes import box, halves
+
+import tetstream
+
+
+class Axes:
+    """What plot() needs of an axis of matplotlib's."""
+
+    def __init__(self):
+        self.told = {}
+
+    def imshow(self, image, **look):
+        self.told["image"], self.told["look"] = image, look
+
+    def __getattr__(self, name):
+        return lambda text: self.told.update({name: text})
+
+
+class Operations(unittest.TestCase):
+    def setUp(self):
+        self.points, self.cells, self.field = box(4)
+        self.mesh = tetstream.Mesh(self.points, self.cells, {"f": self.field, "v": self.points},
+                                   {"part": halves(self.points, self.cells)})
+
+    def test_info_of_a_mesh(self):
+        info = tetstream.info(self.mesh)
+        self.assertEqual((info.cell_count, info.vertex_count), (len(self.cells), len(self.points)))
+        self.assertEqual(info.fields, {"f": (numpy.dtype("f8"), 1), "v": (numpy.dtype("f8"), 3)})
+        self.assertEqual(info.cell_data, {"part": (numpy.dtype("i8"), 1)})
+        numpy.testing.assert_array_equal(info.box, [[0, 0, 0], [1, 1, 2]])
+        numpy.testing.assert_array_equal(info.ranges["f"].ravel(),
+                                         [self.field.min(), self.field.max()])
+        numpy.testing.assert_array_equal(info.ranges["v"], info.box)
+        self.assertEqual(info.front.width, info.front_width)
+        self.assertLess(25, info.front_width)
+        self.assertLess(info.front_width, 75)
+
+    def test_what_is_known_without_reading(self):
+        info = tetstream.Reader.generate("fluid+stress", 1000).info()
+        self.assertEqual(info.fields["stress"], (numpy.dtype("f4"), 6))
+
+    def test_comparison_with_itself_and_with_less(self):
+        same = tetstream.compare(self.mesh, self.mesh)
+        self.assertEqual(set(same.fields), {"f", "v"})
+        self.assertLess(same.fields["f"].rms, 1e-12)
+        self.assertEqual(same.topology_kept, 1)
+        self.assertAlmostEqual(same.original.volume, 2)
+        small = self.mesh.simplify(ratio=0.2, regions="part")
+        less = tetstream.compare(self.mesh, small, weights={"f": 1}, regions="part")
+        self.assertEqual(set(less.fields), {"f"})
+        self.assertEqual(less.simplified.cells, len(small.cells))
+        self.assertLess(0.01, less.fields["f"].rms_percent)
+        self.assertLess(less.fields["f"].rms_percent, 5)
+        self.assertEqual(set(less.regions), {3, 8})
+        self.assertEqual(len(less.distance_place), 3)
+        self.assertIn("RMS errors: f", repr(less))
+
+    def test_a_diagram_has_the_figures_of_info(self):
+        drawn = tetstream.diagram(self.mesh, columns=100, rows=50)
+        info = tetstream.info(self.mesh)
+        self.assertEqual(drawn.front_width, info.front_width)
+        self.assertEqual(drawn.coverage.shape, (drawn.rows, drawn.columns))
+        self.assertEqual(drawn.widths.max(), info.front_width)
+        self.assertEqual(drawn.newest.shape, (drawn.columns,))
+        axes = Axes()
+        self.assertIs(drawn.plot(axes, cmap="Greys"), axes)
+        self.assertIs(axes.told["image"], drawn.coverage)
+        self.assertEqual(axes.told["look"]["extent"], (0, len(self.cells), len(self.points), 0))
+        self.assertEqual((axes.told["look"]["cmap"], axes.told["set_xlabel"]), ("Greys", "cells"))
+        self.assertIn(str(info.front_width), axes.told["set_title"])
+
+    def test_pictures(self):
+        with tempfile.TemporaryDirectory() as folder:
+            drawn = tetstream.diagram(self.mesh)
+            compared = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2), cut="auto")
+            for name, picture in (("layout.svg", drawn), ("cut.png", compared)):
+                path = os.path.join(folder, name)
+                if "no cairo" in tetstream.core.version_text():
+                    with self.assertRaisesRegex(tetstream.Unsupported, "cairo"):
+                        picture.write(path, "a title")
+                else:
+                    picture.write(path, "a title")
+                    self.assertGreater(os.path.getsize(path), 1000)
+            with self.assertRaises(tetstream.Unsupported):
+                drawn.write(os.path.join(folder, "layout.gif"))
+
+    def test_formats_are_those_of_the_library(self):
+        found = {row.name: row for row in tetstream.formats()}
+        self.assertTrue(found["tets"].can_read and found["vtu"].can_write)
+        self.assertIn("vtu", found["vtu"].extensions)
+
+    def test_options_have_types_defaults_and_a_text(self):
+        options = tetstream.Options(ratio=0.25, memory="64M", mode="paper", cells="1e6")
+        self.assertEqual((options.ratio, options.memory, options.mode, options.cells),
+                         (0.25, 64 * 2 ** 20, "paper", 1000000))
+        self.assertEqual(tetstream.Options().boundary_weight, 10)
+        options.seed = -5
+        self.assertEqual(options.seed, -5)
+        with self.assertRaisesRegex(tetstream.BadArgument, "ratio"):
+            options.ratio = 3
+        self.assertEqual(options.ratio, 0.25)
+        self.assertIn("degrees", tetstream.Options.feature_angle.__doc__)
+        self.assertIn("one of: sweep paper queue", tetstream.Options.mode.__doc__)
+        for name in ("boundary_weight", "tmpdir", "order"):
+            self.assertIn(f"        {name}: ", tetstream.simplify.__doc__)
+
+    def test_statuses_have_their_exceptions(self):
+        from tetstream import core, errors
+        for number, kind in errors._CLASSES.items():
+            name = "".join(word.capitalize() for word in
+                           core.status_name(number).replace("TETSTREAM_", "").split("_"))
+            self.assertIn(kind.__name__, {name, *_OTHER_NAMES.get(name, ())})
+        self.assertEqual({-i for i in range(1, 10)}, set(errors._CLASSES))
+        self.assertEqual(core.VERSION_NUMBER, core.version_number())
+
+
+# Where a name of Python's own kind would mislead.
+_OTHER_NAMES = {"Io": ["InputOutput"], "Callback": ["CallbackFailed"], "Internal": ["InternalError"]}
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,178 @@
+// MEDIT's meshes: all versions, text and binary, with solutions beside them.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "indexed_testing.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+// A folder that is gone at the end.
+class Folder {
+ public:
+  Folder() : path_(std::filesystem::temp_directory_path() / "tetstream_medit.XXXXXX") {
+    EXPECT_NE(::mkdtemp(path_.data()), nullptr);
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+const char kText[] =
+    "MeshVersionFormatted 2 # two cells\nDimension\n3\n"
+    "Triangles 1\n1 2 3 7\n"  // before the vertices that they use
+    "Vertices\n5\n0 0 0 0\n1.0D+00 0 0 2\n0 1 0 0\n0 0 1 0\n1 1 1 0\n"
+    "Tetrahedra\n2\n1 2 3 4 11\n2 3 4 5 12\nRidges\n1\n1\nRequiredVertices\n1\n5\nEnd\n";
+
+SvMesh twoCells(ScalarType position_type, ScalarType field_type, ScalarType label_type) {
+  Schema schema;
+  schema.position_type = position_type;
+  schema.fields = {{"medit:ref", 1, label_type}, {"sol", 1, field_type}, {"sol1", 3, field_type}};
+  schema.cell_data = {{"medit:ref", 1, label_type}};
+  SvMesh m = indexedMesh(schema, 12);
+  const double scale = label_type == ScalarType::kInt64 ? 1e12 : 1;
+  for (size_t i = 0; i < m.cells.size(); ++i)
+    m.cell_data[0][i] = scale * static_cast<double>(1 + i % 3);
+  for (size_t v = 0; v < m.vertexCount(); ++v) m.fields[0][v] = static_cast<double>(v % 2 + 1);
+  return m;
+}
+
+void writeTo(const std::string& path, const SvMesh& m, bool binary) {
+  WriteOptions options;
+  options.path = path;
+  putStream(m, *(binary ? createMeshb : createMesh)(createFile(path), options), 3);
+}
+
+SvMesh readFrom(const std::string& path) {
+  ReadOptions options;
+  options.path = path;
+  Input input = openMedit(openFile(path), options);
+  return readAll(input);
+}
+
+TEST(Medit, ReadsTextWithReferencesFacesAndLocks) {
+  std::vector<std::string> notes;
+  Input input = openText(openMedit, kText, {}, &notes);
+  const SvMesh m = readAll(input);
+  EXPECT_EQ(m.positions, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
+  EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(m.cell_data[0], (std::vector<double>{11, 12}));
+  EXPECT_EQ(m.schema.cell_data[0].name, "medit:ref");
+  EXPECT_EQ(m.fields[0], (std::vector<double>{0, 2, 0, 0, 0}));
+  EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 7}}));
+  ASSERT_NE(input.indexed->locked(), nullptr);
+  EXPECT_EQ(input.indexed->locked()[3], 0);
+  EXPECT_EQ(input.indexed->locked()[4], 1);
+  EXPECT_TRUE(anyNote(notes, "the section Ridges is left out"));
+}
+
+TEST(Medit, GivesBackWhatItHasWritten) {
+  const struct {
+    ScalarType positions, fields, labels;
+    int version;  // of binary
+  } cases[] = {{ScalarType::kFloat32, ScalarType::kFloat32, ScalarType::kInt32, 1},
+               {ScalarType::kFloat64, ScalarType::kFloat32, ScalarType::kInt32, 2},
+               {ScalarType::kFloat64, ScalarType::kFloat64, ScalarType::kInt64, 4}};
+  for (const auto& c : cases)
+    for (bool binary : {false, true}) {
+      SCOPED_TRACE(std::string(binary ? "binary " : "text ") + std::to_string(c.version));
+      const Folder folder;
+      const std::string path = folder.file(binary ? "a.meshb" : "a.mesh");
+      const SvMesh m = twoCells(c.positions, c.fields, c.labels);
+      writeTo(path, m, binary);
+      const SvMesh r = readFrom(path);
+      EXPECT_EQ(r.positions, m.positions);
+      EXPECT_EQ(r.cells, m.cells);
+      EXPECT_EQ(r.fields, m.fields);
+      EXPECT_EQ(r.cell_data, m.cell_data);
+      EXPECT_EQ(r.schema.position_type, binary ? c.positions : ScalarType::kFloat64);
+      if (!binary) continue;
+      unsigned char head[8] = {};
+      openFile(path)->readAt(0, head, sizeof head);
+      EXPECT_EQ(head[4], c.version);
+    }
+}
+
+// The same bytes in the other byte order.
+TEST(Medit, ReadsEitherByteOrder) {
+  Bytes file;
+  putStream(twoCells(ScalarType::kFloat32, ScalarType::kFloat32, ScalarType::kInt32),
+            *createMeshb(createMemory(file), {}), 3);
+  Bytes swapped = file;  // of version 1 all numbers have four bytes
+  for (size_t at = 0; at + 4 <= swapped.size(); at += 4)
+    std::reverse(swapped.begin() + static_cast<std::ptrdiff_t>(at),
+                 swapped.begin() + static_cast<std::ptrdiff_t>(at) + 4);
+  const SvMesh a = readBytes(openMedit, file), b = readBytes(openMedit, swapped);
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.cells, b.cells);
+  EXPECT_EQ(a.cell_data, b.cell_data);
+}
+
+TEST(Medit, SaysThatFieldsNeedAFileBeside) {
+  Bytes file;
+  std::vector<std::string> notes;
+  WriteOptions options;
+  options.note = [&](const std::string& note) { notes.push_back(note); };
+  putStream(twoCells(ScalarType::kFloat32, ScalarType::kFloat32, ScalarType::kInt32),
+            *createMesh(createMemory(file), options), 3);
+  EXPECT_TRUE(anyNote(notes, "fields and cell data are left out"));
+  EXPECT_TRUE(anyNote(notes, "\"sol\", \"sol1\""));
+}
+
+TEST(Medit, SaysWhatIsWrongAndWhere) {
+  const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
+  const std::string vertices = head + "Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
+  const struct {
+    std::string text, problem;
+  } cases[] = {
+      {"", "where MeshVersionFormatted should be"},
+      {"MeshVersionFormatted 5\n", "version 5; 1 to 4 are read"},
+      {"MeshVersionFormatted 2\nDimension 2\n", "dimension 2"},
+      {head + "Vertices 1152921504606846976\n", "vertices cannot be in the"},
+      {head + "Vertices 4\n0 0 0 0\n", "line 3: 4 vertices cannot be in the 9 bytes"},
+      {vertices + "Tetrahedra 1\n1 2 3 5 0\nEnd\n", "line 9: vertex 5, where there are 1 to 4"},
+      {vertices + "Tetrahedra 1\n1 2 3 0 0\nEnd\n", "vertex 0"},
+      {vertices + "Tetrahedra 1\n1 2 3 4 0\n", "without the word End"},
+      {vertices + "Prisms 1\n1 2 3 4 1 2 0\nEnd\n", "cell 1 is a prism"},
+      {vertices + "End\n", "no tetrahedron"},
+      {head + "Tetrahedra 1\n1 2 3 9 0\nVertices 1\n0 0 0 0\nEnd\n",
+       "tetrahedron 0 uses point 1, counted from 0; there are 1"},
+  };
+  for (const auto& c : cases)
+    EXPECT_NE(problemOf(openMedit, c.text).find(c.problem), std::string::npos)
+        << problemOf(openMedit, c.text) << "\nwanted: " << c.problem;
+}
+
+TEST(Medit, RefusesASolutionOfAnotherMesh) {
+  const Folder folder;
+  const std::string path = folder.file("a.mesh");
+  writeTo(path, twoCells(ScalarType::kFloat64, ScalarType::kFloat64, ScalarType::kInt32), false);
+  std::FILE* sol = std::fopen(folder.file("a.sol").c_str(), "w");
+  std::fputs("MeshVersionFormatted 2\nDimension 3\nSolAtVertices 1\n1 1\n0.5\nEnd\n", sol);
+  std::fclose(sol);
+  try {
+    readFrom(path);
+    ADD_FAILURE() << "it was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(error.text().find("a.sol: line 3: 1 values for "), std::string::npos) << error.text();
+  }
+}
+
+TEST(Medit, SurvivesEveryCutAndEveryFlippedBit) {
+  expectSurvives(openMedit, bytesOf(kText));
+  Bytes file;
+  Schema schema;
+  schema.position_type = ScalarType::kFloat64;
+  schema.cell_data = {{"medit:ref", 1, ScalarType::kInt64}};
+  putStream(indexedMesh(schema, 2), *createMeshb(createMemory(file), {}), 3);
+  expectSurvives(openMedit, file);
+}
+
+}  // namespace
+}  // namespace tetstream

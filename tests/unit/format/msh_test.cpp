@@ -1,0 +1,233 @@
+// Gmsh's files: every version and encoding, tags at will, groups, data, and what is wrong.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "indexed_testing.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+Bytes write(const SvMesh& m, bool binary, bool newest, std::vector<std::string>* notes = nullptr) {
+  Bytes out;
+  WriteOptions options;
+  options.binary = binary;
+  options.newest = newest;
+  if (notes) options.note = [notes](const std::string& note) { notes->push_back(note); };
+  putStream(m, *createMsh(createMemory(out), options), 3);
+  return out;
+}
+
+// Two cells that share a face; tags with gaps, in no order; groups of both dimensions.
+const char kSparse2[] =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+    "$PhysicalNames\n2\n2 9 \"outer wall\"\n3 4 \"steel\"\n$EndPhysicalNames\n"
+    "$Nodes\n5\n70 0 0 0\n3 1 0 0\n900000000000 0 1 0\n4 0 0 1\n5 1 1 +1e0\n$EndNodes\n"
+    "$Elements\n4\n"
+    "8 15 2 0 1 70\n"
+    "10 2 2 9 1 70 3 900000000000\n"
+    "30 4 2 4 1 70 3 900000000000 4\n"
+    "20 4 3 5 2 0 3 900000000000 4 5\n$EndElements\n"
+    "$NodeData\n1\n\"p q\"\n1\n0.5\n3\n0\n1\n5\n5 50\n4 40\n3 30\n70 700\n900000000000 900\n"
+    "$EndNodeData\n"
+    "$ElementData\n1\n\"E\"\n1\n0\n3\n0\n3\n3\n10 1 1 1\n20 2 2 2\n30 3 3 3\n$EndElementData\n";
+
+const char kSparse4[] =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+    "$Entities\n0 0 1 2\n1 0 0 0 1 1 1 1 9 0\n1 0 0 0 1 1 1 1 4 0\n2 0 0 0 1 1 1 2 5 6 0\n"
+    "$EndEntities\n"
+    "$Nodes\n2 5 3 900000000000\n2 1 1 2\n70\n3\n0 0 0 0.1 0.2\n1 0 0 0.3 0.4\n"
+    "3 1 0 3\n900000000000\n4\n5\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n"
+    "$Elements\n3 3 10 30\n2 1 2 1\n10 70 3 900000000000\n3 1 4 1\n30 70 3 900000000000 4\n"
+    "3 2 4 1\n20 3 900000000000 4 5\n$EndElements\n"
+    "$NodeData\n1\n\"p q\"\n1\n0.5\n3\n0\n1\n5\n5 50\n4 40\n3 30\n70 700\n900000000000 900\n"
+    "$EndNodeData\n"
+    "$ElementData\n1\n\"E\"\n1\n0\n3\n0\n3\n3\n10 1 1 1\n20 2 2 2\n30 3 3 3\n$EndElementData\n";
+
+TEST(Msh, ReadsTagsWithGapsGroupsFacesAndData) {
+  for (const char* text : {kSparse2, kSparse4}) {
+    std::vector<std::string> notes;
+    Input input = openText(openMsh, text, {}, &notes);
+    const SvMesh m = readAll(input);
+    EXPECT_EQ(m.positions, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
+    EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+    ASSERT_EQ(m.schema.cell_data.size(), 3u);
+    EXPECT_EQ(m.schema.cell_data[0].name, "gmsh:physical");
+    EXPECT_EQ(m.cell_data[0], (std::vector<double>{4, 5}));
+    EXPECT_EQ(m.schema.cell_data[1].name, "gmsh:geometrical");
+    EXPECT_EQ(m.cell_data[1], (std::vector<double>{1, 2}));
+    EXPECT_EQ(m.schema.cell_data[2].name, "E");
+    EXPECT_EQ(m.cell_data[2], (std::vector<double>{3, 3, 3, 2, 2, 2}));
+    ASSERT_EQ(m.schema.fields.size(), 1u);
+    EXPECT_EQ(m.schema.fields[0].name, "p q");
+    EXPECT_EQ(m.fields[0], (std::vector<double>{700, 30, 900, 40, 50}));
+    EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 9}}));
+  }
+}
+
+TEST(Msh, TellsTheNamesOfGroupsAndWhatIsLeftOut) {
+  std::vector<std::string> notes;
+  openText(openMsh, kSparse2, {}, &notes);
+  EXPECT_TRUE(anyNote(notes, "cells 4 \"steel\""));
+  EXPECT_TRUE(anyNote(notes, "faces 9 \"outer wall\""));
+  EXPECT_TRUE(anyNote(notes, "1 points are left out"));
+  notes.clear();
+  openText(openMsh, kSparse4, {}, &notes);
+  EXPECT_TRUE(anyNote(notes, "1 physical groups of entities that are in another one"));
+}
+
+TEST(Msh, GivesBackWhatItHasWrittenInAllFourWays) {
+  const SvMesh m = indexedMesh(richSchema(), 300);
+  for (bool binary : {false, true})
+    for (bool newest : {false, true}) {
+      SCOPED_TRACE(std::string(binary ? "binary " : "text ") + (newest ? "4.1" : "2.2"));
+      const SvMesh r = readBytes(openMsh, write(m, binary, newest));
+      EXPECT_EQ(r.schema.position_type, m.schema.position_type);
+      EXPECT_EQ(r.positions, m.positions);
+      EXPECT_EQ(r.cells, m.cells);
+      EXPECT_EQ(r.fields, m.fields);
+      ASSERT_EQ(r.schema.fields.size(), m.schema.fields.size());
+      for (size_t i = 0; i < m.schema.fields.size(); ++i)
+        EXPECT_EQ(r.schema.fields[i].type, m.schema.fields[i].type);
+      // Random labels are no groups, so both columns are data.
+      EXPECT_EQ(r.cell_data, m.cell_data);
+    }
+}
+
+TEST(Msh, WritesRegionsAsGroupsAndKeepsTheirColumn) {
+  Schema schema;
+  schema.cell_data = {{"material", 1, ScalarType::kInt64}};
+  SvMesh m = indexedMesh(schema, 40);
+  for (size_t i = 0; i < 40; ++i) m.cell_data[0][i] = static_cast<double>(i / 7 % 3);
+  for (bool binary : {false, true})
+    for (bool newest : {false, true}) {
+      const Bytes file = write(m, binary, newest);
+      const SvMesh r = readBytes(openMsh, file);
+      ASSERT_EQ(r.schema.cell_data.size(), 1u);
+      EXPECT_EQ(r.schema.cell_data[0].name, "material");
+      EXPECT_EQ(r.schema.cell_data[0].type, ScalarType::kInt64);
+      EXPECT_EQ(r.cell_data, m.cell_data);
+      EXPECT_EQ(std::string(file.begin(), file.end()).find("ElementData"), std::string::npos);
+    }
+}
+
+TEST(Msh, KeepsFacesAndTheirLabels) {
+  Input input = openText(openMsh, kSparse4);
+  for (bool binary : {false, true})
+    for (bool newest : {false, true}) {
+      Bytes out;
+      WriteOptions options;
+      options.binary = binary;
+      options.newest = newest;
+      const std::unique_ptr<Sink> sink = createMsh(createMemory(out), options);
+      Batch batch(Schema{});
+      batch.clear(0);
+      batch.addVertices(4);
+      const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+      std::memcpy(batch.position(0), corners, sizeof corners);
+      batch.addCells(1);
+      for (int64_t k = 0; k < 4; ++k) batch.cell(0)[k] = k;
+      const int64_t faces[2][3] = {{0, 1, 2}, {1, 2, 3}};
+      batch.addFace(faces[0], 12);
+      batch.addFace(faces[1], -1);  // no group
+      sink->begin(Schema{});
+      sink->put(batch.view());
+      sink->finish();
+      Input again = openMsh(openMemory(out.data(), out.size(), "mesh"), {});
+      EXPECT_EQ(facesOf(again), (std::vector<TestFace>{{0, 1, 2, 12}}));
+    }
+}
+
+std::string unitCube(int type, const char* corners) {
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+         "5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n$Elements\n1\n77 " +
+         std::to_string(type) + " 2 1 1 " + corners + "\n$EndElements\n";
+}
+
+TEST(Msh, NamesACellThatIsNoTetrahedronAndSplitsItIfAsked) {
+  const std::string cube = unitCube(5, "1 2 3 4 5 6 7 8");
+  EXPECT_EQ(problemOf(openMsh, cube).find("mesh: line 17: cell 77 is a hexahedron"), 0u)
+      << problemOf(openMsh, cube);
+  ReadOptions options;
+  options.split = true;
+  const struct {
+    std::string text;
+    size_t cells;
+    double volume;
+  } cases[] = {{cube, 6, 1},
+               {unitCube(6, "1 2 4 5 6 8"), 3, 0.5},
+               {unitCube(7, "1 2 3 4 5"), 2, 1.0 / 3},
+               {unitCube(5, "8 5 1 4 7 6 2 3"), 6, 1}};
+  for (const auto& c : cases) {
+    std::vector<std::string> notes;
+    Input input = openText(openMsh, c.text, options, &notes);
+    const SvMesh m = readAll(input);
+    ASSERT_EQ(m.cells.size(), c.cells);
+    double volume = 0;
+    for (size_t i = 0; i < m.cells.size(); ++i) {
+      EXPECT_GT(volumeOf(m, i), 0);
+      volume += volumeOf(m, i);
+    }
+    EXPECT_NEAR(volume, c.volume, 1e-12);
+    EXPECT_EQ(m.cell_data[0], std::vector<double>(c.cells, 1.0));
+    EXPECT_TRUE(anyNote(notes, "1 cells that are no tetrahedra are split"));
+  }
+}
+
+TEST(Msh, ReadsCellsOfHigherOrderByTheirCorners) {
+  std::vector<std::string> notes;
+  Input input = openText(openMsh, unitCube(11, "1 2 4 5 3 6 7 8 3 6"), {}, &notes);
+  EXPECT_EQ(readAll(input).cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 3, 4}}));
+  EXPECT_TRUE(anyNote(notes, "1 cells of higher order are read by their corners"));
+}
+
+TEST(Msh, SaysWhatIsWrongAndWhere) {
+  const std::string head = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  const std::string nodes = head + "$Nodes\n1\n5 0 0 0\n$EndNodes\n";
+  const struct {
+    std::string text, problem;
+  } cases[] = {
+      {"", "where $MeshFormat should be"},
+      {"$MeshFormat\n1 0 8\n", "version 1 of Gmsh's format"},
+      {"$MeshFormat\n4 0 8\n", "version 4 of Gmsh's format"},
+      {head + "$Nodes\n1152921504606846976\n", "1152921504606846976 nodes cannot be in the"},
+      {head + "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n", "node 1 is there twice"},
+      {head + "$Nodes\n1\n1 0 zero 0\n", "line 6: \"zero\" is no number"},
+      {head + "$Nodes\n1\n1 0 nan 0\n", "is not a finite number"},
+      {nodes + "$Elements\n1\n1 4 2 0 0 5 5 5 6\n$EndElements\n",
+       "line 10: element 1 uses node 6, which is not there"},
+      {nodes + "$Elements\n1\n1 140 2 0 0 5 5 5 5\n$EndElements\n", "element of type 140"},
+      {nodes + "$Elements\n9999999999\n", "elements cannot be in the"},
+      {nodes, "no tetrahedron"},
+      {head, "no section $Nodes"},
+      {nodes + "$Periodic\n1\n", "ends without \"$EndPeriodic\""},
+      {nodes + "rubbish", "\"rubbish\" where a section should begin"},
+  };
+  for (const auto& c : cases)
+    EXPECT_NE(problemOf(openMsh, c.text).find(c.problem), std::string::npos)
+        << problemOf(openMsh, c.text) << "\nwanted: " << c.problem;
+}
+
+TEST(Msh, NotesDataThatAreNotEverywhere) {
+  std::string text = kSparse2;
+  text.replace(text.find("5\n5 50\n"), 7, "4\n");
+  std::vector<std::string> notes;
+  Input input = openText(openMsh, text, {}, &notes);
+  EXPECT_TRUE(anyNote(notes, "\"p q\" has no value at 1 points"));
+  EXPECT_EQ(readAll(input).fields[0], (std::vector<double>{700, 30, 900, 40, 0}));
+}
+
+TEST(Msh, SurvivesEveryCutAndEveryFlippedBit) {
+  const std::string sparse2(kSparse2), sparse4(kSparse4);
+  expectSurvives(openMsh, bytesOf(sparse4));
+  Schema schema;
+  schema.fields = {{"f", 1, ScalarType::kFloat32}};
+  const SvMesh m = indexedMesh(schema, 2);
+  expectSurvives(openMsh, write(m, true, true));
+  expectSurvives(openMsh, write(m, true, false));
+}
+
+}  // namespace
+}  // namespace tetstream

@@ -1,0 +1,127 @@
+// SU2's and TetGen's meshes.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "indexed_testing.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+const char kSu2[] =
+    "% two zones\nNZONE=2\nIZONE=1\nNDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4\n0 0 0 0\n"
+    "1 0 0 1\n0 1 0 2\n0 0 1 3\nNMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n5 0 1 2\n"
+    "IZONE= 2\nNDIME= 3\nNELEM= 1\n10 0 1 2 3 0\nNPOIN= 4 4\n5 0 0 0\n6 0 0 1\n5 1 0 2\n5 0 1 3\n"
+    "NMARK= 2\nMARKER_TAG= inlet\nMARKER_ELEMS= 1\n5 1 2 3\nMARKER_TAG= wall\nMARKER_ELEMS= 1\n"
+    "5 0 1 2\n";
+
+TEST(Su2, ReadsZonesAndMarkers) {
+  std::vector<std::string> notes;
+  Input input = openText(openSu2, kSu2, {}, &notes);
+  const SvMesh m = readAll(input);
+  EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {4, 5, 6, 7}}));
+  EXPECT_EQ(m.positions[12], 5);
+  EXPECT_EQ(m.cell_data[0], (std::vector<double>{1, 2}));
+  EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 1}, {5, 6, 7, 2}, {4, 5, 6, 1}}));
+  EXPECT_TRUE(anyNote(notes, "1 wall, 2 inlet"));
+}
+
+TEST(Su2, SaysWhatIsWrongAndWhere) {
+  const struct {
+    std::string text, problem;
+  } cases[] = {
+      {"", "no section NPOIN="},
+      {"NDIME= 2\n", "dimension 2"},
+      {"NDIME= 3\nNELEM= 1152921504606846976\n", "cannot be in the"},
+      {"NDIME= 3\nNELEM= 1\n10 0 1 2 4\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n",
+       "uses point 4, but there are 4"},
+      {"NDIME= 3\nNELEM= 1\n12 0 1 2 3 4 5 6 7 0\n", "cell 0 is a hexahedron"},
+      {"NDIME= 3\nNELEM= 1\n77 0 1\n", "element of type 77"},
+  };
+  for (const auto& c : cases)
+    EXPECT_NE(problemOf(openSu2, c.text).find(c.problem), std::string::npos)
+        << problemOf(openSu2, c.text) << "\nwanted: " << c.problem;
+}
+
+TEST(Su2, SurvivesEveryCutAndEveryFlippedBit) {
+  expectSurvives(openSu2, bytesOf(kSu2));
+}
+
+class Tetgen : public testing::Test {
+ protected:
+  Tetgen() : folder_(std::filesystem::temp_directory_path() / "tetstream_tetgen.XXXXXX") {
+    EXPECT_NE(::mkdtemp(folder_.data()), nullptr);
+  }
+  ~Tetgen() override { std::filesystem::remove_all(folder_); }
+  std::string path(const char* extension) const { return folder_ + "/m" + extension; }
+  void put(const char* extension, const std::string& text) const {
+    std::ofstream(path(extension)) << text;
+  }
+  Input open(const char* extension = ".ele", std::vector<std::string>* notes = nullptr) const {
+    ReadOptions options;
+    options.path = path(extension);
+    if (notes) options.note = [notes](const std::string& note) { notes->push_back(note); };
+    return openTetgen(openFile(options.path), options);
+  }
+  std::string problem() const {
+    try {
+      open();
+    } catch (const Error& error) {
+      return error.text();
+    }
+    return "";
+  }
+
+ private:
+  std::string folder_;
+};
+
+TEST_F(Tetgen, ReadsPointsCellsAndFacesFromZeroOrOne) {
+  for (int base : {0, 1}) {
+    const auto n = [base](int number) { return std::to_string(number + base) + " "; };
+    put(".node", "# points\n4 3 1 1\n" + n(0) + "0 0 0 0.5 0\n" + n(1) + "1 0 0 1.5 3\n" + n(2) +
+                     "0 1 0 2.5 0\n" + n(3) + "0 0 1 3.5 0\n");
+    put(".ele", "1 4 2\n" + n(0) + n(0) + n(1) + n(2) + n(3) + "8 0.25\n");
+    put(".face", "2 1\n" + n(0) + n(0) + n(1) + n(2) + "5\n" + n(1) + n(1) + n(2) + n(3) + "0\n");
+    for (const char* extension : {".ele", ".node"}) {
+      std::vector<std::string> notes;
+      Input input = open(extension, &notes);
+      const SvMesh m = readAll(input);
+      EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}}));
+      ASSERT_EQ(m.fields.size(), 2u);
+      EXPECT_EQ(m.schema.fields[0].name, "marker");
+      EXPECT_EQ(m.fields[0], (std::vector<double>{0, 3, 0, 0}));
+      EXPECT_EQ(m.fields[1], (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
+      ASSERT_EQ(m.cell_data.size(), 2u);
+      EXPECT_EQ(m.schema.cell_data[0].name, "region");
+      EXPECT_EQ(m.schema.cell_data[0].type, ScalarType::kInt32);
+      EXPECT_EQ(m.cell_data[0], (std::vector<double>{8}));
+      EXPECT_EQ(m.cell_data[1], (std::vector<double>{0.25}));
+      EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 5}}));
+      EXPECT_TRUE(anyNote(notes, "1 faces whose marker is 0"));
+    }
+  }
+}
+
+TEST_F(Tetgen, SaysWhatIsWrongAndWhere) {
+  put(".node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+  put(".ele", "1 4 0\n1 1 2 3 5\n");
+  EXPECT_NE(problem().find("m.ele: line 2: a corner of a cell is 5, not 1 to 4"), std::string::npos)
+      << problem();
+  put(".ele", "1152921504606846976 4 0\n");
+  EXPECT_NE(problem().find("cells cannot be in the"), std::string::npos) << problem();
+  put(".node", "2 3 0 0\n1 0 0 0\n3 1 0 0\n");
+  EXPECT_NE(problem().find("m.node: line 3: point 3"), std::string::npos) << problem();
+  std::filesystem::remove(path(".node"));
+  EXPECT_NE(problem().find("m.node: cannot open"), std::string::npos) << problem();
+}
+
+TEST_F(Tetgen, IsNotReadWithoutAName) {
+  EXPECT_NE(problemOf(openTetgen, "1 4 0\n").find("two files"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tetstream
