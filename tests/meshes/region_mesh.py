@@ -25,7 +25,7 @@ import strata  # noqa: E402
 FRONTS = 4
 # Percent of the diagonal: what an interface may be off where the outer boundary is plane, and so
 # kept but for rounding. Gently curved faults are.
-FLOOR = 0.005
+FLOOR = 0.01
 
 
 def load(path):

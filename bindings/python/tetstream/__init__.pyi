@@ -38,6 +38,7 @@ class _Options(TypedDict, total=False):
     tmpdir: str
     axis: Literal["auto", "x", "y", "z"]
     order: str
+    split: Literal["no", "yes"]
 
 class _OptionsWithRegions(_Options, total=False):
     regions: str
@@ -151,6 +152,7 @@ class Options:
     tmpdir: str
     axis: str
     order: str
+    split: str
     def __init__(self, **values: Unpack[_OptionsWithRegions]) -> None: ...
     def add_field(self, name: str, weight: float = 1.0) -> None: ...
 
