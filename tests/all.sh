@@ -42,8 +42,10 @@ sources() {
   find lib bindings tests \( -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.inl' \)
 }
 
+# The prefix is that of the Debian packages, which a test makes.
 stage_build() {
-  configure build/release -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_WARNINGS_AS_ERRORS=ON &&
+  configure build/release -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_WARNINGS_AS_ERRORS=ON \
+    -DCMAKE_INSTALL_PREFIX=/usr &&
     build build/release
 }
 
@@ -96,7 +98,7 @@ stage_full() {
 echo "== packages"
 bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev liblz4-dev \
   liblzma-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy \
-  valgrind mandoc python3 python3-dev python3-numpy swig || exit 1
+  valgrind mandoc python3 python3-dev python3-numpy swig abigail-tools dpkg-dev zsh fish || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"
   begin=$SECONDS
