@@ -101,4 +101,14 @@ python3 (<< 3.${next}), python3-numpy (>= 1:${Python3_NumPy_VERSION})")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-meshio")
 endif()
 
+if(TETSTREAM_OCTAVE)
+  # Modules are for one version's interface.
+  string(REGEX MATCH "^[0-9]+" major "${octave_VERSION}")
+  math(EXPR next "${major} + 1")
+  deb_package(octave octave-tetstream science "simplifies tetrahedral meshes (Octave)"
+    "${about}These are the functions for Octave.")
+  set(CPACK_DEBIAN_OCTAVE_PACKAGE_DEPENDS "octave (>= ${major}), octave (<< ${next})")
+  set(CPACK_DEBIAN_OCTAVE_PACKAGE_RECOMMENDS "${recommended}")
+endif()
+
 include(CPack)

@@ -1,11 +1,12 @@
-// octave: what the shared part leaves to a language, and how Octave's arrays and errors cross. Part of
-// the wrapper that SWIG generates.
+// octave: what the shared part leaves to a language, and how Octave's arrays and errors cross. Part
+// of the wrapper that SWIG generates.
 #include <octave/oct.h>
 #include <octave/parse.h>
 #include <octave/quit.h>
 
 #include <any>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -33,13 +34,21 @@ Function::~Function() {
   delete valueOf(object_);
 }
 
+// Integers as doubles, in which people calculate; those that no double holds stay.
+static octave_value figureOf(const octave_value& value) {
+  constexpr double kExact = 9007199254740992.0;  // 2^53
+  if (!value.isinteger()) return value;
+  const octave_value number = value.as_double();
+  return std::fabs(number.double_value()) < kExact ? number : value;
+}
+
 // A struct of figures as one of Octave's: every member that the interface knows.
 static octave_value structOf(swig_type_info* type, void* object) {
   octave_scalar_map figures;
   const octave_value_list self(SWIG_NewPointerObj(object, type, 0));
   const auto* const known = static_cast<const swig_octave_class*>(type->clientdata);
   for (const swig_octave_member* member = known->members; member->name; ++member)
-    if (member->get_method) figures.assign(member->name, member->get_method(self, 1)(0));
+    if (member->get_method) figures.assign(member->name, figureOf(member->get_method(self, 1)(0)));
   return figures;
 }
 

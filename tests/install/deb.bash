@@ -43,6 +43,9 @@ says tetstream Depends "libc6 (>=" "libexpat1 (>="
 if [[ " $PACKAGES " == *" python3-tetstream "* ]]; then
   says python3-tetstream Depends "python3 (>= 3." "python3 (<< 3." "python3-numpy (>="
 fi
+if [[ " $PACKAGES " == *" octave-tetstream "* ]]; then
+  says octave-tetstream Depends "octave (>= " "octave (<< " "libc6 (>="
+fi
 for package in $PACKAGES; do
   says "$package" Description "simplifies tetrahedral meshes"
   says "$package" Maintainer "@"
@@ -106,6 +109,15 @@ import tetstream
 mesh = tetstream.read('fluid.vtu')
 assert tetstream.__file__.startswith('$root'), tetstream.__file__
 assert 0 < len(mesh.simplify(ratio=0.2).cells) < len(mesh.cells)"
+fi
+
+if [[ " $PACKAGES " == *" octave-tetstream "* ]]; then
+  module=$(cd "$root/usr/lib" && find . -name tetstream_core.oct)
+  octave-cli --no-init-file --no-site-file --path "$root/usr/share/octave/site/m/tetstream" \
+    --path "$root/usr/lib/${module%/*}" --eval "mesh = tetstream_read ('fluid.vtu');
+      assert (strncmp (which ('tetstream_read'), '$root', ${#root}));
+      [P, T] = tetstream_simplify (mesh.points, mesh.cells, mesh.fields, 'ratio', 0.2);
+      assert (rows (T) > 0 && rows (T) < rows (mesh.cells));"
 fi
 
 # --------------------------------------------------------------------------------------------- removed

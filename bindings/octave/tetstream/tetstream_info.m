@@ -17,7 +17,8 @@ function info = tetstream_info (source, varargin)
   [options, own] = parsed (caller, struct ("progress", []), varargin);
   [reader, kept] = made_reader (caller, source);
   found = reader.inspect (options, own.progress);
-  info = struct ("vertex_count", found.vertex_count, "cell_count", found.cell_count,
+  info = struct ("vertex_count", double (found.vertex_count),
+                 "cell_count", double (found.cell_count),
                  "fields", struct (), "cell_data", struct (), "box", [], "ranges", struct (),
                  "indexed", found.is_indexed, "front", reader.get_front ());
   limits = [found.box_min(); found.box_max()];
@@ -26,7 +27,7 @@ function info = tetstream_info (source, varargin)
   endif
   at = 4;
   for i = 0:(found.field_count () - 1)
-    count = found.field_components (i);
+    count = double (found.field_components (i));
     info.fields.(found.field_name (i)) = count;
     if (! isempty (limits))
       info.ranges.(found.field_name (i)) = limits(:,at:at+count-1);
@@ -34,7 +35,7 @@ function info = tetstream_info (source, varargin)
     at += count;
   endfor
   for i = 0:(found.cell_data_count () - 1)
-    info.cell_data.(found.cell_data_name (i)) = found.cell_data_components (i);
+    info.cell_data.(found.cell_data_name (i)) = double (found.cell_data_components (i));
   endfor
   info.notes = notes_of (reader);
 endfunction
