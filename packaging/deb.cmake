@@ -64,8 +64,12 @@ deb_package(runtime ${library_package} libs "simplifies tetrahedral meshes (shar
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "${recommended}")
 # What depends on it, and that the loader is to be told.
 set(control ${PROJECT_BINARY_DIR}/packaging)
-file(WRITE ${control}/shlibs
-  "libtetstream ${TETSTREAM_SONAME} ${library_package} (>= ${PROJECT_VERSION})\n")
+set(versions "${library_package} (>= ${PROJECT_VERSION})")
+if(PROJECT_VERSION_MAJOR EQUAL 0)  # the ABI is not frozen
+  math(EXPR next "${PROJECT_VERSION_MINOR} + 1")
+  string(APPEND versions ", ${library_package} (<< 0.${next}~)")
+endif()
+file(WRITE ${control}/shlibs "libtetstream ${TETSTREAM_SONAME} ${versions}\n")
 file(WRITE ${control}/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${control}/shlibs ${control}/triggers)
 

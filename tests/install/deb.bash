@@ -101,7 +101,7 @@ project/client_cpp
 # A package of the client's would depend on ours.
 mkdir debian && printf 'Source: client\n\nPackage: client\nArchitecture: any\n' >debian/control
 needs=$(dpkg-shlibdeps -L"$database/info/$library.shlibs" -l"$root/usr/lib/$MULTIARCH" -O ./client)
-[[ $needs == *"$library (>= $VERSION"* ]] || fail "dpkg-shlibdeps finds for a client: $needs"
+[[ $needs == *"$library (>= $VERSION)"* ]] || fail "dpkg-shlibdeps finds for a client: $needs"
 
 if [[ " $PACKAGES " == *" python3-tetstream "* ]]; then
   PYTHONPATH=$root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 "$PYTHON" -c "
