@@ -5,7 +5,7 @@
 #   format     clang-format finds nothing to change
 #   lint       clang-tidy finds nothing to say about the library and the command
 #   sanitize   another build, with AddressSanitizer and UndefinedBehaviorSanitizer, and its tests
-#   memcheck   unit and API tests of the release under Valgrind
+#   memcheck   unit and API tests of the release, and the shared problem, under Valgrind
 #   tests      the quick layer of the release
 # Not among them without being named:
 #   full       the long layer: real meshes at every ratio
@@ -42,8 +42,10 @@ sources() {
   find lib bindings tests \( -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.inl' \)
 }
 
+# The prefix is that of the Debian packages, which a test makes.
 stage_build() {
-  configure build/release -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_WARNINGS_AS_ERRORS=ON &&
+  configure build/release -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_WARNINGS_AS_ERRORS=ON \
+    -DCMAKE_INSTALL_PREFIX=/usr &&
     build build/release
 }
 
@@ -52,10 +54,10 @@ stage_format() {
 }
 
 # Rooms in one piece: each header is looked at once for all files that include it. With sanitizers,
-# gcc warns of what cannot be: not here. -O1 builds twice as fast as -O3.
+# gcc warns of what cannot be: not here. -O1 builds twice as fast as -O3. Octave does not run in it.
 configure_sanitize() {
   configure build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTETSTREAM_SANITIZE=ON \
-    -DCMAKE_UNITY_BUILD=ON \
+    -DTETSTREAM_OCTAVE=OFF -DCMAKE_UNITY_BUILD=ON \
     -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 -DCMAKE_CXX_FLAGS=-w "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1"
 }
 
@@ -78,7 +80,7 @@ stage_sanitize() {
 
 # The same programs as those of the release; only how ctest starts them is another.
 stage_memcheck() {
-  configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi)\.'
+  configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi|languages)\.'
   local result=$?
   configure build/release -DTETSTREAM_MEMCHECK=OFF && return "$result"
 }
@@ -96,7 +98,8 @@ stage_full() {
 echo "== packages"
 bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev liblz4-dev \
   liblzma-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy \
-  valgrind mandoc python3 python3-dev python3-numpy swig || exit 1
+  valgrind mandoc python3 python3-dev python3-numpy swig abigail-tools dpkg-dev zsh fish \
+  octave-dev || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"
   begin=$SECONDS

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cctype>
 
+#include "completion.h"
 #include "failure.h"
 #include "text.h"
 
@@ -70,6 +71,7 @@ class Parser {
   void addTitle(CLI::App* command, const char* text);
   void addFields(CLI::App* command, const char* text, const char* value);
   void addHelp();
+  void addCompletion();
   void addIn(CLI::App* command);
   void addOut(CLI::App* command);
   void addFormat(CLI::App* command);
@@ -78,14 +80,15 @@ class Parser {
   void addTraces(CLI::App* command);
   void addTableOption(CLI::App* command, const tetstream_option_info& info);
   void addStreamOptions(CLI::App* command);
-  std::string helpOf(const std::string& command);
+  std::string textOfCommand() const;
+  std::string helpOf(const std::string& command) const;
   std::string chosenCommand() const;
   void settleFormats();
 
   CLI::App app_{"Simplifies tetrahedral meshes with fields as a stream.", "tetstream"};
   std::vector<std::pair<CLI::App*, Arguments::Command>> commands_;
   Arguments arguments_;
-  std::string format_, help_about_;
+  std::string format_, help_about_, shell_;
   bool version_ = false;
 };
 
@@ -108,6 +111,7 @@ Parser::Parser() {
   addDiagram();
   addCompare();
   addHelp();
+  addCompletion();
 }
 
 CLI::App* Parser::addCommand(const char* name, const char* text, Arguments::Command command) {
@@ -338,7 +342,17 @@ void Parser::addHelp() {
   addWord(command, "COMMAND", help_about_, " ", "Its name");
 }
 
-std::string Parser::helpOf(const std::string& command) {
+void Parser::addCompletion() {
+  CLI::App* command = addCommand("completion", "Print a script that completes commands in a shell",
+                                 Arguments::Command::kText);
+  addArgument(command, "SHELL", shell_, "bash, zsh or fish");
+}
+
+std::string Parser::textOfCommand() const {
+  return shell_.empty() ? helpOf(help_about_) : completionScript(app_, shell_);
+}
+
+std::string Parser::helpOf(const std::string& command) const {
   if (command.empty()) return app_.get_formatter()->make_help(&app_, "tetstream", {});
   for (const auto& [app, id] : commands_)
     if (app->get_name() == command)
@@ -380,12 +394,14 @@ Arguments Parser::parse(int argc, const char* const* argv) {
   for (const auto& [app, id] : commands_)
     if (app->parsed()) {
       arguments_.command = id;
-      if (id == Arguments::Command::kText) arguments_.text = helpOf(help_about_);
+      if (id == Arguments::Command::kText) arguments_.text = textOfCommand();
       settleFormats();
       return arguments_;
     }
   throw usageFailure(
-      "which command? simplify, info, convert, layout, generate, diagram, compare or help", "");
+      "which command? simplify, info, convert, layout, generate, diagram, compare, help or "
+      "completion",
+      "");
 }
 
 }  // namespace

@@ -7,12 +7,12 @@ for format in tets vtu pvtu vtk sva svb; do contains "$out" "  $format "; done
 [[ -z $err ]] || fail "--version writes to standard error"
 
 expect 0 --help
-for command in simplify info convert generate diagram compare help; do contains "$out" "  $command "; done
+for command in simplify info convert layout generate diagram compare help completion; do contains "$out" "  $command "; done
 overview=$out
 expect 0 help
 [[ $out == "$overview" ]] || fail "help and --help differ"
 
-for command in simplify info convert generate diagram compare; do
+for command in simplify info convert layout generate diagram compare completion; do
   expect 0 "$command" --help
   contains "$out" "usage: tetstream $command"
   text=$out

@@ -3,7 +3,7 @@ source "${BASH_SOURCE%/*}/common.bash"
 
 manual=$(<"$TETSTREAM_SOURCE/man/man1/tetstream.1")
 help=
-for command in simplify info convert generate diagram compare; do
+for command in simplify info convert layout generate diagram compare completion; do
   expect 0 "$command" --help
   help+=$out$'\n'
 done

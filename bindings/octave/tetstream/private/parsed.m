@@ -1,0 +1,64 @@
+## [options, own] = parsed (caller, own, arguments)
+## Pairs of name and value: options of the library go into a handle, names that `own` has as members
+## replace those.
+function [options, own] = parsed (caller, own, arguments)
+  tetstream_core;
+  options = tetstream_core.Options ();
+  rows = table ();
+  if (mod (numel (arguments), 2) != 0)
+    error ("tetstream:bad-argument", "%s: options come in pairs of name and value", caller);
+  endif
+  for i = 1:2:numel (arguments)
+    [name, value] = arguments{i:i+1};
+    if (! ischar (name))
+      error ("tetstream:bad-argument", "%s: the name of an option is a %s", caller, class (name));
+    endif
+    plain = strrep (name, "-", "_");
+    if (isfield (own, plain))
+      own.(plain) = value;
+    elseif (isfield (rows, plain))
+      set_option (caller, options, rows.(plain), value);
+    else
+      error ("tetstream:bad-argument", "%s: there is no option \"%s\"", caller, name);
+    endif
+  endfor
+  if (isfield (own, "weights") && ! isempty (own.weights))
+    for [weight, field] = own.weights
+      options.add_field (field, weight);
+    endfor
+  endif
+endfunction
+
+## The library's table of options, by name.
+function rows = table ()
+  persistent known;
+  if (isempty (known))
+    tetstream_core;
+    known = struct ();
+    for i = 0:(tetstream_core.option_count () - 1)
+      row = tetstream_core.option_at (i);
+      known.(strrep (row.name, "-", "_")) = row;
+    endfor
+  endif
+  rows = known;
+endfunction
+
+## A text is read as on a command line: "2G", "1e6".
+function set_option (caller, options, row, value)
+  tetstream_core;
+  if (ischar (value))
+    options.parse (row.name, value);
+  elseif (! (isnumeric (value) || islogical (value)) || ! isscalar (value))
+    error ("tetstream:bad-argument", "%s: option \"%s\" is a %s of size %s", caller, row.name,
+           class (value), mat2str (size (value)));
+  elseif (row.type == tetstream_core.OPTION_IS_TEXT)
+    error ("tetstream:bad-argument", "%s: option \"%s\": a text is wanted", caller, row.name);
+  elseif (row.type == tetstream_core.OPTION_IS_INT64)
+    if (value != fix (value))
+      error ("tetstream:bad-argument", "%s: option \"%s\": %g is no integer", caller, row.name, value);
+    endif
+    options.parse (row.name, sprintf ("%d", value));
+  else
+    options.set_double (row.id, double (value));
+  endif
+endfunction

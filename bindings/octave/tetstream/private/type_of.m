@@ -1,0 +1,17 @@
+## type = type_of (caller, name, values): the library's number for an array's class.
+function type = type_of (caller, name, values)
+  tetstream_core;
+  switch (class (values))
+    case "double"
+      type = tetstream_core.TYPE_FLOAT64;
+    case "single"
+      type = tetstream_core.TYPE_FLOAT32;
+    case "int32"
+      type = tetstream_core.TYPE_INT32;
+    case "int64"
+      type = tetstream_core.TYPE_INT64;
+    otherwise
+      error ("tetstream:bad-argument", "%s: %s is %s; double, single, int32 or int64 is wanted", caller,
+             name, class (values));
+  endswitch
+endfunction

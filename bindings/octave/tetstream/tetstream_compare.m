@@ -1,0 +1,46 @@
+## figures = tetstream_compare (original, simplified, ...)
+##
+## How well a simplified mesh stands for its original; each is a path, or a mesh in a struct.
+## figures: a struct: fields, a struct of field to its error: rms, rms_percent (of the range), largest,
+##   cpsnr, ...; original and simplified: cells, volume, components, least_angle, ... of each;
+##   regions: a struct array by label; topology_kept; distance, between the boundaries; and the other
+##   members of tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
+##
+## Pairs: "weights", a struct of field to weight: only these are compared, those of weight 0 left out;
+##   "samples", "seed", "regions", "memory", "tmpdir"; "picture": a path, .svg or .png: a cut through
+##   both meshes is drawn, at the option "cut"; "progress", a function.
+##
+## See also: tetstream_simplify, tetstream_info.
+function figures = tetstream_compare (original, simplified, varargin)
+  if (nargin < 2)
+    print_usage ();
+  endif
+  caller = "tetstream_compare";
+  own = struct ("weights", [], "progress", [], "picture", []);
+  [options, own] = parsed (caller, own, varargin);
+  tetstream_core;
+  if (! isempty (own.picture) && strcmp (options.get_text (tetstream_core.OPTION_CUT), "none"))
+    options.set_text (tetstream_core.OPTION_CUT, "auto");
+  endif
+  [first, kept_first] = made_reader (caller, original);
+  [second, kept_second] = made_reader (caller, simplified);
+  comparison = tetstream_core.Comparison (options);
+  comparison.read (first, second, own.progress);
+  figures = comparison.get_info ();
+  figures.labels = figures.regions;
+  figures.original = comparison.get_mesh (tetstream_core.ORIGINAL);
+  figures.simplified = comparison.get_mesh (tetstream_core.SIMPLIFIED);
+  figures.fields = struct ();
+  for i = 0:(figures.field_count - 1)
+    field = comparison.get_field (i);
+    figures.fields.(field.name) = field;
+  endfor
+  figures.regions = [];
+  for i = 0:(figures.region_count - 1)
+    figures.regions = [figures.regions, comparison.get_region(i)];
+  endfor
+  figures.notes = notes_of (first, second);
+  if (! isempty (own.picture))
+    comparison.write (own.picture, []);
+  endif
+endfunction

@@ -1,0 +1,41 @@
+## info = tetstream_info (source, ...)
+##
+## Reads everything and tells what a mesh is, of a file or in a struct: vertex_count, cell_count; fields
+## and cell_data: structs of name to the number of components; box: 2 x 3, least and largest
+## coordinates; ranges: a struct of field to its least and largest values, 2 x k; front: how coherent
+## its order is, width and span in vertices, cells that touch them; notes. An indexed mesh's front is
+## that of the order in which it is streamed.
+##
+## Pairs: "window", "memory", "order", "axis", "tmpdir"; "progress", a function.
+##
+## See also: tetstream_compare, tetstream_read.
+function info = tetstream_info (source, varargin)
+  if (nargin < 1)
+    print_usage ();
+  endif
+  caller = "tetstream_info";
+  [options, own] = parsed (caller, struct ("progress", []), varargin);
+  [reader, kept] = made_reader (caller, source);
+  found = reader.inspect (options, own.progress);
+  info = struct ("vertex_count", double (found.vertex_count),
+                 "cell_count", double (found.cell_count),
+                 "fields", struct (), "cell_data", struct (), "box", [], "ranges", struct (),
+                 "indexed", found.is_indexed, "front", reader.get_front ());
+  limits = [found.box_min(); found.box_max()];
+  if (! isempty (limits))
+    info.box = limits(:,1:3);
+  endif
+  at = 4;
+  for i = 0:(found.field_count () - 1)
+    count = double (found.field_components (i));
+    info.fields.(found.field_name (i)) = count;
+    if (! isempty (limits))
+      info.ranges.(found.field_name (i)) = limits(:,at:at+count-1);
+    endif
+    at += count;
+  endfor
+  for i = 0:(found.cell_data_count () - 1)
+    info.cell_data.(found.cell_data_name (i)) = double (found.cell_data_components (i));
+  endfor
+  info.notes = notes_of (reader);
+endfunction

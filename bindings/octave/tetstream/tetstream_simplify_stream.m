@@ -1,0 +1,91 @@
+## report = tetstream_simplify_stream (reader, writer, "ratio", 0.1, ...)
+##
+## Simplifies a mesh while it is being made: `reader` gives it in batches, `writer` takes the result in
+## batches, in final form.
+##
+## reader: a function without arguments; each call gives the next batch, a struct; one without points,
+##   cells and finalized points, or [], ends the stream. Members of a batch, all optional:
+##   points (n x 3), fields (struct of n x k), locked (n logicals); cells (m x 4, numbers of points
+##   from 1 on, counted through all batches), cell_data (struct of m x k), last_uses (m x 4 logicals:
+##   no later cell uses that point), finalized (points that no later cell uses); faces, face_labels,
+##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries.
+## writer: a function that is called with such batches.
+## report: what was done.
+##
+## Further pairs:
+##   "cell_count"    how many cells will come; a ratio is met early only where it is known
+##   "vertex_count", "front_width", "front_span", "front_cells"   as far as they are known
+##   "indexed"       true: points are never finalized; the mesh is collected and ordered first
+##   "weights", "progress", and every option of `tetstream simplify`.
+##
+## See also: tetstream_simplify, tetstream_simplify_file.
+function report = tetstream_simplify_stream (reader, writer, varargin)
+  if (nargin < 2)
+    print_usage ();
+  endif
+  caller = "tetstream_simplify_stream";
+  need_target (caller, varargin);
+  own = struct ("cell_count", -1, "vertex_count", -1, "front_width", -1, "front_span", -1,
+                "front_cells", -1, "indexed", false, "weights", [], "progress", []);
+  [options, own] = parsed (caller, own, varargin);
+  tetstream_core;
+  state = containers.Map ("KeyType", "char", "ValueType", "any");  # what the writer is told when it begins
+  core_writer = tetstream_core.Writer_create (@(info) begun (state, info),
+                                              @(batch) writer (shown (batch, state)), []);
+  simplifier = tetstream_core.Simplifier (options, core_writer, own.progress);
+
+  batch = complete_mesh (caller, next_batch (reader));
+  info = announced (caller, batch);
+  info.is_indexed = logical (own.indexed);
+  for name = {"cell_count", "vertex_count", "front_width", "front_span", "front_cells"}
+    info.(name{1}) = own.(name{1});
+  endfor
+  simplifier.begin (info);
+  while (! isempty (batch.points) || ! isempty (batch.cells) || ! isempty (batch.finalized))
+    [events, kept] = filled_batch (caller, batch, Inf);
+    simplifier.push (events);
+    batch = complete_mesh (caller, next_batch (reader));
+  endwhile
+  simplifier.finish ();
+  report = reported (simplifier, core_writer);
+endfunction
+
+function batch = next_batch (reader)
+  batch = reader ();
+  if (isempty (batch) && ! isstruct (batch))
+    batch = struct ();
+  endif
+endfunction
+
+function begun (state, info)
+  names = {};
+  for i = 0:(info.field_count () - 1)
+    names{end+1} = info.field_name (i);
+  endfor
+  state("fields") = names;
+  names = {};
+  for i = 0:(info.cell_data_count () - 1)
+    names{end+1} = info.cell_data_name (i);
+  endfor
+  state("cell_data") = names;
+endfunction
+
+## A batch of the library's as a struct.
+function batch = shown (source, state)
+  batch = struct ("points", source.positions ().', "cells", source.cells ().' + 1,
+                  "fields", struct (), "cell_data", struct ());
+  names = state("fields");
+  for i = 1:numel (names)
+    batch.fields.(names{i}) = source.field (i - 1).';
+  endfor
+  names = state("cell_data");
+  for i = 1:numel (names)
+    batch.cell_data.(names{i}) = source.cell_data (i - 1).';
+  endfor
+  batch.last_uses = logical (mod (floor (double (source.last_uses ().') ./ [1, 2, 4, 8]), 2));
+  batch.locked = logical (source.locked ().');
+  batch.finalized = source.finalized ().' + 1;
+  batch.faces = source.faces ().' + 1;
+  batch.face_labels = source.face_labels ().';
+  batch.locked_edges = source.locked_edges ().' + 1;
+endfunction

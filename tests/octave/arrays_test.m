@@ -1,0 +1,91 @@
+## Arrays in, arrays out.
+warning ("error", "tetstream:target-missed");
+[points, cells, field] = box_mesh (8);
+
+## A field without a name comes back as one; the cube stays a cube.
+[P, T, F, S] = tetstream_simplify (points, cells, field, "ratio", 0.2);
+assert (rows (T) <= ceil (0.2 * rows (cells)) && rows (T) > 0.15 * rows (cells));
+assert (S.report.cells_out, rows (T));
+assert (S.report.reached, "ratio");
+assert (size (F), [rows(P), 1]);
+assert (columns (P), 3);
+assert (class (T), "double");
+assert (min (T(:)) == 1 && max (T(:)) == rows (P));
+assert (sum (volumes (P, T)), 1, 1e-5);
+assert (all (volumes (P, T) > 0));
+
+## The same arguments give the same arrays, whatever the class of the cells, which is kept.
+for type = {"int32", "int64"}
+  [Q, U, G] = tetstream_simplify (points, feval (type{1}, cells), field, "ratio", 0.2);
+  assert (class (U), type{1});
+  assert (Q, P);
+  assert (double (U), T);
+  assert (G, F);
+endfor
+
+## Fields by name, of several components, single; integers are picked.
+fields = struct ("p", field, "v", single ([field, 2 * field, -field]), "id", int32 ((1:rows (points)).'));
+[P, T, F] = tetstream_simplify (single (points), cells, fields, "cells", 500, "weights", struct ("p", 1));
+assert (class (P), "single");
+assert (class (F.v), "single");
+assert (size (F.v), [rows(P), 3]);
+assert (class (F.id), "int32");
+assert (all (ismember (F.id, fields.id)));
+assert (F.v(:,2), 2 * F.v(:,1), 1e-6);
+
+## Without fields there are none.
+[P, T, F] = tetstream_simplify (points, cells, [], "ratio", 0.3);
+assert (size (F), [rows(P), 0]);
+[P, T, F] = tetstream_simplify (points, cells, struct (), "ratio", 0.3);
+assert (isempty (fieldnames (F)));
+
+## Regions keep their volumes.
+labels = 1 + (points(cells(:,1),1) >= 0.5);
+[P, T, F, S] = tetstream_simplify (points, cells, field, "ratio", 0.4, "regions", labels, ...
+                                   "cell_data", struct ("weight", volumes (points, cells)));
+assert (unique (S.regions).', int64 ([1, 2]));
+v = volumes (P, T);
+assert (sum (v(S.regions == 1)), 0.5, 1e-5);
+assert (fieldnames (S.cell_data), {"weight"});
+
+## The vertex map carries values that are linear in space back to the input's points.
+[P, T, F, S] = tetstream_simplify (points, cells, field, "ratio", 0.2, "vertex_map", true);
+assert (size (S.map.weights), [rows(points), 4]);
+corners = T(S.map.cells,:);
+assert (sum (S.map.weights .* reshape (P(corners,1), size (corners)), 2), points(:,1), 1e-9);
+
+## Locked points stay; labelled faces come back.
+locked = points(:,3) == 0;
+[P, T, F, S] = tetstream_simplify (points, cells, field, "ratio", 0.5, "locked", locked);
+assert (sum (S.locked), sum (locked));
+assert (all (ismember (points(locked,:), P(S.locked,:), "rows")));
+bottom = cells(all (reshape (points(cells(:,1:3),3), [], 3) == 0, 2),1:3);
+[P, T, F, S] = tetstream_simplify (points, cells, field, "ratio", 0.5, "faces", bottom, ...
+                                   "face_labels", 7 * ones (rows (bottom), 1));
+assert (! isempty (S.faces) && all (S.face_labels == 7));
+assert (all (P(S.faces,3) == 0));
+
+## Progress is told; its errors and wrong arguments are errors with identifiers.
+told = containers.Map ("KeyType", "char", "ValueType", "any");
+function note (told, progress)
+  told(progress.phase) = progress.fraction;
+endfunction
+tetstream_simplify (points, cells, field, "ratio", 0.2, "progress", @(p) note (told, p));
+assert (told("simplify"), 1);
+fails ("mine:stop", "enough", @() tetstream_simplify (points, cells, field, "ratio", 0.2, ...
+                                                       "progress", @(p) error ("mine:stop", "enough")));
+fails ("tetstream:bad-argument", "a target is missing", @() tetstream_simplify (points, cells, field));
+fails ("tetstream:bad-argument", "7 is outside 0 to 1", ...
+       @() tetstream_simplify (points, cells, field, "ratio", 7));
+fails ("tetstream:bad-argument", "no option \"ration\"", ...
+       @() tetstream_simplify (points, cells, field, "ratio", 0.1, "ration", 7));
+fails ("tetstream:bad-data", "cells(1,1) is 0", ...
+       @() tetstream_simplify (points, cells - 1, field, "ratio", 0.1));
+fails ("tetstream:bad-argument", "4 columns are wanted", ...
+       @() tetstream_simplify (points, cells(:,1:3), field, "ratio", 0.1));
+fails ("tetstream:bad-argument", "field has 3 rows", ...
+       @() tetstream_simplify (points, cells, field(1:3), "ratio", 0.1));
+fails ("tetstream:bad-argument", "a function handle", ...
+       @() tetstream_simplify (points, cells, field, "ratio", 0.1, "progress", 4));
+fails ("tetstream:target-missed", "are left", @() tetstream_simplify ...
+       (points, cells, field, "ratio", 0.1, "locked", true (rows (points), 1)));

@@ -1,0 +1,53 @@
+## Files: the same bytes as the command's, and what is said about them.
+folder = tempname ();
+mkdir (folder);
+cleaner = onCleanup (@() confirm_recursive_rmdir (false) || rmdir (folder, "s"));
+at = @(name) fullfile (folder, name);
+bracket = fullfile (getenv ("TETSTREAM_SOURCE"), "tests", "data", "bracket", "bracket.vtu");
+
+report = tetstream_simplify_file (bracket, at ("small.vtu"), "ratio", 0.05, "weights", ...
+                                  struct ("von_mises", 1), "map_file", at ("small.tetmap"));
+assert (report.cells_in, 75232);
+assert (abs (report.cells_out - 0.05 * 75232) < 10);
+assert (! isempty (dir (at ("small.tetmap"))));
+command = getenv ("TETSTREAM_COMMAND");
+if (! isempty (command))
+  [status, words] = system (sprintf ("'%s' simplify '%s' '%s' --ratio 0.05 --field von_mises --quiet", ...
+                                     command, bracket, at ("command.vtu")));
+  assert (status, 0);
+  assert (fileread (at ("small.vtu")), fileread (at ("command.vtu")));
+endif
+
+info = tetstream_info (at ("small.vtu"));
+assert (info.cell_count, report.cells_out);
+assert (info.vertex_count, report.vertices_out);
+assert (isfield (info.fields, "von_mises"));
+assert (size (info.box), [2, 3]);
+assert (size (info.ranges.von_mises), [2, 1]);
+assert (info.front.width > 0);
+
+figures = tetstream_compare (bracket, at ("small.vtu"), "weights", struct ("von_mises", 1), ...
+                             "picture", at ("both.svg"));
+assert (figures.original.cells, 75232);
+assert (figures.simplified.cells, report.cells_out);
+assert (figures.fields.von_mises.rms_percent > 0 && figures.fields.von_mises.rms_percent < 5);
+assert (figures.topology_kept, 1);
+assert (! isempty (strfind (fileread (at ("both.svg")), "<svg")));
+
+## Read, written, and the same again.
+mesh = tetstream_read (at ("small.vtu"));
+assert (rows (mesh.cells), report.cells_out);
+assert (min (mesh.cells(:)), 1);
+notes = tetstream_convert (mesh, at ("again.vtk"), "order", "none");
+assert (iscellstr (notes));
+again = tetstream_read (at ("again.vtk"));
+assert (sort (again.fields.von_mises), sort (mesh.fields.von_mises));
+tetstream_convert (mesh, at ("plain.vtu"), "properties", struct ("compress", "no"));
+tetstream_convert (mesh, at ("packed.vtu"), "properties", struct ("compress", "yes"));
+assert (dir (at ("plain.vtu")).bytes > dir (at ("packed.vtu")).bytes);
+figures = tetstream_compare (mesh, mesh);
+assert (figures.fields.von_mises.largest_percent, 0, 1e-9);
+
+fails ("tetstream:io", "nothing.vtu", @() tetstream_info (at ("nothing.vtu")));
+fails ("tetstream:unsupported", "x.xyz", @() tetstream_convert (mesh, at ("x.xyz")));
+fails ("tetstream:bad-argument", "no member \"point\"", @() tetstream_info (struct ("point", 1)));

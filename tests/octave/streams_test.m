@@ -1,0 +1,71 @@
+## Batches from a function to a function.
+[points, cells, field] = box_mesh (8);
+
+## Slabs of the mesh, in which points are numbered as they come and finalized by their last uses.
+order = sortrows ([max(cells, [], 2), (1:rows (cells)).'])(:,2);
+cells = cells(order,:);
+[~, last] = unique (flipud (cells.'(:)), "first");
+is_last = false (numel (cells), 1);
+is_last(numel (cells) + 1 - last) = true;
+is_last = reshape (is_last, 4, []).';
+
+function batch = next (state, points, cells, field, is_last)
+  step = 200;
+  part = state("at"):min (state("at") + step - 1, rows (cells));
+  state("at") = state("at") + step;
+  batch = struct ();
+  if (isempty (part))
+    return;
+  endif
+  fresh = (state("points") + 1):max (max (max (cells(part,:))), state("points"));
+  state("points") = max (max (max (cells(part,:))), state("points"));
+  batch = struct ("points", points(fresh,:), "fields", struct ("f", field(fresh)), ...
+                  "cells", cells(part,:), "last_uses", is_last(part,:));
+endfunction
+function take (state, batch)
+  state("result_points") = [state("result_points"); batch.points];
+  state("result_field") = [state("result_field"); batch.fields.f];
+  state("result_cells") = [state("result_cells"); batch.cells];
+  state("calls") = state("calls") + 1;
+endfunction
+function state = fresh_state ()
+  state = containers.Map ("KeyType", "char", "ValueType", "any");
+  for [value, name] = struct ("at", 1, "points", 0, "result_points", [], "result_field", [], ...
+                              "result_cells", [], "calls", 0)
+    state(name) = value;
+  endfor
+endfunction
+
+state = fresh_state ();
+report = tetstream_simplify_stream (@() next (state, points, cells, field, is_last), ...
+                                    @(batch) take (state, batch), "ratio", 0.3, ...
+                                    "cell_count", rows (cells));
+assert (report.cells_in, rows (cells));
+assert (report.cells_out, rows (state("result_cells")));
+assert (rows (state("result_cells")) <= ceil (0.3 * rows (cells)));
+assert (sum (volumes (state("result_points"), state("result_cells"))), 1, 1e-5);
+assert (numel (state("result_field")), rows (state("result_points")));
+
+## An indexed mesh, in one batch, comes back as tetstream_simplify gives it.
+state = fresh_state ();
+function batch = whole (state, points, cells, field)
+  batch = [];
+  if (state("at") == 1)
+    batch = struct ("points", points, "fields", struct ("f", field), "cells", cells);
+    state("at") = 2;
+  endif
+endfunction
+tetstream_simplify_stream (@() whole (state, points, cells, field), @(batch) take (state, batch), ...
+                           "ratio", 0.3, "indexed", true);
+[P, T, F] = tetstream_simplify (points, cells, struct ("f", field), "ratio", 0.3);
+assert (state("result_points"), P);
+assert (double (state("result_cells")), T);
+assert (state("result_field"), F.f);
+
+## Errors of either function come out as they are.
+fails ("my:reader", "no more", @() tetstream_simplify_stream (@() error ("my:reader", "no more"), ...
+                                                               @(batch) 0, "ratio", 0.3));
+state = fresh_state ();
+fails ("my:writer", "full", @() tetstream_simplify_stream ...
+       (@() whole (state, points, cells, field), @(batch) error ("my:writer", "full"), "ratio", 0.3, ...
+        "indexed", true));
