@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
+#include <set>
 
 #include "hdf5_column.h"
 #include "status.h"
@@ -53,6 +55,9 @@ struct Parts {
   std::vector<int64_t> offsets = {0, 4, 0, 4, 7};
   std::vector<uint8_t> types = {10, 10, 5};
   std::vector<float> fields = {1, 2, 3, 4, 1, 2, 3, 5};
+  std::vector<int64_t> labels = {7, 8, 9};
+  std::vector<double> positions = {0, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0,
+                                   0, 0, 0, 0, 1, 0, 0, 0, 1, 1,  0, 0};
 };
 
 // Two tetrahedra that share a face, in two partitions, and a triangle.
@@ -67,15 +72,14 @@ std::string makeFile(const Parts& parts) {
     add(file, "NumberOfPoints", ValueType::kInt64, 1, parts.points);
     add(file, "NumberOfCells", ValueType::kInt64, 1, parts.cells);
     add(file, "NumberOfConnectivityIds", ValueType::kInt64, 1, parts.ids);
-    add<double>(file, "Points", ValueType::kFloat64, 3,
-                {0, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0});
+    add(file, "Points", ValueType::kFloat64, 3, parts.positions);
     add(file, "Connectivity", ValueType::kInt64, 1, parts.connectivity);
     add(file, "Offsets", ValueType::kInt64, 1, parts.offsets);
     add(file, "Types", ValueType::kUInt8, 1, parts.types);
     file.createGroup("VTKHDF/PointData");
     add(file, "PointData/p", ValueType::kFloat32, 1, parts.fields);
     file.createGroup("VTKHDF/CellData");
-    add<int64_t>(file, "CellData/region", ValueType::kInt64, 1, {7, 8, 9});
+    add(file, "CellData/region", ValueType::kInt64, 1, parts.labels);
   }
   file.close();
   return bytes;
@@ -92,6 +96,38 @@ TEST(VtkHdf, JoinsPartitions) {
     EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{9}));
     EXPECT_EQ(mesh.notes.size(), 2u);  // the triangle, the points
   }
+}
+
+// Two hexahedra in two partitions: the points of the shared square are numbered the other way round
+// in the second, so that each cut of its own would go across.
+TEST(VtkHdf, SplitsCellsOfPartitionsAlikeWhereTheyMeet) {
+  Parts parts;
+  parts.points = {8, 8};
+  parts.cells = {1, 1};
+  parts.ids = {8, 8};
+  parts.connectivity = {0, 1, 2, 3, 4, 5, 6, 7, 1, 4, 5, 0, 2, 7, 6, 3};
+  parts.offsets = {0, 8, 0, 8};
+  parts.types = {12, 12};
+  parts.fields.assign(16, 0);
+  parts.labels = {7, 8};
+  parts.positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1,
+                     1, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 1, 2, 0, 0, 2, 0, 1, 2, 1, 1, 2, 1, 0};
+  ReadOptions options;
+  options.split = true;
+  const VtuMesh mesh = readAs("vtkhdf", makeFile(parts), 5, options);
+  EXPECT_EQ(mesh.schema.vertex_count, 12);
+  EXPECT_EQ(mesh.schema.cell_count, 12);
+  std::map<std::set<int64_t>, int> triangles;
+  for (size_t c = 0; c < mesh.cells.size(); c += 4)
+    for (size_t without = 0; without < 4; ++without) {
+      std::set<int64_t> triangle(mesh.cells.begin() + static_cast<std::ptrdiff_t>(c),
+                                 mesh.cells.begin() + static_cast<std::ptrdiff_t>(c) + 4);
+      triangle.erase(mesh.cells[c + without]);
+      ++triangles[triangle];
+    }
+  EXPECT_EQ(std::count_if(triangles.begin(), triangles.end(),
+                          [](const auto& entry) { return entry.second == 1; }),
+            20);  // two on each of the ten squares outside
 }
 
 TEST(VtkHdf, WrittenGivesBackEveryArrayInTheSameBytes) {
