@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstring>
 
-#include "column_spool.h"
+#include "buckets.h"
 #include "memory.h"
 #include "mix.h"
 #include "status.h"
@@ -31,30 +31,6 @@ struct Keyed {
 struct Same {
   uint64_t point, first;  // `point` is `first`, which is lower
   bool operator<(const Same& other) const { return point < other.point; }
-};
-
-// Rows in files, by bucket.
-template <class Row>
-class Buckets {
- public:
-  Buckets(size_t count, const std::string& temp_dir) {
-    for (size_t i = 0; i < count; ++i) files_.push_back(std::make_unique<ColumnSpool>(temp_dir));
-  }
-  size_t count() const { return files_.size(); }
-  void add(size_t bucket, const Row& row) { files_[bucket]->append(&row, sizeof row); }
-  // The rows of a bucket, sorted. Its file is gone afterwards.
-  Array<Row> take(size_t bucket, Account& account) {
-    ColumnSpool& file = *files_[bucket];
-    file.close();
-    Array<Row> rows(account, static_cast<size_t>(file.size() / sizeof(Row)));
-    if (rows.size() > 0) file.readAt(0, rows.data(), static_cast<size_t>(file.size()));
-    std::sort(rows.data(), rows.data() + rows.size());
-    files_[bucket].reset();
-    return rows;
-  }
-
- private:
-  std::vector<std::unique_ptr<ColumnSpool>> files_;
 };
 
 // Finds the points that are one, and numbers those that are left.

@@ -109,6 +109,8 @@ class PiecedMesh final : public IndexedSource {
         static_cast<int64_t>(mixed_ ? mixed_->count(MixedCells::kTetrahedra) : mesh_.cell_count);
     schema_.face_count = 0;
     if (mixed_ && mixed_->count(MixedCells::kTriangles) > 0) labelFaces();
+    mixed_faces_ = static_cast<uint64_t>(schema_.face_count);
+    if (mesh_.faces) schema_.face_count += static_cast<int64_t>(mesh_.faces->count());
     checkSchema(schema_);
     checkCells();
     if (options_.note)
@@ -131,9 +133,12 @@ class PiecedMesh final : public IndexedSource {
   }
 
   void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
-    mixed_->readPoints(MixedCells::kTriangles, first, count, corners);
-    mixed_->readRows(MixedCells::kTriangles, first, count, sizeof *labels, labels,
-                     [&](uint64_t cell, size_t n, void* to) { face_labels_->read(cell, n, to); });
+    const auto mixed = static_cast<size_t>(
+        std::min<uint64_t>(count, first < mixed_faces_ ? mixed_faces_ - first : 0));
+    if (mixed > 0) readMixedFaces(first, mixed, corners, labels);
+    if (mixed < count)
+      mesh_.faces->read(first + mixed - mixed_faces_, count - mixed, corners + 3 * mixed,
+                        labels + mixed);
   }
 
   void readCells(uint64_t first, size_t count, int64_t* out) override {
@@ -152,6 +157,12 @@ class PiecedMesh final : public IndexedSource {
   }
 
  private:
+  void readMixedFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
+    mixed_->readPoints(MixedCells::kTriangles, first, count, corners);
+    mixed_->readRows(MixedCells::kTriangles, first, count, sizeof *labels, labels,
+                     [&](uint64_t cell, size_t n, void* to) { face_labels_->read(cell, n, to); });
+  }
+
   std::unique_ptr<PieceColumn> cellColumn(PieceArray which, const char* name, int components) {
     return std::make_unique<PieceColumn>(
         mesh_, planNeeded(mesh_, which, PieceRows::kCells, name, components));
@@ -300,6 +311,7 @@ class PiecedMesh final : public IndexedSource {
   std::unique_ptr<PieceColumn> points_, connectivity_, offsets_, types_, face_labels_;
   std::unique_ptr<MixedCells> mixed_;  // where the cells are not all that stay
   std::vector<PieceColumn> fields_, cell_data_;
+  uint64_t mixed_faces_ = 0;  // of those, which come first
   uint64_t checked_ = 0;
 };
 

@@ -47,3 +47,8 @@ for file in shapes.vtu shapes.vtk; do
   filled+=("filled.$file.vtu")
 done
 vtk_says fills "${filled[@]}"
+
+# Exodus II.
+vtk_says blocks .
+expect 0 convert blocks.exo ours.blocks.vtu
+vtk_says same blocks.vtu ours.blocks.vtu

@@ -3,6 +3,7 @@
 vtk_reads.py write FOLDER   the mesh mesh.vtu, written by VTK in every way that it has
 vtk_reads.py same A B...    exits with 0 if both files of each pair hold the same cells, corners
                             and values
+vtk_reads.py blocks FOLDER  the mesh mesh.vtu with block ids, and what VTK writes of it as Exodus II
 vtk_reads.py shapes FOLDER  a cube made of cells of all shapes that fill it face to face, .vtu and .vtk
 vtk_reads.py fills A...     exits with 0 if the tetrahedra of each file fill such a cube, face to face,
                             and bear the labels of the cells that they come from
@@ -116,6 +117,36 @@ def write(folder):
             writer.Write()
 
 
+def blocks(folder):
+    grid = load(f"{folder}/mesh.vtu")
+    random = np.random.default_rng(3)
+    for data in (grid.GetPointData(), grid.GetCellData()):
+        while data.GetNumberOfArrays() > 0:
+            data.RemoveArray(0)
+    cells = grid.GetNumberOfCells()
+    for data, name, values in (
+        (grid.GetPointData(), "p", random.random(grid.GetNumberOfPoints())),
+        (grid.GetCellData(), "rho", random.random(cells)),
+        (grid.GetCellData(), "block_id", np.sort(random.integers(1, 4, cells, "i4"))),
+    ):
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        data.AddArray(array)
+    # Exodus files of VTK have one type of floats.
+    doubles = vtk.vtkPoints()
+    doubles.SetDataTypeToDouble()
+    doubles.DeepCopy(grid.GetPoints())
+    grid.SetPoints(doubles)
+    for writer, name in ((vtk.vtkXMLUnstructuredGridWriter(), "blocks.vtu"),
+                         (vtk.vtkExodusIIWriter(), "blocks.exo")):
+        writer.SetFileName(f"{folder}/{name}")
+        writer.SetInputData(grid)
+        if name == "blocks.exo":
+            writer.SetBlockIdArrayName("block_id")
+            writer.SetStoreDoubles(1)
+        writer.Write()
+
+
 def cube_of_shapes(n):
     """n x n x n cubes, each cut into cells of one shape, with points numbered at random; the cell
     array is the octant that a cell lies in."""
@@ -181,4 +212,4 @@ def fills(*paths):
             sys.exit(f"{path}: other labels")
 
 
-{"write": write, "same": same, "shapes": shapes, "fills": fills}[sys.argv[1]](*sys.argv[2:])
+{"write": write, "same": same, "blocks": blocks, "shapes": shapes, "fills": fills}[sys.argv[1]](*sys.argv[2:])
