@@ -11,6 +11,7 @@
 namespace tetstream {
 
 using OpenValues = std::function<std::unique_ptr<Values>()>;
+using OpenArray = std::function<std::unique_ptr<Values>(uint64_t count)>;  // as MeshArray has it
 
 struct ValuesPart {
   uint64_t count = 0;

@@ -47,11 +47,6 @@ class PieceNames final : XmlFeed {
   int depth_ = 0;
 };
 
-std::string pathBeside(const std::string& file, const std::string& name) {
-  const size_t slash = file.find_last_of('/');
-  return name[0] == '/' || slash == std::string::npos ? name : file.substr(0, slash + 1) + name;
-}
-
 }  // namespace
 
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {

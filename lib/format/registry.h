@@ -65,6 +65,7 @@ Input openVtkHdf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openExodus(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openXdmf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSu2(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
