@@ -8,6 +8,7 @@
 #include "made_values.h"
 #include "pieced_mesh.h"
 #include "registry.h"
+#include "rows_at_once.h"
 #include "status.h"
 #include "time_steps.h"
 #include "vtk_cells.h"
@@ -18,9 +19,6 @@ namespace {
 
 constexpr size_t kMaxVariables = 1 << 12;
 constexpr size_t kMaxSteps = 1 << 24;
-constexpr size_t kSidesAtOnce = 1024;
-
-using SharedFile = std::shared_ptr<NetcdfFile>;
 
 std::string numbered(const char* name, size_t number) {
   return name + std::to_string(number);
@@ -248,10 +246,10 @@ class Exodus {
     if (count == 0) return 0;
     const auto open_elements = file_->open(elements, 0, count),
                open_sides = file_->open(sides, 0, count);
-    int64_t element[kSidesAtOnce], side[kSidesAtOnce];
+    int64_t element[kRowsAtOnce], side[kRowsAtOnce];
     uint64_t strange = 0;
-    for (uint64_t at = 0; at < count; at += kSidesAtOnce) {
-      const auto n = static_cast<size_t>(std::min<uint64_t>(kSidesAtOnce, count - at));
+    for (uint64_t at = 0; at < count; at += kRowsAtOnce) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - at));
       open_elements->read(at, n, element, ScalarType::kInt64);
       open_sides->read(at, n, side, ScalarType::kInt64);
       for (size_t i = 0; i < n; ++i) strange += !takeSide(element[i], side[i], set, id);
@@ -330,7 +328,7 @@ class Exodus {
 
   const ReadOptions& options_;
   MeshPieces& mesh_;
-  SharedFile file_;
+  std::shared_ptr<NetcdfFile> file_;
   MeshPiece piece_;
   std::vector<ExodusBlock> blocks_;
   uint64_t step_ = 0;

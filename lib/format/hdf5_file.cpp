@@ -14,7 +14,7 @@ namespace tetstream {
 constexpr uint64_t kMaxHdf5Ratio = 1040;
 // Chunks are decompressed whole; VTK's have some hundred kilobytes.
 constexpr uint64_t kMaxChunkBytes = uint64_t{256} << 20;
-constexpr size_t kMaxText = 256, kMaxNameBytes = 4096;
+constexpr size_t kMaxText = 256, kMaxHdf5Name = 4096;
 // H5F_ACC_RDONLY and H5F_ACC_TRUNC; the macros themselves call the library.
 constexpr unsigned kReadOnly = 0, kTruncate = 2;
 
@@ -217,9 +217,9 @@ std::vector<std::string> Hdf5File::texts(const std::string& path, size_t most) {
       check(hdf5().Sget_simple_extent_ndims(space), what) != 2)
     fail(Status::kBadData, "%s: %s is no list of names", name_.c_str(), what.c_str());
   check(hdf5().Sget_simple_extent_dims(space, sizes, nullptr), what);
-  if (sizes[0] > most || sizes[1] > kMaxNameBytes)
+  if (sizes[0] > most || sizes[1] > kMaxHdf5Name)
     fail(Status::kUnsupported, "%s: %s has more than %zu names, or longer ones than %zu bytes",
-         name_.c_str(), what.c_str(), most, kMaxNameBytes);
+         name_.c_str(), what.c_str(), most, kMaxHdf5Name);
   const auto width = static_cast<size_t>(sizes[1]);
   std::string all(static_cast<size_t>(sizes[0]) * width, 0);
   if (!all.empty())

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cstring>
 
+#include "rows_at_once.h"
 #include "status.h"
 
 namespace tetstream {
 
 namespace {
-
-constexpr size_t kAtOnce = 1024;
 
 void writeInteger(int64_t value, ScalarType type, unsigned char* out) {
   convertScalars(&value, ScalarType::kInt64, out, type, 1);
@@ -51,9 +50,9 @@ class ShiftedValues final : public Values {
       : values_(std::move(values)), shift_(shift) {}
   void read(uint64_t first, size_t count, void* out, ScalarType type) override {
     auto* to = static_cast<unsigned char*>(out);
-    int64_t held[kAtOnce];
+    int64_t held[kRowsAtOnce];
     for (size_t n; count > 0; first += n, count -= n) {
-      n = std::min(count, kAtOnce);
+      n = std::min(count, kRowsAtOnce);
       values_->read(first, n, held, ScalarType::kInt64);
       // Wraps around as unsigned numbers do: what does not fit is no point of any mesh.
       for (size_t i = 0; i < n; ++i, to += sizeOf(type))
@@ -90,9 +89,9 @@ class ColumnValues final : public Values {
     uint64_t row = first / width;
     auto* to = static_cast<unsigned char*>(out);
     for (size_t rows = count / width, n; rows > 0; rows -= n, row += n, to += n * width * bytes) {
-      n = std::min(rows, kAtOnce);
+      n = std::min(rows, kRowsAtOnce);
       for (size_t c = 0; c < width; ++c) {
-        unsigned char held[kAtOnce * sizeof(double)];
+        unsigned char held[kRowsAtOnce * sizeof(double)];
         columns_[c]->read(row, n, held, type);
         for (size_t i = 0; i < n; ++i)
           std::memcpy(to + (i * width + c) * bytes, held + i * bytes, bytes);

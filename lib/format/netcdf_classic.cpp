@@ -17,21 +17,21 @@ constexpr uint64_t kMaxNameBytes = 4096;
 constexpr uint64_t kMaxTextBytes = 256;    // of an attribute that is kept
 constexpr uint64_t kMaxDimensions = 1024;  // of a variable
 
-enum Tag : uint64_t { kDimensions = 10, kVariables = 11, kAttributes = 12 };
+enum Tag : uint64_t { kDimensionList = 10, kVariableList = 11, kAttributeList = 12 };
 
-struct Kind {
+struct NumberKind {
   ValueType type;
   bool text;
 };
 
 // By netCDF's numbers of types, from 1.
-constexpr Kind kKinds[] = {
+constexpr NumberKind kNumberKinds[] = {
     {ValueType::kInt8, false},  {ValueType::kInt8, true},     {ValueType::kInt16, false},
     {ValueType::kInt32, false}, {ValueType::kFloat32, false}, {ValueType::kFloat64, false},
     {ValueType::kUInt8, false}, {ValueType::kUInt16, false},  {ValueType::kUInt32, false},
     {ValueType::kInt64, false}, {ValueType::kUInt64, false}};
 
-struct Variable : NetcdfVariable {
+struct ClassicVariable : NetcdfVariable {
   uint64_t begin = 0;
   bool of_records = false;
   uint64_t record_bytes = 0;  // of one record, or of all if it has none; without what fills it up
@@ -43,11 +43,11 @@ uint64_t filledUp(uint64_t bytes) {
 }
 
 // The header, from the file's first byte on.
-class Header {
+class ClassicHeader {
  public:
-  explicit Header(ByteSource& bytes) : bytes_(bytes) {}
+  explicit ClassicHeader(ByteSource& bytes) : bytes_(bytes) {}
 
-  void read(std::map<std::string, Variable>& variables) {
+  void read(std::map<std::string, ClassicVariable>& variables) {
     readBegin();
     readDimensions();
     std::map<std::string, std::string> unused;
@@ -127,22 +127,22 @@ class Header {
   }
 
   void readDimensions() {
-    for (uint64_t n = listOf(kDimensions, "dimensions"); n > 0; --n) {
+    for (uint64_t n = listOf(kDimensionList, "dimensions"); n > 0; --n) {
       name();
       dimensions_.push_back(count());
     }
   }
 
-  Kind kind() {
+  NumberKind kind() {
     const uint64_t type = number(4);
-    if (type < 1 || type > std::size(kKinds)) failBad("there is no such type of values");
-    return kKinds[type - 1];
+    if (type < 1 || type > std::size(kNumberKinds)) failBad("there is no such type of values");
+    return kNumberKinds[type - 1];
   }
 
   void readAttributes(std::map<std::string, std::string>& texts) {
-    for (uint64_t n = listOf(kAttributes, "attributes"); n > 0; --n) {
+    for (uint64_t n = listOf(kAttributeList, "attributes"); n > 0; --n) {
       const std::string key = name();
-      const Kind k = kind();
+      const NumberKind k = kind();
       const uint64_t size = count();
       if (size > bytes_.size()) failBad("the file ends in its header");
       const uint64_t stored = filledUp(size * sizeOf(k.type));
@@ -157,15 +157,15 @@ class Header {
     }
   }
 
-  void readVariables(std::map<std::string, Variable>& variables) {
-    for (uint64_t n = listOf(kVariables, "variables"); n > 0; --n) {
+  void readVariables(std::map<std::string, ClassicVariable>& variables) {
+    for (uint64_t n = listOf(kVariableList, "variables"); n > 0; --n) {
       const std::string key = name();
-      Variable v;
+      ClassicVariable v;
       const uint64_t dimensions = count();
       if (dimensions > kMaxDimensions) failBad("a variable has too many dimensions");
       for (uint64_t d = 0; d < dimensions; ++d) addDimension(v, d);
       readAttributes(v.texts);
-      const Kind k = kind();
+      const NumberKind k = kind();
       v.type = k.type;
       v.text = k.text;
       count();  // its size, which the dimensions tell, too, and which may be too large for it
@@ -175,7 +175,7 @@ class Header {
     }
   }
 
-  void addDimension(Variable& v, uint64_t place) {
+  void addDimension(ClassicVariable& v, uint64_t place) {
     const uint64_t dimension = count();
     if (dimension >= dimensions_.size()) failBad("a variable has a dimension that is not there");
     const uint64_t size = dimensions_[static_cast<size_t>(dimension)];
@@ -185,7 +185,7 @@ class Header {
   }
 
   // That it, or its first record, lies within the file.
-  void measure(Variable& v, const std::string& key) {
+  void measure(ClassicVariable& v, const std::string& key) {
     uint64_t bytes = sizeOf(v.type);
     for (size_t d = v.of_records; d < v.sizes.size(); ++d) {
       if (v.sizes[d] > bytes_.size() / bytes) failShort(key);
@@ -202,7 +202,7 @@ class Header {
   }
 
   // A single variable of records has nothing between them.
-  void placeRecords(std::map<std::string, Variable>& variables) {
+  void placeRecords(std::map<std::string, ClassicVariable>& variables) {
     uint64_t count = 0, bytes = 0, only = 0, first = UINT64_MAX;
     for (const auto& [key, v] : variables) {
       if (!v.of_records) continue;
@@ -234,9 +234,9 @@ class Header {
   std::vector<uint64_t> dimensions_;  // 0: records
 };
 
-class Place final : public ValueBytes {
+class VariablePlace final : public ValueBytes {
  public:
-  Place(std::shared_ptr<ByteSource> bytes, uint64_t begin)
+  VariablePlace(std::shared_ptr<ByteSource> bytes, uint64_t begin)
       : bytes_(std::move(bytes)), begin_(begin) {}
   void readAt(uint64_t offset, void* out, size_t size) override {
     if (bytes_->readAt(begin_ + offset, out, size) != size)
@@ -251,7 +251,7 @@ class Place final : public ValueBytes {
 class NetcdfClassic final : public NetcdfFile {
  public:
   explicit NetcdfClassic(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {
-    Header header(*bytes_);
+    ClassicHeader header(*bytes_);
     header.read(variables_);
     record_bytes_ = header.recordBytes();
   }
@@ -269,12 +269,12 @@ class NetcdfClassic final : public NetcdfFile {
 
   std::unique_ptr<Values> open(const std::string& variable, uint64_t first,
                                uint64_t count) override {
-    const Variable& v = variables_.at(variable);
+    const ClassicVariable& v = variables_.at(variable);
     if (first > v.count() || count > v.count() - first)
       fail(Status::kBadData, "%s: \"%s\" has %llu values where %llu are needed", name().c_str(),
            variable.c_str(), static_cast<unsigned long long>(v.count()),
            static_cast<unsigned long long>(first + count));
-    return openBinaryValues(std::make_unique<Place>(bytes_, placeOf(v, first)),
+    return openBinaryValues(std::make_unique<VariablePlace>(bytes_, placeOf(v, first)),
                             name() + ": \"" + variable + "\"", v.type, true);
   }
 
@@ -282,7 +282,7 @@ class NetcdfClassic final : public NetcdfFile {
     std::vector<std::string> rows;
     const auto found = variables_.find(variable);
     if (found == variables_.end()) return rows;
-    const Variable& v = found->second;
+    const ClassicVariable& v = found->second;
     if (!v.text || v.sizes.size() != 2)
       fail(Status::kBadData, "%s: \"%s\" is no list of names", name().c_str(), variable.c_str());
     if (v.size(0) > most || v.size(1) > kMaxNameBytes)
@@ -290,21 +290,21 @@ class NetcdfClassic final : public NetcdfFile {
            name().c_str(), variable.c_str(), most);
     for (uint64_t i = 0; i < v.size(0); ++i) {
       std::string row(static_cast<size_t>(v.size(1)), 0);
-      Place(bytes_, placeOf(v, i * v.size(1))).readAt(0, row.data(), row.size());
+      VariablePlace(bytes_, placeOf(v, i * v.size(1))).readAt(0, row.data(), row.size());
       rows.push_back(trimmedText(row));
     }
     return rows;
   }
 
  private:
-  uint64_t placeOf(const Variable& v, uint64_t value) const {
+  uint64_t placeOf(const ClassicVariable& v, uint64_t value) const {
     const uint64_t byte = value * sizeOf(v.type);
     if (!v.of_records || v.record_bytes == 0) return v.begin + byte;
     return v.begin + byte / v.record_bytes * record_bytes_ + byte % v.record_bytes;
   }
 
   std::shared_ptr<ByteSource> bytes_;
-  std::map<std::string, Variable> variables_;
+  std::map<std::string, ClassicVariable> variables_;
   uint64_t record_bytes_ = 0;
 };
 

@@ -11,7 +11,7 @@ constexpr CellKind kNoKind = {CellShape::kPoint, 0};
 
 using Shape = CellShape;
 
-constexpr VtkCell kRows[] = {
+constexpr VtkCell kVtkCells[] = {
     {0, "an empty cell", VtkCell::kEmpty, kNoKind},
     {1, "a vertex", VtkCell::kKnown, {Shape::kPoint, 1}},
     {2, "a set of vertices", VtkCell::kLower, kNoKind},
@@ -68,7 +68,7 @@ constexpr VtkCell kRows[] = {
 
 const VtkCell& vtkCell(int64_t type) {
   static constexpr VtkCell unknown = {-1, "no tetrahedron", VtkCell::kOther, kNoKind};
-  for (const VtkCell& row : kRows)
+  for (const VtkCell& row : kVtkCells)
     if (row.type == type) return row;
   return unknown;
 }

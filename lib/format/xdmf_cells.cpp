@@ -4,14 +4,13 @@
 
 #include "column_spool.h"
 #include "made_values.h"
+#include "rows_at_once.h"
 #include "status.h"
 #include "vtk_cells.h"
 
 namespace tetstream {
 
 namespace {
-
-constexpr size_t kAtOnce = 4096;  // values
 
 // By name, and by the number in a list of several types. Without nodes: the list tells how many.
 struct Type {
@@ -115,7 +114,7 @@ class MixedList {
     if (at_ == count_) failCell(Status::kBadData, place, "is not there in full");
     if (at_ == filled_) {
       first_ = at_;
-      const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, count_ - at_));
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count_ - at_));
       values_->read(at_, n, held_, ScalarType::kInt64);
       filled_ = at_ + n;
     }
@@ -124,7 +123,7 @@ class MixedList {
 
   std::unique_ptr<Values> values_;
   uint64_t count_, at_ = 0, first_ = 0, filled_ = 0, cells_ = 0;
-  int64_t held_[kAtOnce];
+  int64_t held_[kRowsAtOnce];
   std::shared_ptr<ColumnSpool> types_, offsets_, nodes_;
 };
 
