@@ -49,13 +49,17 @@ class PieceNames final : XmlFeed {
 
 }  // namespace
 
+void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes) {
+  for (const std::string& name : PieceNames(bytes).run())
+    addVtuPieces(mesh, pool.add(pathBeside(bytes.name(), name)));
+}
+
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   bytes = makeSeekable(std::move(bytes), options.temp_dir);
   const auto pool = std::make_shared<FilePool>();
   MeshPieces mesh;
   mesh.join = true;
-  for (const std::string& name : PieceNames(*bytes).run())
-    addVtuPieces(mesh, pool->add(pathBeside(bytes->name(), name)));
+  addPvtuPieces(mesh, *pool, *bytes);
   mesh.name = bytes->name();
   if (mesh.pieces.empty()) fail(Status::kBadData, "%s: there is no <Piece>", mesh.name.c_str());
   Input input;

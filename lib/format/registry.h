@@ -60,6 +60,7 @@ const Format& needFormat(const std::string& name, const std::string& path);
 // The rows, each defined in its own file.
 Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openVtkHdf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
