@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "exodus_blocks.h"
-#include "labelled_faces.h"
 #include "made_values.h"
 #include "pieced_mesh.h"
 #include "registry.h"
 #include "rows_at_once.h"
+#include "side_faces.h"
 #include "status.h"
 #include "time_steps.h"
 #include "vtk_cells.h"
@@ -214,7 +214,7 @@ class Exodus {
 
   void takeSideSets(const std::vector<int64_t>& ids) {
     const std::vector<std::string> names = file_->texts("ss_names", kMaxMeshPieces);
-    mesh_.faces = std::make_shared<LabelledFaces>(options_.temp_dir);
+    mesh_.faces = std::make_shared<SideFaces>(options_.temp_dir);
     nodes_ = nodesOfCells()(0);
     uint64_t strange = 0;
     for (size_t i = 0; i < ids.size(); ++i) {

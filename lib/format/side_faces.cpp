@@ -1,4 +1,4 @@
-#include "labelled_faces.h"
+#include "side_faces.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,10 +9,10 @@ namespace tetstream {
 
 constexpr size_t kBuckets = 32;  // of two million faces each has 4 MB
 
-LabelledFaces::LabelledFaces(const std::string& temp_dir)
+SideFaces::SideFaces(const std::string& temp_dir)
     : rows_(kBuckets, temp_dir), kept_(sizeof(Kept), temp_dir, {4, 32 << 10}) {}
 
-void LabelledFaces::add(const int64_t corners[3], int64_t label) {
+void SideFaces::add(const int64_t corners[3], int64_t label) {
   Row row = {{}, added_++, {}, label};
   std::copy_n(corners, 3, row.corners.begin());
   row.key = row.corners;
@@ -23,7 +23,7 @@ void LabelledFaces::add(const int64_t corners[3], int64_t label) {
   rows_.add(static_cast<size_t>(hash % kBuckets), row);
 }
 
-uint64_t LabelledFaces::finish() {
+uint64_t SideFaces::finish() {
   Account account;
   for (size_t bucket = 0; bucket < rows_.count(); ++bucket) {
     const Array<Row> rows = rows_.take(bucket, account);
@@ -38,7 +38,7 @@ uint64_t LabelledFaces::finish() {
   return added_ - kept_.rows();
 }
 
-void LabelledFaces::read(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
+void SideFaces::read(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
   for (size_t i = 0; i < count; ++i) {
     Kept kept;
     std::memcpy(&kept, kept_.row(first + i), sizeof kept);

@@ -11,9 +11,9 @@
 
 namespace tetstream {
 
-class LabelledFaces {
+class SideFaces {
  public:
-  explicit LabelledFaces(const std::string& temp_dir);
+  explicit SideFaces(const std::string& temp_dir);
 
   void add(const int64_t corners[3], int64_t label);
   // After the last: of those with the same corners the first one stays. Returns how many were left
