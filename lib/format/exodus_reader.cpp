@@ -18,7 +18,6 @@ namespace tetstream {
 namespace {
 
 constexpr size_t kMaxVariables = 1 << 12;
-constexpr size_t kMaxSteps = 1 << 24;
 
 std::string numbered(const char* name, size_t number) {
   return name + std::to_string(number);

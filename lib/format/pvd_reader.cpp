@@ -71,6 +71,7 @@ Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   mesh.name = bytes->name();
   mesh.join = true;
   std::vector<double> times;
+  times.reserve(files.size());
   for (const StepFile& file : files) times.push_back(file.time);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());

@@ -148,7 +148,7 @@ class VtkHdf {
                std::vector<MeshArray> MeshPiece::*list) {
     const std::string group = "VTKHDF/" + data;
     for (const std::string& name : file_->datasetsOf(group)) {
-      const std::string path = group + "/" + name;
+      const std::string path = textOf("%s/%s", group.c_str(), name.c_str());
       const std::string shown = textOf("array \"%s\"", cutMeshName(name).c_str());
       const Hdf5Shape shape = file_->shapeOf(path);
       if (!shape.numbers) {
@@ -160,7 +160,8 @@ class VtkHdf {
                       " components, 1 to 9 are possible");
         continue;
       }
-      const uint64_t begin = numberOfStep(data + "Offsets/" + name, first);
+      const uint64_t begin =
+          numberOfStep(textOf("%sOffsets/%s", data.c_str(), name.c_str()), first);
       checkRows(path, shape, begin, rows);
       addToParts(name, path, shape, begin, list);
     }

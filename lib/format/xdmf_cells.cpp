@@ -58,7 +58,8 @@ class SpooledBytes final : public ValueBytes {
   std::shared_ptr<ColumnSpool> spool_;
 };
 
-MeshArray spooledArray(const char* name, ValueType type, std::shared_ptr<ColumnSpool> spool) {
+MeshArray spooledArray(const char* name, ValueType type,
+                       const std::shared_ptr<ColumnSpool>& spool) {
   spool->close();
   MeshArray array{name, type, 1, {}};
   array.open = [spool, type](uint64_t) {

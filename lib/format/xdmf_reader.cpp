@@ -20,7 +20,7 @@ constexpr int kMostOthers = 1024;  // functions, each of which looks for its mes
 
 class Xdmf {
  public:
-  Xdmf(std::shared_ptr<ByteSource> bytes, const ReadOptions& options, MeshPieces& mesh)
+  Xdmf(const std::shared_ptr<ByteSource>& bytes, const ReadOptions& options, MeshPieces& mesh)
       : options_(options), mesh_(mesh), arrays_(bytes), grids_(readXdmf(*bytes)) {
     mesh_.name = bytes->name();
     children_.resize(grids_.size());
@@ -33,6 +33,7 @@ class Xdmf {
     if (leaves.empty()) failFile(Status::kBadData, "there is no grid with cells");
     mesh_.join = leaves.size() > 1;
     std::vector<MeshPiece> pieces;
+    pieces.reserve(leaves.size());
     for (const int leaf : leaves) pieces.push_back(readPiece(leaf));
     if (pieces.size() == 1) addOthers(leaves[0], pieces[0]);
     takeForm(pieces);
@@ -180,6 +181,7 @@ class Xdmf {
       columns.push_back(arrays_.arrayOf(item, "geometry", 1));
     piece.points = MeshArray{"geometry", columns[0].type, 3, [columns, count](uint64_t) {
                                std::vector<std::unique_ptr<Values>> opened;
+                               opened.reserve(columns.size());
                                for (const MeshArray& column : columns)
                                  opened.push_back(column.open(count));
                                return openColumns(std::move(opened));
