@@ -194,7 +194,7 @@ void Parser::addStreamOptions(CLI::App* command) {
   for (const tetstream_option_info& info : optionTable())
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
         info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
-        info.id == TETSTREAM_OPTION_SPLIT)
+        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_STEP)
       addTableOption(command, info);
 }
 
@@ -330,7 +330,7 @@ void Parser::addCompare() {
     if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
         info.id == TETSTREAM_OPTION_SEED || info.id == TETSTREAM_OPTION_REGIONS ||
         info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
-        info.id == TETSTREAM_OPTION_SPLIT)
+        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_STEP)
       addTableOption(command, info);
   }
   addReport(command);

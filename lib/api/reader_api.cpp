@@ -4,6 +4,7 @@
 #include "handles.h"
 #include "memory_source.h"
 #include "registry.h"
+#include "time_steps.h"
 
 using namespace tetstream;
 
@@ -21,6 +22,7 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   ReadOptions options;
   options.temp_dir = run.temp_dir;
   options.split = run.split == "yes";
+  options.step = parseStep(run.step);
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
   wrappingOf(path, &options.path);
   bytes = unwrapped(std::move(bytes));

@@ -25,7 +25,16 @@ constexpr int dimensionOf(CellShape shape) {
 }
 const char* nameOf(CellShape shape);  // "hexahedron"
 
-constexpr size_t kMostSplit = 6;  // tetrahedra of one cell
+constexpr size_t kMostCorners = 8;  // of one cell
+constexpr size_t kMostSplit = 6;    // tetrahedra of one cell
+
+// What readers say of them: in an error after the cell's name, in notes after the number of cells.
+constexpr char kOnlyTetrahedra[] =
+    "only tetrahedra are read, unless other cells are to be split into them (option split, "
+    "--split)";
+constexpr char kSplitNote[] = "cells that are no tetrahedra are split into them";
+constexpr char kHigherOrderNote[] =
+    "cells of higher order are read by their corners: what lies between is left out";
 
 // Splits a cell with four corners or more into tetrahedra, a face into triangles, by its corners'
 // ranks alone: each quadrilateral is cut from its smallest corner, so that cells that share it

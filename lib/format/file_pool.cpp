@@ -2,6 +2,11 @@
 
 namespace tetstream {
 
+std::string pathBeside(const std::string& file, const std::string& name) {
+  const size_t slash = file.find_last_of('/');
+  return name[0] == '/' || slash == std::string::npos ? name : file.substr(0, slash + 1) + name;
+}
+
 constexpr size_t kMostOpen = 64;
 
 namespace {

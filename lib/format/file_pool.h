@@ -10,6 +10,9 @@
 
 namespace tetstream {
 
+// Where a name in a file leads: beside the file, or anywhere if it is absolute.
+std::string pathBeside(const std::string& file, const std::string& name);
+
 class FilePool : public std::enable_shared_from_this<FilePool> {
  public:
   // The file, opened once to know its size and from then on when it is read.

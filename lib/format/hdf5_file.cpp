@@ -14,7 +14,7 @@ namespace tetstream {
 constexpr uint64_t kMaxHdf5Ratio = 1040;
 // Chunks are decompressed whole; VTK's have some hundred kilobytes.
 constexpr uint64_t kMaxChunkBytes = uint64_t{256} << 20;
-constexpr size_t kMaxText = 256;
+constexpr size_t kMaxText = 256, kMaxHdf5Name = 4096;
 // H5F_ACC_RDONLY and H5F_ACC_TRUNC; the macros themselves call the library.
 constexpr unsigned kReadOnly = 0, kTruncate = 2;
 
@@ -161,10 +161,16 @@ void Hdf5File::checkStorage(hid_t dataset, const Hdf5Shape& shape, const std::st
          static_cast<unsigned long long>(stored));
 }
 
+bool Hdf5File::hasAttribute(const std::string& path, const std::string& attribute) {
+  const std::string what = "\"" + path + "\"";
+  const Hdf5Id object(check(hdf5().Oopen(file_, path.c_str(), H5P_DEFAULT), what), hdf5().Oclose);
+  return check(hdf5().Aexists(object, attribute.c_str()), what) > 0;
+}
+
 std::string Hdf5File::textAttribute(const std::string& path, const std::string& attribute) {
   const std::string what = "attribute \"" + attribute + "\" of \"" + path + "\"";
-  const Hdf5Id group(check(hdf5().Gopen2(file_, path.c_str(), H5P_DEFAULT), what), hdf5().Gclose);
-  const Hdf5Id found(check(hdf5().Aopen(group, attribute.c_str(), H5P_DEFAULT), what),
+  const Hdf5Id object(check(hdf5().Oopen(file_, path.c_str(), H5P_DEFAULT), what), hdf5().Oclose);
+  const Hdf5Id found(check(hdf5().Aopen(object, attribute.c_str(), H5P_DEFAULT), what),
                      hdf5().Aclose);
   const Hdf5Id type(check(hdf5().Aget_type(found), what), hdf5().Tclose);
   const Hdf5Id space(check(hdf5().Aget_space(found), what), hdf5().Sclose);
@@ -199,6 +205,28 @@ std::vector<int64_t> Hdf5File::integers(const std::string& path, size_t most) {
         hdf5().Dread(dataset, hdf5().T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
         "dataset \"" + path + "\"");
   return numbers;
+}
+
+std::vector<std::string> Hdf5File::texts(const std::string& path, size_t most) {
+  const std::string what = "dataset \"" + path + "\"";
+  const Hdf5Id dataset = openDataset(path);
+  const Hdf5Id space(check(hdf5().Dget_space(dataset), what), hdf5().Sclose);
+  const Hdf5Id type(check(hdf5().Dget_type(dataset), what), hdf5().Tclose);
+  hsize_t sizes[2] = {0, 0};
+  if (hdf5().Tget_class(type) != H5T_STRING || hdf5().Tget_size(type) != 1 ||
+      check(hdf5().Sget_simple_extent_ndims(space), what) != 2)
+    fail(Status::kBadData, "%s: %s is no list of names", name_.c_str(), what.c_str());
+  check(hdf5().Sget_simple_extent_dims(space, sizes, nullptr), what);
+  if (sizes[0] > most || sizes[1] > kMaxHdf5Name)
+    fail(Status::kUnsupported, "%s: %s has more than %zu names, or longer ones than %zu bytes",
+         name_.c_str(), what.c_str(), most, kMaxHdf5Name);
+  const auto width = static_cast<size_t>(sizes[1]);
+  std::string all(static_cast<size_t>(sizes[0]) * width, 0);
+  if (!all.empty())
+    check(hdf5().Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), what);
+  std::vector<std::string> rows;
+  for (size_t i = 0; i < sizes[0]; ++i) rows.push_back(all.substr(i * width, width));
+  return rows;
 }
 
 Hdf5Id Hdf5File::createGroup(const std::string& path) {
@@ -237,6 +265,31 @@ void Hdf5File::addAttribute(hid_t object, const char* attribute,
   check(hdf5().Awrite(made, hdf5().T_NATIVE_INT64, numbers.data()), what);
 }
 
+namespace {
+
+class SourceStorage final : public Hdf5Storage {
+ public:
+  explicit SourceStorage(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {}
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    return bytes_->readAt(offset, out, size);
+  }
+  void writeAt(uint64_t, const void*, size_t) override {
+    fail(Status::kInternal, "%s: HDF5 writes to a file that is read", bytes_->name().c_str());
+  }
+  void resize(uint64_t) override {}
+  uint64_t size() const override { return bytes_->size(); }
+
+ private:
+  std::unique_ptr<ByteSource> bytes_;
+};
+
+}  // namespace
+
+std::shared_ptr<Hdf5File> openHdf5(std::unique_ptr<ByteSource> bytes) {
+  const std::string name = bytes->name();
+  return std::make_shared<Hdf5File>(std::make_unique<SourceStorage>(std::move(bytes)), name, false);
+}
+
 hid_t hdf5Type(ValueType type) {
   const Hdf5Functions& h = hdf5();
   const hid_t types[] = {h.T_NATIVE_INT8,  h.T_NATIVE_UINT8,  h.T_NATIVE_INT16, h.T_NATIVE_UINT16,
@@ -249,22 +302,22 @@ namespace {
 
 class Hdf5Values final : public Values {
  public:
-  Hdf5Values(std::shared_ptr<Hdf5File> file, const std::string& path, uint64_t first_row)
-      : file_(std::move(file)), what_("dataset \"" + path + "\""), first_row_(first_row) {
+  Hdf5Values(std::shared_ptr<Hdf5File> file, const std::string& path, uint64_t first)
+      : file_(std::move(file)), what_("dataset \"" + path + "\""), first_(first) {
     const Hdf5Turn turn;
     shape_ = file_->shapeOf(path);
     dataset_ = file_->openDataset(path);
   }
 
   void read(uint64_t first, size_t count, void* out, ScalarType type) override {
-    if (isSame(shape_.type, type)) return readStored(first, count, out);
     unsigned char* to = static_cast<unsigned char*>(out);
+    if (isSame(shape_.type, type)) return readStored(first_ + first, count, to);
     const size_t row = static_cast<size_t>(shape_.components);
-    const size_t at_once = std::max<size_t>(kConverted / row, 1) * row;
+    const size_t at_once = row < kConverted ? kConverted / row * row : kConverted;
     stored_.resize(at_once * sizeOf(shape_.type));
     while (count > 0) {
       const size_t n = std::min(count, at_once);
-      readStored(first, n, stored_.data());
+      readStored(first_ + first, n, stored_.data());
       convertValues(stored_.data(), {shape_.type, file_->name() + ": " + what_, first}, to, type,
                     n);
       to += n * sizeOf(type);
@@ -276,11 +329,23 @@ class Hdf5Values final : public Values {
  private:
   static constexpr size_t kConverted = 4096;  // values
 
-  void readStored(uint64_t first, size_t count, void* out) {
+  // A part of a row, then whole rows, then a part of one.
+  void readStored(uint64_t first, size_t count, unsigned char* out) {
     const Hdf5Turn turn;
+    const uint64_t row = shape_.components;
+    for (size_t n; count > 0; first += n, count -= n, out += n * sizeOf(shape_.type)) {
+      const uint64_t column = first % row;
+      const bool whole = column == 0 && count >= row;
+      n = static_cast<size_t>(whole ? count - count % row
+                                    : std::min<uint64_t>(count, row - column));
+      const hsize_t start[2] = {first / row, column};
+      const hsize_t size[2] = {whole ? n / row : 1, whole ? row : n};
+      readSlab(start, size, out);
+    }
+  }
+
+  void readSlab(const hsize_t* start, const hsize_t* size, void* out) {
     const Hdf5Functions& h = hdf5();
-    const hsize_t start[2] = {first_row_ + first / shape_.components, 0};
-    const hsize_t size[2] = {count / shape_.components, shape_.components};
     const Hdf5Id space(file_->check(h.Dget_space(dataset_), what_), h.Sclose);
     // Of as many dimensions: else the library goes value by value.
     const Hdf5Id memory(file_->check(h.Screate_simple(shape_.dimensions, size, nullptr), what_),
@@ -291,7 +356,7 @@ class Hdf5Values final : public Values {
 
   std::shared_ptr<Hdf5File> file_;
   std::string what_;
-  uint64_t first_row_;
+  uint64_t first_;
   Hdf5Shape shape_;
   Hdf5Id dataset_;
   std::vector<unsigned char> stored_;
@@ -300,8 +365,8 @@ class Hdf5Values final : public Values {
 }  // namespace
 
 std::unique_ptr<Values> openHdf5Values(std::shared_ptr<Hdf5File> file, const std::string& path,
-                                       uint64_t first_row) {
-  return std::make_unique<Hdf5Values>(std::move(file), path, first_row);
+                                       uint64_t first) {
+  return std::make_unique<Hdf5Values>(std::move(file), path, first);
 }
 
 }  // namespace tetstream

@@ -91,7 +91,10 @@ class Hdf5File {
   bool has(const std::string& path);
   std::vector<std::string> datasetsOf(const std::string& group);  // by name; none: no such group
   Hdf5Shape shapeOf(const std::string& path);  // throws if it claims more than the file can hold
-  std::string textAttribute(const std::string& group, const std::string& attribute);
+  bool hasAttribute(const std::string& object, const std::string& attribute);
+  std::string textAttribute(const std::string& object, const std::string& attribute);
+  // The rows of a dataset of single characters.
+  std::vector<std::string> texts(const std::string& path, size_t most);
   std::vector<int64_t> integers(const std::string& path, size_t most);
 
   Hdf5Id createGroup(const std::string& path);
@@ -121,12 +124,15 @@ class Hdf5File {
   Hdf5Id file_;
 };
 
+// A file that is read from a seekable source.
+std::shared_ptr<Hdf5File> openHdf5(std::unique_ptr<ByteSource> bytes);
+
 // The library's number of a type.
 hid_t hdf5Type(ValueType type);
 
-// Rows [first, ...) of a dataset of numbers as the values of an array. Asked for whole rows only.
+// The values of a dataset of numbers, row after row, from `first` on.
 std::unique_ptr<Values> openHdf5Values(std::shared_ptr<Hdf5File> file, const std::string& path,
-                                       uint64_t first_row);
+                                       uint64_t first);
 
 }  // namespace tetstream
 #endif

@@ -7,10 +7,9 @@
 #include <bit>
 #include <cstring>
 
-#include "column_spool.h"
+#include "buckets.h"
 #include "memory.h"
 #include "mix.h"
-#include "row_spool.h"
 #include "status.h"
 
 namespace tetstream {
@@ -34,72 +33,22 @@ struct Same {
   bool operator<(const Same& other) const { return point < other.point; }
 };
 
-// Rows in files, by bucket.
-template <class Row>
-class Buckets {
+// Finds the points that are one, and numbers those that are left.
+class JoinFinder {
  public:
-  Buckets(size_t count, const std::string& temp_dir) {
-    for (size_t i = 0; i < count; ++i) files_.push_back(std::make_unique<ColumnSpool>(temp_dir));
-  }
-  size_t count() const { return files_.size(); }
-  void add(size_t bucket, const Row& row) { files_[bucket]->append(&row, sizeof row); }
-  // The rows of a bucket, sorted. Its file is gone afterwards.
-  Array<Row> take(size_t bucket, Account& account) {
-    ColumnSpool& file = *files_[bucket];
-    file.close();
-    Array<Row> rows(account, static_cast<size_t>(file.size() / sizeof(Row)));
-    if (rows.size() > 0) file.readAt(0, rows.data(), static_cast<size_t>(file.size()));
-    std::sort(rows.data(), rows.data() + rows.size());
-    files_[bucket].reset();
-    return rows;
-  }
+  JoinFinder(IndexedSource& mesh, const JoinPlan& plan, RowSpool& new_of, RowSpool& old_of)
+      : mesh_(mesh), schema_(mesh.schema()), plan_(plan), new_of_(new_of), old_of_(old_of) {}
 
- private:
-  std::vector<std::unique_ptr<ColumnSpool>> files_;
-};
-
-class JoinedPoints final : public IndexedSource {
- public:
-  JoinedPoints(std::unique_ptr<IndexedSource> mesh, const JoinPlan& plan)
-      : mesh_(std::move(mesh)),
-        plan_(plan),
-        schema_(mesh_->schema()),
-        new_of_(sizeof(int64_t), plan.temp_dir),
-        old_of_(sizeof(uint64_t), plan.temp_dir) {
+  void find() {
     const uint64_t points = static_cast<uint64_t>(schema_.vertex_count);
     const uint64_t buckets =
         std::clamp<uint64_t>(points * sizeof(Keyed) / kBucketBytes + 1, 1, kMaxBuckets);
-    Buckets<Keyed> keyed(static_cast<size_t>(buckets), plan.temp_dir);
+    Buckets<Keyed> keyed(static_cast<size_t>(buckets), plan_.temp_dir);
     addKeys(keyed, points);
-    Buckets<Same> same(static_cast<size_t>(buckets), plan.temp_dir);
+    Buckets<Same> same(static_cast<size_t>(buckets), plan_.temp_dir);
     findSame(keyed, same, points);
     number(same, points);
-    schema_.vertex_count = static_cast<int64_t>(old_of_.rows());
     tell(points - old_of_.rows());
-  }
-
-  bool changed() const { return old_of_.rows() < new_of_.rows(); }
-  std::unique_ptr<IndexedSource> takeMesh() { return std::move(mesh_); }
-
-  const Schema& schema() const override { return schema_; }
-  void readPositions(uint64_t first, size_t count, void* out) override {
-    forRuns(first, count, 3 * sizeOf(schema_.position_type), out,
-            [&](uint64_t point, size_t n, void* to) { mesh_->readPositions(point, n, to); });
-  }
-  void readField(size_t column, uint64_t first, size_t count, void* out) override {
-    forRuns(first, count, schema_.fields[column].bytesPerRow(), out,
-            [&](uint64_t point, size_t n, void* to) { mesh_->readField(column, point, n, to); });
-  }
-  void readCells(uint64_t first, size_t count, int64_t* out) override {
-    mesh_->readCells(first, count, out);
-    for (size_t i = 0; i < 4 * count; ++i) out[i] = newOf(static_cast<uint64_t>(out[i]));
-  }
-  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
-    mesh_->readCellData(column, first, count, out);
-  }
-  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
-    mesh_->readFaces(first, count, corners, labels);
-    for (size_t i = 0; i < 3 * count; ++i) corners[i] = newOf(static_cast<uint64_t>(corners[i]));
   }
 
  private:
@@ -123,7 +72,7 @@ class JoinedPoints final : public IndexedSource {
   void readPlaces(uint64_t first, size_t count, double* out) {
     float narrow[3 * kAtOnce];
     const bool is_narrow = schema_.position_type == ScalarType::kFloat32;
-    mesh_->readPositions(first, count, is_narrow ? static_cast<void*>(narrow) : out);
+    mesh_.readPositions(first, count, is_narrow ? static_cast<void*>(narrow) : out);
     if (is_narrow)
       convertScalars(narrow, ScalarType::kFloat32, out, ScalarType::kFloat64, 3 * count);
     for (size_t i = 0; i < 3 * count; ++i) out[i] += 0.0;  // -0 is 0
@@ -133,7 +82,7 @@ class JoinedPoints final : public IndexedSource {
   void readIds(uint64_t first, size_t count, double* out) {
     int64_t ids[kAtOnce];
     const size_t column = static_cast<size_t>(plan_.global_ids);
-    mesh_->readField(column, first, count, ids);
+    mesh_.readField(column, first, count, ids);
     if (schema_.fields[column].type == ScalarType::kInt32) {
       int32_t narrow[kAtOnce];
       std::memcpy(narrow, ids, count * sizeof(int32_t));
@@ -206,47 +155,89 @@ class JoinedPoints final : public IndexedSource {
                  static_cast<unsigned long long>(kept_apart_), by));
   }
 
-  // Of a joined point, what stands there is -1 - the first one, which is not joined.
-  int64_t newOf(uint64_t point) {
-    int64_t number;
-    std::memcpy(&number, new_of_.row(point), sizeof number);
-    if (number < 0)
-      std::memcpy(&number, new_of_.row(static_cast<uint64_t>(-1 - number)), sizeof number);
-    return number;
+  IndexedSource& mesh_;
+  const Schema& schema_;
+  const JoinPlan& plan_;
+  RowSpool &new_of_, &old_of_;
+  uint64_t kept_apart_ = 0;
+};
+
+class JoinedPoints final : public IndexedSource {
+ public:
+  JoinedPoints(std::unique_ptr<IndexedSource> mesh, std::shared_ptr<PointJoin> points)
+      : mesh_(std::move(mesh)), points_(std::move(points)), schema_(mesh_->schema()) {
+    schema_.vertex_count = static_cast<int64_t>(points_->count());
   }
 
-  uint64_t oldOf(uint64_t point) {
-    uint64_t old;
-    std::memcpy(&old, old_of_.row(point), sizeof old);
-    return old;
+  const Schema& schema() const override { return schema_; }
+  void readPositions(uint64_t first, size_t count, void* out) override {
+    forRuns(first, count, 3 * sizeOf(schema_.position_type), out,
+            [&](uint64_t point, size_t n, void* to) { mesh_->readPositions(point, n, to); });
+  }
+  void readField(size_t column, uint64_t first, size_t count, void* out) override {
+    forRuns(first, count, schema_.fields[column].bytesPerRow(), out,
+            [&](uint64_t point, size_t n, void* to) { mesh_->readField(column, point, n, to); });
+  }
+  void readCells(uint64_t first, size_t count, int64_t* out) override {
+    mesh_->readCells(first, count, out);
+    for (size_t i = 0; i < 4 * count; ++i) out[i] = points_->newOf(static_cast<uint64_t>(out[i]));
+  }
+  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
+    mesh_->readCellData(column, first, count, out);
+  }
+  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
+    mesh_->readFaces(first, count, corners, labels);
+    for (size_t i = 0; i < 3 * count; ++i)
+      corners[i] = points_->newOf(static_cast<uint64_t>(corners[i]));
   }
 
+ private:
   template <class Read>
   void forRuns(uint64_t first, size_t count, size_t row_bytes, void* out, Read read) {
     for (size_t at = 0; at < count;) {
-      const uint64_t point = oldOf(first + at);
+      const uint64_t point = points_->oldOf(first + at);
       size_t n = 1;
-      while (at + n < count && oldOf(first + at + n) == point + n) ++n;
+      while (at + n < count && points_->oldOf(first + at + n) == point + n) ++n;
       read(point, n, static_cast<unsigned char*>(out) + at * row_bytes);
       at += n;
     }
   }
 
   std::unique_ptr<IndexedSource> mesh_;
-  JoinPlan plan_;
+  std::shared_ptr<PointJoin> points_;
   Schema schema_;
-  RowSpool new_of_, old_of_;
-  uint64_t kept_apart_ = 0;
 };
 
 }  // namespace
 
+PointJoin::PointJoin(IndexedSource& mesh, const JoinPlan& plan)
+    : new_of_(sizeof(int64_t), plan.temp_dir), old_of_(sizeof(uint64_t), plan.temp_dir) {
+  JoinFinder(mesh, plan, new_of_, old_of_).find();
+}
+
+// Of a joined point, what stands there is -1 - the first one, which is not joined.
+int64_t PointJoin::firstOf(int64_t point) {
+  int64_t number;
+  std::memcpy(&number, new_of_.row(static_cast<uint64_t>(point)), sizeof number);
+  return number < 0 ? -1 - number : point;
+}
+
+int64_t PointJoin::newOf(uint64_t point) {
+  int64_t number;
+  const int64_t first = firstOf(static_cast<int64_t>(point));
+  std::memcpy(&number, new_of_.row(static_cast<uint64_t>(first)), sizeof number);
+  return number;
+}
+
+uint64_t PointJoin::oldOf(uint64_t point) {
+  uint64_t old;
+  std::memcpy(&old, old_of_.row(point), sizeof old);
+  return old;
+}
+
 std::unique_ptr<IndexedSource> joinPoints(std::unique_ptr<IndexedSource> mesh,
-                                          const JoinPlan& plan) {
-  if (plan.first_points.size() < 2) return mesh;
-  auto joined = std::make_unique<JoinedPoints>(std::move(mesh), plan);
-  if (!joined->changed()) return joined->takeMesh();
-  return joined;
+                                          std::shared_ptr<PointJoin> points) {
+  return std::make_unique<JoinedPoints>(std::move(mesh), std::move(points));
 }
 
 }  // namespace tetstream

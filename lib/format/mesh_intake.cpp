@@ -74,10 +74,8 @@ void MeshIntake::addPoint(const double position[3]) {
 size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t* labels,
                            int64_t number) {
   if (kind.shape != CellShape::kTetra && !options_.split)
-    file_.failHere(Status::kUnsupported,
-                   "cell " + std::to_string(number) + " is a " + nameOf(kind.shape) +
-                       "; only tetrahedra are read, unless other cells are to be split into them "
-                       "(option split)");
+    file_.failHere(Status::kUnsupported, "cell " + std::to_string(number) + " is a " +
+                                             nameOf(kind.shape) + "; " + kOnlyTetrahedra);
   int64_t made[kMostSplit][4];
   const size_t count = splitCell(kind.shape, corners, made);
   quadratic_ += kind.nodes > cornersOf(kind.shape);
@@ -243,11 +241,8 @@ std::unique_ptr<IndexedSource> MeshIntake::finish() {
   takeFaces();
   if (mesh_->cellCount() == 0 && mesh_->pointCount() > 0)
     fail(Status::kUnsupported, "%s: there are points, but no tetrahedron", name_.c_str());
-  if (quadratic_ > 0)
-    note(plural(quadratic_,
-                "cells of higher order are read by their corners: what lies between "
-                "is left out"));
-  if (split_ > 0) note(plural(split_, "cells that are no tetrahedra are split into them"));
+  if (quadratic_ > 0) note(plural(quadratic_, kHigherOrderNote));
+  if (split_ > 0) note(plural(split_, kSplitNote));
   for (const auto& [things, count] : left_out_) note(plural(count, things + " are left out"));
   return std::move(mesh_);
 }

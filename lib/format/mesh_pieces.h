@@ -1,5 +1,6 @@
 // format: an indexed mesh as VTK's files and their relatives lay it out: pieces with points, cells
-// of any type and named arrays over them, each of which can be read by range. Depends on values.h.
+// of any type and named arrays over them, each of which can be read by range. Depends on values.h,
+// side_faces.h.
 #pragma once
 
 #include <functional>
@@ -7,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "side_faces.h"
 #include "values.h"
 
 namespace tetstream {
@@ -41,6 +43,7 @@ struct MeshPieces {
   bool join = false;       // points that pieces share are to be one each
   std::string global_ids;  // the points' array that tells which those are, if the file names one
   std::vector<MeshPiece> pieces;
+  std::shared_ptr<SideFaces> faces;          // that are no cells, of the first piece; may be null
   uint64_t point_count = 0, cell_count = 0;  // of all pieces
   std::vector<std::string> notes;            // what was left out, each once
 

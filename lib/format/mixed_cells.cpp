@@ -10,69 +10,13 @@ namespace tetstream {
 namespace {
 
 constexpr size_t kWindowValues = 2048;
-constexpr size_t kMostCorners = 4;
 // Of VTK's ghost marks: the cell is another piece's, was refined, is hidden.
 constexpr int64_t kGhostBits = 1 | 8 | 32;
 
 struct KeptCell {
-  int64_t points[kMostCorners];
+  int64_t points[4];
   uint64_t cell;
 };
-
-enum class CellFate { kTetra, kCurved, kTriangle, kLower, kEmpty, kOther };
-
-struct CellType {
-  int64_t type;
-  const char* name;
-  CellFate fate;
-  uint64_t points;  // of those that stay; 0: any number
-};
-
-constexpr CellType kCellTypes[] = {
-    {0, "an empty cell", CellFate::kEmpty, 0},
-    {1, "a vertex", CellFate::kLower, 0},
-    {2, "a set of vertices", CellFate::kLower, 0},
-    {3, "a line", CellFate::kLower, 0},
-    {4, "a polyline", CellFate::kLower, 0},
-    {5, "a triangle", CellFate::kTriangle, 3},
-    {6, "a triangle strip", CellFate::kLower, 0},
-    {7, "a polygon", CellFate::kLower, 0},
-    {8, "a pixel", CellFate::kLower, 0},
-    {9, "a quadrilateral", CellFate::kLower, 0},
-    {10, "a tetrahedron", CellFate::kTetra, 4},
-    {11, "a voxel", CellFate::kOther, 0},
-    {12, "a hexahedron", CellFate::kOther, 0},
-    {13, "a wedge", CellFate::kOther, 0},
-    {14, "a pyramid", CellFate::kOther, 0},
-    {21, "a quadratic line", CellFate::kLower, 0},
-    {22, "a quadratic triangle", CellFate::kLower, 0},
-    {23, "a quadratic quadrilateral", CellFate::kLower, 0},
-    {24, "a quadratic tetrahedron", CellFate::kCurved, 10},
-    {25, "a quadratic hexahedron", CellFate::kOther, 0},
-    {26, "a quadratic wedge", CellFate::kOther, 0},
-    {27, "a quadratic pyramid", CellFate::kOther, 0},
-    {28, "a biquadratic quadrilateral", CellFate::kLower, 0},
-    {30, "a quadratic linear quadrilateral", CellFate::kLower, 0},
-    {34, "a biquadratic triangle", CellFate::kLower, 0},
-    {35, "a cubic line", CellFate::kLower, 0},
-    {36, "a quadratic polygon", CellFate::kLower, 0},
-    {42, "a polyhedron", CellFate::kOther, 0},
-    {68, "a Lagrange line", CellFate::kLower, 0},
-    {69, "a Lagrange triangle", CellFate::kLower, 0},
-    {70, "a Lagrange quadrilateral", CellFate::kLower, 0},
-    {71, "a Lagrange tetrahedron", CellFate::kCurved, 0},
-    {75, "a Bezier line", CellFate::kLower, 0},
-    {76, "a Bezier triangle", CellFate::kLower, 0},
-    {77, "a Bezier quadrilateral", CellFate::kLower, 0},
-    {78, "a Bezier tetrahedron", CellFate::kCurved, 0},
-};
-
-const CellType& typeOf(int64_t type) {
-  static constexpr CellType unknown = {-1, "no tetrahedron", CellFate::kOther, 0};
-  for (const CellType& row : kCellTypes)
-    if (row.type == type) return row;
-  return unknown;
-}
 
 // Integers of an array in sequence, some thousands read at once.
 class Window {
@@ -177,54 +121,100 @@ class PieceWalk {
   uint64_t begin_ = 0, end_ = 0;
 };
 
-struct Dropped {
-  uint64_t lower = 0, empty = 0, ghosts = 0, curved = 0;
-};
-
 void noteCount(MeshPieces& mesh, uint64_t count, const char* text) {
   if (count > 0) mesh.addNote(textOf("%llu %s", static_cast<unsigned long long>(count), text));
 }
 
-[[noreturn]] void failType(const MeshPieces& mesh, uint64_t cell, const CellType& type,
-                           int64_t number) {
-  fail(
-      Status::kUnsupported,
-      "%s: cell %llu has VTK's type %lld, %s; only tetrahedra (types 10, 24, 71, 78) are read, and "
-      "triangles (type 5) as faces of theirs",
-      mesh.name.c_str(), static_cast<unsigned long long>(cell), static_cast<long long>(number),
-      type.name);
+[[noreturn]] void failType(const MeshPieces& mesh, uint64_t cell, const VtkCell& type,
+                           int64_t number, const char* why) {
+  fail(Status::kUnsupported, "%s: cell %llu has VTK's type %lld, %s; %s", mesh.name.c_str(),
+       static_cast<unsigned long long>(cell), static_cast<long long>(number), type.name, why);
 }
 
-// True if the cell stays; else it is counted.
-bool stays(const CellType& type, bool ghost, Dropped& dropped) {
-  dropped.ghosts += ghost;
-  if (ghost) return false;
-  dropped.lower += type.fate == CellFate::kLower;
-  dropped.empty += type.fate == CellFate::kEmpty;
-  dropped.curved += type.fate == CellFate::kCurved;
-  return type.fate != CellFate::kLower && type.fate != CellFate::kEmpty;
-}
+// Fills the spools with what stays of the cells.
+class CellKeeper {
+ public:
+  CellKeeper(MeshPieces& mesh, const MixedCellsPlan& plan, RowSpool* spools)
+      : mesh_(mesh), plan_(plan), spools_(spools) {}
 
-void keepCells(const MeshPieces& mesh, size_t piece, RowSpool* spools, Dropped& dropped) {
-  const MeshPiece& p = mesh.pieces[piece];
-  if (p.cell_count == 0) return;
-  PieceWalk walk(mesh, piece);
-  for (uint64_t cell = 0; cell < p.cell_count; ++cell) {
-    const CellType& type = typeOf(walk.type(cell));
-    if (type.fate == CellFate::kOther) failType(mesh, p.first_cell + cell, type, walk.type(cell));
-    const uint64_t points = walk.next(cell);
-    if (!stays(type, walk.isGhost(cell), dropped)) continue;
-    const bool triangle = type.fate == CellFate::kTriangle;
-    const size_t corners = triangle ? 3 : 4;
-    if (points < corners || (type.points != 0 && points != type.points))
-      walk.failCell(cell, triangle ? "is a triangle with a wrong number of points"
-                                   : "is a tetrahedron with a wrong number of points");
-    KeptCell row = {};
-    walk.readCorners(cell, corners, row.points);
-    row.cell = p.first_cell + cell;
-    spools[triangle ? MixedCells::kTriangles : MixedCells::kTetrahedra].append(&row, 1);
+  void keep(size_t piece) {
+    const MeshPiece& p = mesh_.pieces[piece];
+    if (p.cell_count == 0) return;
+    PieceWalk walk(mesh_, piece);
+    for (uint64_t cell = 0; cell < p.cell_count; ++cell) {
+      const int64_t number = walk.type(cell);
+      const VtkCell& type = vtkCell(number);
+      checkType(p.first_cell + cell, type, number);
+      const uint64_t points = walk.next(cell);
+      if (!stays(type, walk.isGhost(cell))) continue;
+      checkPoints(walk, cell, type, points);
+      int64_t corners[kMostCorners];
+      walk.readCorners(cell, static_cast<size_t>(cornersOf(type.kind.shape)), corners);
+      orderVtkCorners(number, corners);
+      keepParts(p.first_cell + cell, type.kind, points, corners);
+    }
   }
-}
+
+  void tell() {
+    noteCount(mesh_, lower_, "cells of lower dimension are left out");
+    noteCount(mesh_, empty_, "empty cells are left out");
+    noteCount(mesh_, ghosts_,
+              "ghost cells, which other pieces have or which are hidden, are left out");
+    noteCount(mesh_, higher_, kHigherOrderNote);
+    noteCount(mesh_, split_, kSplitNote);
+  }
+
+ private:
+  void checkType(uint64_t cell, const VtkCell& type, int64_t number) const {
+    if (type.fate == VtkCell::kOther)
+      failType(mesh_, cell, type, number, "such cells are not read");
+    const bool is_cell = type.fate == VtkCell::kKnown && dimensionOf(type.kind.shape) == 3;
+    if (is_cell && type.kind.shape != CellShape::kTetra && !plan_.split)
+      failType(mesh_, cell, type, number, kOnlyTetrahedra);
+  }
+
+  // True if the cell stays; else it is counted.
+  bool stays(const VtkCell& type, bool ghost) {
+    ghosts_ += ghost;
+    if (ghost) return false;
+    const bool lower = type.fate == VtkCell::kLower ||
+                       (type.fate == VtkCell::kKnown && dimensionOf(type.kind.shape) < 2);
+    lower_ += lower;
+    empty_ += type.fate == VtkCell::kEmpty;
+    return !lower && type.fate != VtkCell::kEmpty;
+  }
+
+  void checkPoints(const PieceWalk& walk, uint64_t cell, const VtkCell& type,
+                   uint64_t points) const {
+    const auto nodes = static_cast<uint64_t>(type.kind.nodes);
+    if (points < static_cast<uint64_t>(cornersOf(type.kind.shape)) ||
+        (nodes != 0 && points != nodes))
+      walk.failCell(cell, textOf("is %s with a wrong number of points", type.name).c_str());
+  }
+
+  void keepParts(uint64_t cell, CellKind kind, uint64_t points, int64_t* corners) {
+    const auto count = static_cast<size_t>(cornersOf(kind.shape));
+    if (plan_.first_of)
+      for (size_t i = 0; i < count; ++i) corners[i] = plan_.first_of(corners[i]);
+    const bool face = dimensionOf(kind.shape) == 2;
+    KeptCell row = {{}, cell};
+    int64_t triangles[2][3], tetrahedra[kMostSplit][4];
+    const size_t parts = face ? splitFace(kind.shape, corners, triangles)
+                              : splitCell(kind.shape, corners, tetrahedra);
+    for (size_t i = 0; i < parts; ++i) {
+      std::copy_n(face ? triangles[i] : tetrahedra[i], face ? 3 : 4, row.points);
+      spools_[face ? MixedCells::kTriangles : MixedCells::kTetrahedra].append(&row, 1);
+    }
+    if (face) return;
+    higher_ += points > count;
+    split_ += kind.shape != CellShape::kTetra;
+  }
+
+  MeshPieces& mesh_;
+  const MixedCellsPlan& plan_;
+  RowSpool* spools_;
+  uint64_t lower_ = 0, empty_ = 0, ghosts_ = 0, higher_ = 0, split_ = 0;
+};
 
 }  // namespace
 
@@ -238,24 +228,32 @@ const MeshArray* ghostMarks(const MeshPiece& piece) {
   return nullptr;
 }
 
-MixedCells::MixedCells(MeshPieces& mesh, const std::string& temp_dir)
-    : spools_{{sizeof(KeptCell), temp_dir}, {sizeof(KeptCell), temp_dir}} {
-  Dropped dropped;
-  for (size_t i = 0; i < mesh.pieces.size(); ++i) keepCells(mesh, i, spools_, dropped);
+MixedCells::MixedCells(MeshPieces& mesh, const MixedCellsPlan& plan)
+    : spools_{{sizeof(KeptCell), plan.temp_dir}, {sizeof(KeptCell), plan.temp_dir}} {
+  CellKeeper keeper(mesh, plan, spools_);
+  for (size_t i = 0; i < mesh.pieces.size(); ++i) keeper.keep(i);
   for (RowSpool& spool : spools_) spool.finish();
   if (count(kTetrahedra) == 0 && count(kTriangles) > 0)
-    failType(mesh, cellAt(kTriangles, 0), typeOf(kVtkTriangle), kVtkTriangle);
-  noteCount(mesh, dropped.lower, "cells of lower dimension are left out");
-  noteCount(mesh, dropped.empty, "empty cells are left out");
-  noteCount(mesh, dropped.ghosts,
-            "ghost cells, which other pieces have or which are hidden, are left out");
-  noteCount(mesh, dropped.curved, "curved tetrahedra are taken by their corners");
+    fail(Status::kUnsupported, "%s: there are faces, the first of them cell %llu, but no cells",
+         mesh.name.c_str(), static_cast<unsigned long long>(cellAt(kTriangles, 0)));
+  keeper.tell();
 }
 
 uint64_t MixedCells::cellAt(Kind kind, uint64_t index) {
   KeptCell row;
   std::memcpy(&row, spools_[kind].row(index), sizeof row);
   return row.cell;
+}
+
+uint64_t MixedCells::runFrom(Kind kind, uint64_t first, size_t count, size_t* parts) {
+  const uint64_t cell = cellAt(kind, first);
+  uint64_t last = cell;
+  for (*parts = 1; *parts < count; ++*parts) {
+    const uint64_t next = cellAt(kind, first + *parts);
+    if (next - last > 1) break;
+    last = next;
+  }
+  return last - cell + 1;
 }
 
 void MixedCells::readPoints(Kind kind, uint64_t first, size_t count, int64_t* out) {

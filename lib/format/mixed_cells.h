@@ -3,6 +3,8 @@
 // row_spool.h.
 #pragma once
 
+#include <cstring>
+#include <functional>
 #include <string>
 
 #include "mesh_pieces.h"
@@ -15,32 +17,47 @@ namespace tetstream {
 const MeshArray* ghostMarks(const MeshPiece& piece);
 bool isGhostMarks(const MeshArray& array);
 
+struct MixedCellsPlan {
+  std::string temp_dir;
+  bool split = false;  // cells that are no tetrahedra; else they are errors
+  // The first of the points that are one; empty: none are. Cells are split by these, so that those
+  // on both sides of a face that pieces share are cut alike.
+  std::function<int64_t(int64_t)> first_of;
+};
+
 class MixedCells {
  public:
-  // Reads all types and the points of the cells that stay: triangles and tetrahedra, of curved ones
-  // the corners. Other cells of lower dimension, ghosts and empty ones are left out with a note in
-  // `mesh`; any other throws kUnsupported with the cell's number, and so do triangles alone.
-  MixedCells(MeshPieces& mesh, const std::string& temp_dir);
+  // Reads all types and the points of the cells that stay, tetrahedra and what becomes them, and of
+  // the faces, which become triangles; of curved ones the corners. Other cells of lower dimension,
+  // ghosts and empty ones are left out with a note in `mesh`; any other throws kUnsupported with
+  // the cell's number, and so do faces alone.
+  MixedCells(MeshPieces& mesh, const MixedCellsPlan& plan);
 
   enum Kind { kTetrahedra, kTriangles };
   uint64_t count(Kind kind) const { return spools_[kind].rows(); }
   // The points, four or three each, are numbered over all pieces.
   void readPoints(Kind kind, uint64_t first, size_t count, int64_t* out);
-  // Calls read(cell, n, at) for runs of cells that follow each other in the file: n cells from
-  // `cell` on are those from first + at on here.
+  // Rows of what the file says of its cells, for each part of a cell the same: read(cell, n, to)
+  // reads those of n cells from `cell` on.
   template <class Read>
-  void forRuns(Kind kind, uint64_t first, size_t count, Read read) {
-    for (size_t at = 0; at < count;) {
-      const uint64_t cell = cellAt(kind, first + at);
-      size_t n = 1;
-      while (at + n < count && cellAt(kind, first + at + n) == cell + n) ++n;
-      read(cell, n, at);
-      at += n;
+  void readRows(Kind kind, uint64_t first, size_t count, size_t row_bytes, void* out, Read read) {
+    auto* to = static_cast<unsigned char*>(out);
+    for (size_t n; count > 0; first += n, count -= n, to += n * row_bytes) {
+      const uint64_t cell = cellAt(kind, first);
+      const uint64_t cells = runFrom(kind, first, count, &n);
+      read(cell, static_cast<size_t>(cells), static_cast<void*>(to));
+      // From the back: no part's row lies behind its own place.
+      for (size_t i = cells < n ? n : 0; i-- > 0;)
+        std::memmove(to + i * row_bytes, to + (cellAt(kind, first + i) - cell) * row_bytes,
+                     row_bytes);
     }
   }
 
  private:
   uint64_t cellAt(Kind kind, uint64_t index);
+  // The parts, `count` at most, of cells that follow each other in the file; returns how many
+  // cells.
+  uint64_t runFrom(Kind kind, uint64_t first, size_t count, size_t* parts);
 
   RowSpool spools_[2];
 };

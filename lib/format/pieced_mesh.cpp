@@ -86,24 +86,35 @@ ScalarType positionType(const MeshPieces& mesh) {
 
 class PiecedMesh final : public IndexedSource {
  public:
+  // Takes the points and the fields.
   PiecedMesh(MeshPieces mesh, const ReadOptions& options)
-      : mesh_(std::move(mesh)), temp_dir_(options.temp_dir) {
+      : mesh_(std::move(mesh)), options_(options) {
     schema_.position_type = positionType(mesh_);
     PieceColumnPlan plan = planNeeded(mesh_, &MeshPiece::points, PieceRows::kPoints, "points", 3);
     plan.type = schema_.position_type;
     points_ = std::make_unique<PieceColumn>(mesh_, std::move(plan));
-    planCells();
     planColumns(&MeshPiece::point_data, PieceRows::kPoints, schema_.fields, fields_);
-    planColumns(&MeshPiece::cell_data, PieceRows::kCells, schema_.cell_data, cell_data_);
     schema_.vertex_count = static_cast<int64_t>(mesh_.point_count);
+    for (size_t i = 0; i < mesh_.pieces.size(); ++i) {
+      points_->check(i);
+      for (PieceColumn& column : fields_) column.check(i);
+    }
+  }
+
+  // After the points: they tell how cells are split. To be called once; `joined` may be null.
+  void takeCells(PointJoin* joined) {
+    planCells(joined);
+    planColumns(&MeshPiece::cell_data, PieceRows::kCells, schema_.cell_data, cell_data_);
     schema_.cell_count =
         static_cast<int64_t>(mixed_ ? mixed_->count(MixedCells::kTetrahedra) : mesh_.cell_count);
     schema_.face_count = 0;
     if (mixed_ && mixed_->count(MixedCells::kTriangles) > 0) labelFaces();
+    mixed_faces_ = static_cast<uint64_t>(schema_.face_count);
+    if (mesh_.faces) schema_.face_count += static_cast<int64_t>(mesh_.faces->count());
     checkSchema(schema_);
-    checkPieces();
-    if (options.note)
-      for (const std::string& note : mesh_.notes) options.note(mesh_.name + ": " + note);
+    checkCells();
+    if (options_.note)
+      for (const std::string& note : mesh_.notes) options_.note(mesh_.name + ": " + note);
   }
 
   const Schema& schema() const override { return schema_; }
@@ -116,17 +127,18 @@ class PiecedMesh final : public IndexedSource {
 
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
     if (!mixed_) return cell_data_[column].read(first, count, out);
-    const size_t row_bytes = schema_.cell_data[column].bytesPerRow();
-    mixed_->forRuns(MixedCells::kTetrahedra, first, count, [&](uint64_t cell, size_t n, size_t at) {
-      cell_data_[column].read(cell, n, static_cast<unsigned char*>(out) + at * row_bytes);
-    });
+    mixed_->readRows(
+        MixedCells::kTetrahedra, first, count, schema_.cell_data[column].bytesPerRow(), out,
+        [&](uint64_t cell, size_t n, void* to) { cell_data_[column].read(cell, n, to); });
   }
 
   void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
-    mixed_->readPoints(MixedCells::kTriangles, first, count, corners);
-    mixed_->forRuns(MixedCells::kTriangles, first, count, [&](uint64_t cell, size_t n, size_t at) {
-      face_labels_->read(cell, n, labels + at);
-    });
+    const auto mixed = static_cast<size_t>(
+        std::min<uint64_t>(count, first < mixed_faces_ ? mixed_faces_ - first : 0));
+    if (mixed > 0) readMixedFaces(first, mixed, corners, labels);
+    if (mixed < count)
+      mesh_.faces->read(first + mixed - mixed_faces_, count - mixed, corners + 3 * mixed,
+                        labels + mixed);
   }
 
   void readCells(uint64_t first, size_t count, int64_t* out) override {
@@ -145,20 +157,26 @@ class PiecedMesh final : public IndexedSource {
   }
 
  private:
+  void readMixedFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
+    mixed_->readPoints(MixedCells::kTriangles, first, count, corners);
+    mixed_->readRows(MixedCells::kTriangles, first, count, sizeof *labels, labels,
+                     [&](uint64_t cell, size_t n, void* to) { face_labels_->read(cell, n, to); });
+  }
+
   std::unique_ptr<PieceColumn> cellColumn(PieceArray which, const char* name, int components) {
     return std::make_unique<PieceColumn>(
         mesh_, planNeeded(mesh_, which, PieceRows::kCells, name, components));
   }
 
-  void planCells() {
+  void planCells(PointJoin* joined) {
     connectivity_ = cellColumn(&MeshPiece::connectivity, "connectivity", 4);
     if (mesh_.form == CellForm::kTetrahedra) return;
     if (mesh_.form == CellForm::kOffsets) offsets_ = cellColumn(&MeshPiece::offsets, "offsets", 1);
     types_ = cellColumn(&MeshPiece::types, "types", 1);
-    if (onlyTetrahedra() && !hasGhosts())
-      takeTetrahedra();
-    else
-      mixed_ = std::make_unique<MixedCells>(mesh_, temp_dir_);
+    if (onlyTetrahedra() && !hasGhosts()) return takeTetrahedra();
+    MixedCellsPlan plan{options_.temp_dir, options_.split, {}};
+    if (joined) plan.first_of = [joined](int64_t point) { return joined->firstOf(point); };
+    mixed_ = std::make_unique<MixedCells>(mesh_, plan);
   }
 
   bool onlyTetrahedra() {
@@ -235,12 +253,10 @@ class PiecedMesh final : public IndexedSource {
   }
 
   // That every array has the size that the counts need, so that nobody allocates for a lie.
-  void checkPieces() {
+  void checkCells() {
     for (size_t i = 0; i < mesh_.pieces.size(); ++i) {
-      points_->check(i);
       if (!mixed_) connectivity_->check(i);
       if (!mixed_ && offsets_) offsets_->check(i);
-      for (PieceColumn& column : fields_) column.check(i);
       for (PieceColumn& column : cell_data_) column.check(i);
     }
   }
@@ -290,11 +306,12 @@ class PiecedMesh final : public IndexedSource {
   }
 
   MeshPieces mesh_;
-  std::string temp_dir_;
+  ReadOptions options_;
   Schema schema_;
   std::unique_ptr<PieceColumn> points_, connectivity_, offsets_, types_, face_labels_;
   std::unique_ptr<MixedCells> mixed_;  // where the cells are not all that stay
   std::vector<PieceColumn> fields_, cell_data_;
+  uint64_t mixed_faces_ = 0;  // of those, which come first
   uint64_t checked_ = 0;
 };
 
@@ -326,7 +343,12 @@ std::unique_ptr<IndexedSource> openPiecedMesh(MeshPieces mesh, const ReadOptions
   plan.temp_dir = options.temp_dir;
   if (options.note)
     plan.note = [name, note = options.note](const std::string& text) { note(name + ": " + text); };
-  return joinPoints(std::move(opened), plan);
+  std::shared_ptr<PointJoin> joined;
+  if (plan.first_points.size() > 1) joined = std::make_shared<PointJoin>(*opened, plan);
+  if (joined && !joined->changed()) joined.reset();
+  opened->takeCells(joined.get());
+  if (!joined) return opened;
+  return joinPoints(std::move(opened), std::move(joined));
 }
 
 }  // namespace tetstream

@@ -47,20 +47,19 @@ class PieceNames final : XmlFeed {
   int depth_ = 0;
 };
 
-std::string pathBeside(const std::string& file, const std::string& name) {
-  const size_t slash = file.find_last_of('/');
-  return name[0] == '/' || slash == std::string::npos ? name : file.substr(0, slash + 1) + name;
-}
-
 }  // namespace
+
+void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes) {
+  for (const std::string& name : PieceNames(bytes).run())
+    addVtuPieces(mesh, pool.add(pathBeside(bytes.name(), name)));
+}
 
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   bytes = makeSeekable(std::move(bytes), options.temp_dir);
   const auto pool = std::make_shared<FilePool>();
   MeshPieces mesh;
   mesh.join = true;
-  for (const std::string& name : PieceNames(*bytes).run())
-    addVtuPieces(mesh, pool->add(pathBeside(bytes->name(), name)));
+  addPvtuPieces(mesh, *pool, *bytes);
   mesh.name = bytes->name();
   if (mesh.pieces.empty()) fail(Status::kBadData, "%s: there is no <Piece>", mesh.name.c_str());
   Input input;

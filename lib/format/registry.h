@@ -11,11 +11,14 @@
 
 namespace tetstream {
 
+constexpr int64_t kLastStep = -1;
+
 struct ReadOptions {
   std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
   std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
   std::string path;    // of a file; empty: the bytes come from elsewhere, nothing lies beside them
   bool split = false;  // hexahedra, prisms and pyramids into tetrahedra; else they are errors
+  int64_t step = kLastStep;  // which of the time steps, from 0, of a file that has several
 };
 
 struct WriteOptions {
@@ -57,10 +60,13 @@ const Format& needFormat(const std::string& name, const std::string& path);
 // The rows, each defined in its own file.
 Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openVtkHdf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openExodus(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openXdmf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
 Input openSu2(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);

@@ -7,6 +7,7 @@
 #include "mesh_intake.h"
 #include "status.h"
 #include "sva_number.h"
+#include "vtk_cells.h"
 
 namespace tetstream {
 
@@ -15,32 +16,11 @@ namespace {
 constexpr const char* kZone = "zone";
 constexpr size_t kLeastBytes = 4;  // of an element or a point: two numbers with ends
 
-// Those of VTK.
+// The numbers are VTK's of its linear cells.
 const CellKind* kindOf(int64_t type) {
-  static constexpr CellKind kLine = {CellShape::kLine, 2}, kTriangle = {CellShape::kTriangle, 3},
-                            kQuad = {CellShape::kQuadrilateral, 4}, kTetra = {CellShape::kTetra, 4},
-                            kHexa = {CellShape::kHexa, 8}, kPrism = {CellShape::kPrism, 6},
-                            kPyramid = {CellShape::kPyramid, 5}, kPoint = {CellShape::kPoint, 1};
-  switch (type) {
-    case 1:
-      return &kPoint;
-    case 3:
-      return &kLine;
-    case 5:
-      return &kTriangle;
-    case 9:
-      return &kQuad;
-    case 10:
-      return &kTetra;
-    case 12:
-      return &kHexa;
-    case 13:
-      return &kPrism;
-    case 14:
-      return &kPyramid;
-    default:
-      return nullptr;
-  }
+  const VtkCell& cell = vtkCell(type);
+  const bool linear = cell.fate == VtkCell::kKnown && cell.kind.nodes == cornersOf(cell.kind.shape);
+  return linear && !hasRowCorners(type) ? &cell.kind : nullptr;
 }
 
 class Su2Reader {

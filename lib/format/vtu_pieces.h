@@ -1,8 +1,10 @@
-// format: the pieces of .vtu files as those of a mesh. Depends on vtu_file.h, mesh_pieces.h.
+// format: the pieces of .vtu files as those of a mesh. Depends on file_pool.h,
+// mesh_pieces.h, vtu_file.h.
 #pragma once
 
 #include <memory>
 
+#include "file_pool.h"
 #include "mesh_pieces.h"
 #include "vtu_file.h"
 
@@ -10,5 +12,8 @@ namespace tetstream {
 
 // Adds the pieces of one file, which stays open; the mesh takes its name.
 void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes);
+
+// Adds those of the files that a .pvtu file names.
+void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes);
 
 }  // namespace tetstream

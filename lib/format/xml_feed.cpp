@@ -10,12 +10,13 @@ namespace tetstream {
 constexpr size_t kFeedBytes = 1 << 16;
 constexpr uint64_t kMaxTagBytes = 1 << 20;  // of a tag or comment, which expat holds in memory
 
-XmlFeed::XmlFeed(ByteSource& bytes)
+XmlFeed::XmlFeed(ByteSource& bytes, Doctype doctype)
     : bytes_(bytes), expat_(XML_ParserCreate(nullptr), XML_ParserFree) {
   if (!expat_) fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes.name().c_str());
   XML_SetUserData(expat_.get(), this);
   XML_SetElementHandler(expat_.get(), onStart, onEnd);
-  XML_SetStartDoctypeDeclHandler(expat_.get(), onDoctype);
+  if (doctype == Doctype::kRefused) XML_SetStartDoctypeDeclHandler(expat_.get(), onDoctype);
+  XML_SetEntityDeclHandler(expat_.get(), onEntity);
   XML_SetDefaultHandler(expat_.get(), onOther);
 }
 
@@ -102,6 +103,12 @@ void XMLCALL XmlFeed::onEnd(void* user, const XML_Char*) {
 
 void XMLCALL XmlFeed::onOther(void* user, const XML_Char*, int) {
   static_cast<XmlFeed*>(user)->guard([] {});
+}
+
+void XMLCALL XmlFeed::onEntity(void* user, const XML_Char*, int, const XML_Char*, int,
+                               const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*) {
+  XmlFeed& self = *static_cast<XmlFeed*>(user);
+  self.guard([&] { self.failHere("declarations of entities are not read", Status::kUnsupported); });
 }
 
 void XMLCALL XmlFeed::onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*,

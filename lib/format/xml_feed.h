@@ -12,12 +12,15 @@
 
 namespace tetstream {
 
-// Memory is bounded: no tag or comment may be longer than 1 MiB, document types are refused.
+// Memory is bounded: no tag or comment may be longer than 1 MiB, no entities can be declared.
 class XmlFeed {
  public:
   using Attributes = const XML_Char**;
 
-  explicit XmlFeed(ByteSource& bytes);
+  // Document types: refused, or passed over where they declare nothing.
+  enum class Doctype { kRefused, kPassedOver };
+
+  explicit XmlFeed(ByteSource& bytes, Doctype doctype = Doctype::kRefused);
   virtual ~XmlFeed() = default;
 
  protected:
@@ -48,6 +51,8 @@ class XmlFeed {
   static void XMLCALL onStart(void* user, const XML_Char* name, Attributes attributes);
   static void XMLCALL onEnd(void* user, const XML_Char* name);
   static void XMLCALL onOther(void* user, const XML_Char* text, int size);
+  static void XMLCALL onEntity(void* user, const XML_Char*, int, const XML_Char*, int,
+                               const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*);
   static void XMLCALL onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int);
 
   ByteSource& bytes_;

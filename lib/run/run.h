@@ -24,6 +24,7 @@ struct RunOptions {
   std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
   std::string split = "no";  // of other cells, when a file is read
+  std::string step = "last";  // time step, likewise
   bool origins = false;      // ordered vertices tell their ranks in the input
   CompareOptions compare;
 };

@@ -1,5 +1,5 @@
-/* Options of the reading: other cells that are split, folders of temporary files; properties of the
- * format msh. */
+/* Options of the reading: other cells that are split, time steps, folders of temporary files;
+ * properties of the format msh. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +39,45 @@ static void other_cells_are_split_only_if_asked_for(void) {
   CHECK_SAYS(tetstream_reader_note(reader, 0), "are split into them");
   tetstream_reader_destroy(reader);
   tetstream_options_destroy(split);
+}
+
+/* Two steps, of one cell and of two. */
+#define STEP(cells, corners)                                                   \
+  "<Grid><Topology TopologyType=\"Tetrahedron\"><DataItem Dimensions=\"" cells \
+  " 4\" NumberType=\"Int\">" corners                                           \
+  "</DataItem></Topology><Geometry><DataItem "                                 \
+  "Dimensions=\"5 3\">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataItem></Geometry></Grid>"
+static const char kSteps[] =
+    "<Xdmf><Domain><Grid GridType=\"Collection\" CollectionType=\"Temporal\">" STEP("1", "0 1 2 3")
+        STEP("2", "0 1 2 3 1 2 3 4") "</Grid></Domain></Xdmf>";
+
+static void one_time_step_is_read(void) {
+  const struct {
+    const char* step;
+    int64_t cells;
+  } cases[] = {{"first", 1}, {"last", 2}, {"0", 1}, {"1", 2}};
+  const size_t size = sizeof kSteps - 1;
+  tetstream_reader* reader = NULL;
+  for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+    tetstream_options* options = with(TETSTREAM_OPTION_STEP, cases[i].step);
+    CHECK_EQUAL(tetstream_reader_open_memory_with(kSteps, size, "xdmf", options, &reader),
+                TETSTREAM_OK);
+    CHECK_EQUAL(cells_of(reader), cases[i].cells);
+    CHECK_SAYS(tetstream_reader_note(reader, 0), "of 2 time steps, 0 to 1, step");
+    tetstream_reader_destroy(reader);
+    tetstream_options_destroy(options);
+  }
+  CHECK_EQUAL(tetstream_reader_open_memory(kSteps, size, "xdmf", &reader), TETSTREAM_OK);
+  CHECK_EQUAL(cells_of(reader), 2); /* the last */
+  tetstream_reader_destroy(reader);
+  const char* wrong[] = {"2", "-1", "next", "", "1 "};
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
+    tetstream_options* options = with(TETSTREAM_OPTION_STEP, wrong[i]);
+    CHECK_EQUAL(tetstream_reader_open_memory_with(kSteps, size, "xdmf", options, &reader),
+                TETSTREAM_BAD_ARGUMENT);
+    tetstream_reader_destroy(reader);
+    tetstream_options_destroy(options);
+  }
 }
 
 static void every_way_of_opening_takes_options(void) {
@@ -116,6 +155,7 @@ static void the_format_msh_has_an_encoding_and_a_version(void) {
 
 int main(void) {
   RUN_CASE(other_cells_are_split_only_if_asked_for);
+  RUN_CASE(one_time_step_is_read);
   RUN_CASE(every_way_of_opening_takes_options);
   RUN_CASE(a_pipe_is_spooled_where_the_options_say);
   RUN_CASE(null_is_refused);

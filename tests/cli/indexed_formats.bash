@@ -52,7 +52,7 @@ done
 
 # Every way of the formats is listed.
 expect 0 --version
-for name in msh mesh meshb tetgen su2; do contains "$out" $'\n'"  $name "; done
+for name in msh mesh meshb tetgen su2 exodus xdmf pvd; do contains "$out" $'\n'"  $name "; done
 
 # Cells that are no tetrahedra.
 cat >prism.mesh <<'END'
@@ -92,6 +92,30 @@ printf 'NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n' 
 [[ $(cells_in one.su2) == 1 ]] || fail "one cell of SU2"
 expect_error 6 "read, but not written" convert mesh.tets none.su2
 expect_error 6 "read, but not written" convert mesh.tets none.ele
+
+# Time steps, of .vtu and .pvtu files that a .pvd file names; each has its own cells.
+for cells in 100 200 300; do expect 0 generate ball --cells $cells "step$cells.vtu"; done
+cat >steps.pvtu <<'END'
+<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="step300.vtu"/></PUnstructuredGrid></VTKFile>
+END
+cat >steps.pvd <<'END'
+<VTKFile type="Collection"><Collection>
+<DataSet timestep="0.5" part="0" file="steps.pvtu"/>
+<DataSet timestep="0.25" part="0" file="step200.vtu"/>
+<DataSet timestep="0" part="0" file="step100.vtu"/>
+</Collection></VTKFile>
+END
+for way in 100:first 100:0 200:1 300:2 300:last; do
+  expect 0 info steps.pvd --json --step "${way#*:}"
+  step=$(member "$out" cells)
+  [[ $step == $(cells_in "step${way%:*}.vtu") ]] || fail "--step ${way#*:} has $step cells"
+done
+expect 0 info steps.pvd
+contains "$err" "of 3 time steps, 0 to 2, step 2 is read, at time 0.5"
+expect_error 1 "there is no time step 3 (option step, --step): there are 0 to 2" \
+  convert steps.pvd none.tets --step 3
+expect_error 1 '"next" is neither first nor last nor a number from 0' info steps.pvd --step next
+rm -f step*
 
 # Lies about sizes are found at once.
 printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1152921504606846976\n1 0 0 0\n' >lie.msh

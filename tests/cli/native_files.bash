@@ -23,9 +23,13 @@ holds refine_cube_sphere.meshb 5062 26260 'the section Edges is left out'
 holds HumanWedgeMesh.node 18411 97200 'region'
 holds su2_pipe.su2 9919 41402 'zone' '16 component_sidewall_4'
 
+holds 3D_Ridgecrest_mesh_tri.exo 9847 49982 'block_id' 'block_id 1 "elastic_ypos"' \
+  '12 node sets are left out'
+
 # Each simplified into each format that is written, and back. The antenna of the first one is a sheet
 # of labelled faces inside a region, which stays as it is: at 0.1 the target would be missed.
-for file in palace_ring_disk.msh mmg_tinyBoxt.mesh; do
+for file in palace_ring_disk.msh mmg_tinyBoxt.mesh 3D_Ridgecrest_mesh_tri.exo; do
+  rm -f small.*  # the .sol file of another mesh
   for format in msh mesh meshb vtu tets; do
     expect 0 simplify "$meshes/$file" "small.$format" --ratio 0.3 --report json --quiet
     cells=$(member "$out" cells_out)

@@ -35,3 +35,20 @@ for format in "${formats[@]}"; do
   done
 done
 vtk_says same "${pairs[@]}"
+
+# Cells of other shapes: VTK's mesh of all of them becomes tetrahedra that fill it face to face.
+vtk_says shapes .
+filled=()
+for file in shapes.vtu shapes.vtk; do
+  expect_error 6 "only tetrahedra are read, unless other cells are to be split into them (option split, --split)" \
+    convert "$file" none.vtu
+  expect 0 convert "$file" "filled.$file.vtu" --split
+  contains "$err" "cells that are no tetrahedra are split"
+  filled+=("filled.$file.vtu")
+done
+vtk_says fills "${filled[@]}"
+
+# Exodus II.
+vtk_says blocks .
+expect 0 convert blocks.exo ours.blocks.vtu
+vtk_says same blocks.vtu ours.blocks.vtu

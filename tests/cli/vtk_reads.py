@@ -3,6 +3,10 @@
 vtk_reads.py write FOLDER   the mesh mesh.vtu, written by VTK in every way that it has
 vtk_reads.py same A B...    exits with 0 if both files of each pair hold the same cells, corners
                             and values
+vtk_reads.py blocks FOLDER  the mesh mesh.vtu with block ids, and what VTK writes of it as Exodus II
+vtk_reads.py shapes FOLDER  a cube made of cells of all shapes that fill it face to face, .vtu and .vtk
+vtk_reads.py fills A...     exits with 0 if the tetrahedra of each file fill such a cube, face to face,
+                            and bear the labels of the cells that they come from
 """
 
 import sys
@@ -113,4 +117,99 @@ def write(folder):
             writer.Write()
 
 
-{"write": write, "same": same}[sys.argv[1]](*sys.argv[2:])
+def blocks(folder):
+    grid = load(f"{folder}/mesh.vtu")
+    random = np.random.default_rng(3)
+    for data in (grid.GetPointData(), grid.GetCellData()):
+        while data.GetNumberOfArrays() > 0:
+            data.RemoveArray(0)
+    cells = grid.GetNumberOfCells()
+    for data, name, values in (
+        (grid.GetPointData(), "p", random.random(grid.GetNumberOfPoints())),
+        (grid.GetCellData(), "rho", random.random(cells)),
+        (grid.GetCellData(), "block_id", np.sort(random.integers(1, 4, cells, "i4"))),
+    ):
+        array = numpy_to_vtk(values, deep=True)
+        array.SetName(name)
+        data.AddArray(array)
+    # Exodus files of VTK have one type of floats.
+    doubles = vtk.vtkPoints()
+    doubles.SetDataTypeToDouble()
+    doubles.DeepCopy(grid.GetPoints())
+    grid.SetPoints(doubles)
+    for writer, name in ((vtk.vtkXMLUnstructuredGridWriter(), "blocks.vtu"),
+                         (vtk.vtkExodusIIWriter(), "blocks.exo")):
+        writer.SetFileName(f"{folder}/{name}")
+        writer.SetInputData(grid)
+        if name == "blocks.exo":
+            writer.SetBlockIdArrayName("block_id")
+            writer.SetStoreDoubles(1)
+        writer.Write()
+
+
+def cube_of_shapes(n):
+    """n x n x n cubes, each cut into cells of one shape, with points numbered at random; the cell
+    array is the octant that a cell lies in."""
+    grid = vtk.vtkUnstructuredGrid()
+    points = vtk.vtkPoints()
+    points.SetDataTypeToDouble()
+    number = np.random.default_rng(2).permutation((n + 1) ** 3)
+    places = np.empty(((n + 1) ** 3 + n**3, 3))
+    at = lambda x, y, z: int(number[x + (n + 1) * (y + (n + 1) * z)])
+    grid.Allocate(n**3)
+    labels = []
+    middle = (n + 1) ** 3
+    for z, y, x in np.ndindex(n + 1, n + 1, n + 1):
+        places[at(x, y, z)] = np.array((x, y, z)) / n
+    for z, y, x in np.ndindex(n, n, n):
+        places[middle] = (np.array((x, y, z)) + 0.5) / n
+        c = [at(x + (i & 1), y + (i >> 1 & 1), z + (i >> 2)) for i in range(8)]
+        round_ = [c[0], c[1], c[3], c[2], c[4], c[5], c[7], c[6]]
+        kind = (x + z) % 4  # wedges meet along y with their triangles
+        cells = [[(vtk.VTK_VOXEL, c)], [(vtk.VTK_HEXAHEDRON, round_)],
+                 [(vtk.VTK_WEDGE, [c[0], c[1], c[4], c[2], c[3], c[6]]),
+                  (vtk.VTK_WEDGE, [c[1], c[5], c[4], c[3], c[7], c[6]])],
+                 [(vtk.VTK_PYRAMID, [c[i] for i in face] + [middle]) for face in
+                  ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))]]
+        for shape, corners in cells[kind]:
+            grid.InsertNextCell(shape, len(corners), corners)
+            labels.append((2 * x >= n) + 2 * (2 * y >= n) + 4 * (2 * z >= n))
+        middle += 1
+    points.SetData(numpy_to_vtk(places, deep=True))
+    grid.SetPoints(points)
+    array = numpy_to_vtk(np.array(labels, "i4"), deep=True)
+    array.SetName("octant")
+    grid.GetCellData().AddArray(array)
+    return grid
+
+
+def shapes(folder):
+    grid = cube_of_shapes(6)
+    for writer, name in ((vtk.vtkXMLUnstructuredGridWriter(), "shapes.vtu"),
+                         (vtk.vtkUnstructuredGridWriter(), "shapes.vtk")):
+        writer.SetFileName(f"{folder}/{name}")
+        writer.SetInputData(grid)
+        writer.Write()
+
+
+def fills(*paths):
+    for path in paths:
+        grid = load(path)
+        p = vtk_to_numpy(grid.GetPoints().GetData())
+        cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+        corners = p[cells]
+        volume = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])) / 6
+        if abs(volume.sum() - 1) > 1e-12 or volume.min() == 0:
+            sys.exit(f"{path}: the volume is {volume.sum()}, the least {volume.min()}")
+        faces = np.sort(np.concatenate([np.delete(cells, i, 1) for i in range(4)]), 1)
+        faces, counts = np.unique(faces, axis=0, return_counts=True)
+        a, b, c = p[faces[counts == 1]].transpose(1, 0, 2)
+        area = np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+        if counts.max() > 2 or abs(area - 6) > 1e-12:
+            sys.exit(f"{path}: the faces outside have an area of {area}")
+        labels = (corners.mean(1) >= 0.5) @ np.array((1, 2, 4))
+        if not np.array_equal(labels, vtk_to_numpy(grid.GetCellData().GetArray("octant"))):
+            sys.exit(f"{path}: other labels")
+
+
+{"write": write, "same": same, "blocks": blocks, "shapes": shapes, "fills": fills}[sys.argv[1]](*sys.argv[2:])

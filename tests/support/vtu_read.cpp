@@ -32,9 +32,9 @@ static std::string readRows(int64_t count, size_t row_bytes, size_t step, Read r
   return bytes;
 }
 
-VtuMesh readMesh(std::unique_ptr<ByteSource> bytes, const Format& format, size_t step) {
+VtuMesh readMesh(std::unique_ptr<ByteSource> bytes, const Format& format, size_t step,
+                 ReadOptions options) {
   VtuMesh mesh;
-  ReadOptions options;
   options.note = [&](const std::string& text) { mesh.notes.push_back(text); };
   const Input input = format.open(std::move(bytes), options);
   IndexedSource& source = *input.indexed;
@@ -65,13 +65,14 @@ VtuMesh readMesh(std::unique_ptr<ByteSource> bytes, const Format& format, size_t
   return mesh;
 }
 
-VtuMesh readAs(const char* format, const std::string& file, size_t step) {
+VtuMesh readAs(const char* format, const std::string& file, size_t step,
+               const ReadOptions& options) {
   return readMesh(openMemory(file.data(), file.size(), std::string("test.") + format),
-                  *findFormat(format), step);
+                  *findFormat(format), step, options);
 }
 
-VtuMesh readVtu(const std::string& file, size_t step) {
-  return readAs("vtu", file, step);
+VtuMesh readVtu(const std::string& file, size_t step, const ReadOptions& options) {
+  return readAs("vtu", file, step, options);
 }
 
 std::string failureAs(const char* format, const std::string& file) {

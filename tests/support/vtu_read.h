@@ -21,11 +21,13 @@ struct VtuMesh {
 };
 
 // Reads `step` rows at once.
-VtuMesh readMesh(std::unique_ptr<ByteSource> bytes, const Format& format, size_t step = 1000);
+VtuMesh readMesh(std::unique_ptr<ByteSource> bytes, const Format& format, size_t step = 1000,
+                 ReadOptions options = {});
 // `file` is the file's bytes, called "test.vtu".
-VtuMesh readVtu(const std::string& file, size_t step = 1000);
+VtuMesh readVtu(const std::string& file, size_t step = 1000, const ReadOptions& options = {});
 // The same of any indexed format, called "test.FORMAT".
-VtuMesh readAs(const char* format, const std::string& file, size_t step = 1000);
+VtuMesh readAs(const char* format, const std::string& file, size_t step = 1000,
+               const ReadOptions& options = {});
 
 // The sentence of the failure that reading gives, after its status's name; "" if there is none.
 std::string vtuFailure(const std::string& file);

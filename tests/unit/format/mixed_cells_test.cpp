@@ -55,7 +55,7 @@ TEST(MixedCells, TakeTheCornersOfCurvedTetrahedra) {
   piece.cell_data[0].integers = {7};
   const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
   EXPECT_EQ(mesh.cells, (std::vector<int64_t>{3, 2, 1, 0}));
-  EXPECT_TRUE(hasNote(mesh, "1 curved tetrahedra are taken by their corners"));
+  EXPECT_TRUE(hasNote(mesh, "1 cells of higher order are read by their corners"));
 }
 
 TEST(MixedCells, NameTheFirstCellThatIsNoTetrahedronAndItsType) {
@@ -66,6 +66,76 @@ TEST(MixedCells, NameTheFirstCellThatIsNoTetrahedronAndItsType) {
       text.starts_with("TETSTREAM_UNSUPPORTED: test.vtu: cell 3 has VTK's type 14, "
                        "a pyramid"))
       << text;
+}
+
+// A voxel, a wedge, a tetrahedron between them and a line; a square of the voxel is a face.
+VtuTestPiece shapesPiece() {
+  VtuTestPiece piece = twoCellPiece();
+  piece.points = 12;
+  piece.points_element[0].reals = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1,
+                                   0, 1, 1, 1, 1, 1, 2, 0, 0, 2, 0, 1, 0, 2, 0, 3, 3, 3};
+  piece.point_data[0].reals.assign(12, 0);
+  piece.cells = 5;
+  piece.cells_element[0].integers = {0,  1, 2, 3, 4, 5, 6, 7, 8, 11, 2, 3,
+                                     10, 6, 1, 3, 8, 5, 7, 9, 0, 1,  2, 3};
+  piece.cells_element[1].integers = {8, 10, 14, 20, 24};
+  piece.cells_element[2].integers = {11, 3, 10, 13, 8};
+  piece.cell_data[0].integers = {100, 101, 102, 103, 104};
+  return piece;
+}
+
+TEST(MixedCells, AreSplitIfAskedForAndTheirPartsHaveTheirData) {
+  ReadOptions options;
+  options.split = true;
+  for (const VtuStyle& style : kStyles)
+    for (const size_t step : {1, 2, 4, 1000}) {
+      const VtuMesh mesh =
+          readVtu(makeVtu({shapesPiece(), twoCellPiece(), shapesPiece()}, style), step, options);
+      ASSERT_EQ(mesh.schema.cell_count, 22);
+      EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]),
+                (std::vector<int32_t>{100, 100, 100, 100, 100, 100, 102, 103, 103, 103, 7,
+                                      -7,  100, 100, 100, 100, 100, 100, 102, 103, 103, 103}));
+      // The square from its lowest corner; its label goes to both triangles.
+      EXPECT_EQ(std::vector<int64_t>(mesh.faces.begin(), mesh.faces.begin() + 6),
+                (std::vector<int64_t>{0, 1, 3, 0, 3, 2}));
+      EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{104, 104, 104, 104}));
+      EXPECT_TRUE(hasNote(mesh, "4 cells that are no tetrahedra are split into them"));
+      EXPECT_TRUE(hasNote(mesh, "2 cells of lower dimension are left out"));
+    }
+  EXPECT_NE(vtuFailure(makeVtu({shapesPiece()}, {}))
+                .find("type 11, a voxel; only tetrahedra are "
+                      "read, unless other cells are to be "
+                      "split into them (option split"),
+            std::string::npos);
+}
+
+TEST(MixedCells, OfHigherOrderAreSplitByTheirCorners) {
+  ReadOptions options;
+  options.split = true;
+  const struct {
+    int64_t type, points, tetrahedra;
+  } cases[] = {{25, 20, 6}, {26, 15, 3}, {27, 13, 2}, {29, 27, 6}, {37, 19, 2}, {72, 30, 6}};
+  for (const auto& c : cases) {
+    VtuTestPiece piece = shapesPiece();
+    piece.cells = 1;
+    piece.cells_element[0].integers = {0, 1, 3, 2, 4, 5, 7, 6};
+    piece.cells_element[0].integers.resize(static_cast<size_t>(c.points), 11);
+    piece.cells_element[1].integers = {c.points};
+    piece.cells_element[2].integers = {c.type};
+    piece.cell_data[0].integers = {7};
+    const VtuMesh mesh = readVtu(makeVtu({piece}, {}), 1000, options);
+    EXPECT_EQ(mesh.schema.cell_count, c.tetrahedra) << c.type;
+    EXPECT_TRUE(hasNote(mesh, "1 cells of higher order are read by their corners")) << c.type;
+    if (c.type >= 68) continue;  // of any number of points
+    piece.cells_element[0].integers.push_back(1);
+    ++piece.cells_element[1].integers[0];
+    try {
+      readVtu(makeVtu({piece}, {}), 1000, options);
+      ADD_FAILURE() << c.type;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.text()).find("with a wrong number of points"), std::string::npos);
+    }
+  }
 }
 
 TEST(MixedCells, LeaveGhostsOutWithTheirMarks) {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
+#include <set>
 
-#include "hdf5_column.h"
+#include "hdf5_testing.h"
 #include "status.h"
 #include "vtu_encode.h"
 #include "vtu_read.h"
@@ -18,32 +20,10 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// Bytes in memory that a test looks into.
-class MemoryStorage final : public Hdf5Storage {
- public:
-  explicit MemoryStorage(std::string& bytes) : bytes_(bytes) {}
-  size_t readAt(uint64_t offset, void* out, size_t size) override {
-    return offset < bytes_.size() ? bytes_.copy(static_cast<char*>(out), size, offset) : 0;
-  }
-  void writeAt(uint64_t offset, const void* data, size_t size) override {
-    if (fail_at_ >= 0 && fail_at_-- == 0) fail(Status::kIo, "the disk is full");
-    bytes_.resize(std::max<size_t>(bytes_.size(), offset + size));
-    bytes_.replace(offset, size, static_cast<const char*>(data), size);
-  }
-  void resize(uint64_t size) override { bytes_.resize(size); }
-  uint64_t size() const override { return bytes_.size(); }
-  int fail_at_ = -1;
-
- private:
-  std::string& bytes_;
-};
-
 template <class T>
 void add(Hdf5File& file, const std::string& path, ValueType type, int components,
          const std::vector<T>& values) {
-  Hdf5Column column(file, "VTKHDF/" + path, type, components, false);
-  column.append(values.data(), values.size() / static_cast<size_t>(components));
-  column.finish();
+  addColumn(file, "VTKHDF/" + path, type, components, values);
 }
 
 struct Parts {
@@ -53,10 +33,13 @@ struct Parts {
   std::vector<int64_t> offsets = {0, 4, 0, 4, 7};
   std::vector<uint8_t> types = {10, 10, 5};
   std::vector<float> fields = {1, 2, 3, 4, 1, 2, 3, 5};
+  std::vector<int64_t> labels = {7, 8, 9};
+  std::vector<double> positions = {0, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0,
+                                   0, 0, 0, 0, 1, 0, 0, 0, 1, 1,  0, 0};
 };
 
 // Two tetrahedra that share a face, in two partitions, and a triangle.
-std::string makeFile(const Parts& parts) {
+std::string makeFile(const Parts& parts, const std::function<void(Hdf5File&)>& more = nullptr) {
   std::string bytes;
   Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
   {
@@ -67,15 +50,15 @@ std::string makeFile(const Parts& parts) {
     add(file, "NumberOfPoints", ValueType::kInt64, 1, parts.points);
     add(file, "NumberOfCells", ValueType::kInt64, 1, parts.cells);
     add(file, "NumberOfConnectivityIds", ValueType::kInt64, 1, parts.ids);
-    add<double>(file, "Points", ValueType::kFloat64, 3,
-                {0, 0, 0, 0, 1, 0, 0, 0, 1, -1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0});
+    add(file, "Points", ValueType::kFloat64, 3, parts.positions);
     add(file, "Connectivity", ValueType::kInt64, 1, parts.connectivity);
     add(file, "Offsets", ValueType::kInt64, 1, parts.offsets);
     add(file, "Types", ValueType::kUInt8, 1, parts.types);
     file.createGroup("VTKHDF/PointData");
     add(file, "PointData/p", ValueType::kFloat32, 1, parts.fields);
     file.createGroup("VTKHDF/CellData");
-    add<int64_t>(file, "CellData/region", ValueType::kInt64, 1, {7, 8, 9});
+    add(file, "CellData/region", ValueType::kInt64, 1, parts.labels);
+    if (more) more(file);
   }
   file.close();
   return bytes;
@@ -92,6 +75,80 @@ TEST(VtkHdf, JoinsPartitions) {
     EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{9}));
     EXPECT_EQ(mesh.notes.size(), 2u);  // the triangle, the points
   }
+}
+
+// Three time steps: of the first two the mesh is the same, the last has one of its own.
+TEST(VtkHdf, ReadsOneTimeStep) {
+  const Parts parts;
+  const auto file = makeFile(parts, [](Hdf5File& out) {
+    out.createGroup("VTKHDF/Steps");
+    out.createGroup("VTKHDF/Steps/PointDataOffsets");
+    out.createGroup("VTKHDF/Steps/CellDataOffsets");
+    const auto list = [&](const char* name, const std::vector<int64_t>& numbers) {
+      add(out, std::string("Steps/") + name, ValueType::kInt64, 1, numbers);
+    };
+    add<double>(out, "Steps/Values", ValueType::kFloat64, 1, {0, 0.5, 1});
+    list("NumberOfParts", {1, 1, 1});
+    list("PartOffsets", {0, 0, 1});
+    list("PointOffsets", {0, 0, 4});
+    list("CellOffsets", {0, 0, 1});
+    list("ConnectivityIdOffsets", {0, 0, 4});
+    list("PointDataOffsets/p", {0, 4, 4});
+    list("CellDataOffsets/region", {0, 1, 1});
+  });
+  const struct {
+    int64_t step;
+    std::vector<float> field;
+    std::vector<int64_t> labels, cells;
+  } cases[] = {{0, {1, 2, 3, 4}, {7}, {0, 1, 2, 3}},
+               {1, {1, 2, 3, 5}, {8}, {0, 1, 2, 3}},
+               {kLastStep, {1, 2, 3, 5}, {8}, {0, 1, 2, 3}}};
+  for (const auto& c : cases) {
+    ReadOptions options;
+    options.step = c.step;
+    const VtuMesh mesh = readAs("vtkhdf", file, 1000, options);
+    EXPECT_EQ(valuesAs<float>(mesh.fields[0]), c.field) << c.step;
+    EXPECT_EQ(valuesAs<int64_t>(mesh.cell_data[0]), c.labels) << c.step;
+    EXPECT_EQ(mesh.cells, c.cells) << c.step;
+    EXPECT_EQ(mesh.faces.size(), c.step == kLastStep ? 3u : 0u);
+    EXPECT_EQ(valuesAs<double>(mesh.positions)[9], c.step == kLastStep ? 1 : -1);
+    EXPECT_TRUE(has(mesh.notes[0], "of 3 time steps, 0 to 2, step")) << mesh.notes[0];
+  }
+  ReadOptions options;
+  options.step = 3;
+  EXPECT_THROW(readAs("vtkhdf", file, 1000, options), Error);
+}
+
+// Two hexahedra in two partitions: the points of the shared square are numbered the other way round
+// in the second, so that each cut of its own would go across.
+TEST(VtkHdf, SplitsCellsOfPartitionsAlikeWhereTheyMeet) {
+  Parts parts;
+  parts.points = {8, 8};
+  parts.cells = {1, 1};
+  parts.ids = {8, 8};
+  parts.connectivity = {0, 1, 2, 3, 4, 5, 6, 7, 1, 4, 5, 0, 2, 7, 6, 3};
+  parts.offsets = {0, 8, 0, 8};
+  parts.types = {12, 12};
+  parts.fields.assign(16, 0);
+  parts.labels = {7, 8};
+  parts.positions = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1,
+                     1, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 1, 2, 0, 0, 2, 0, 1, 2, 1, 1, 2, 1, 0};
+  ReadOptions options;
+  options.split = true;
+  const VtuMesh mesh = readAs("vtkhdf", makeFile(parts), 5, options);
+  EXPECT_EQ(mesh.schema.vertex_count, 12);
+  EXPECT_EQ(mesh.schema.cell_count, 12);
+  std::map<std::set<int64_t>, int> triangles;
+  for (size_t c = 0; c < mesh.cells.size(); c += 4)
+    for (size_t without = 0; without < 4; ++without) {
+      std::set<int64_t> triangle(mesh.cells.begin() + static_cast<std::ptrdiff_t>(c),
+                                 mesh.cells.begin() + static_cast<std::ptrdiff_t>(c) + 4);
+      triangle.erase(mesh.cells[c + without]);
+      ++triangles[triangle];
+    }
+  EXPECT_EQ(std::count_if(triangles.begin(), triangles.end(),
+                          [](const auto& entry) { return entry.second == 1; }),
+            20);  // two on each of the ten squares outside
 }
 
 TEST(VtkHdf, WrittenGivesBackEveryArrayInTheSameBytes) {

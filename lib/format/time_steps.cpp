@@ -1,0 +1,38 @@
+#include "time_steps.h"
+
+#include <charconv>
+
+#include "status.h"
+
+namespace tetstream {
+
+int64_t parseStep(const std::string& text) {
+  if (text == "last") return kLastStep;
+  if (text == "first") return 0;
+  int64_t step = 0;
+  const std::from_chars_result r = std::from_chars(text.data(), text.data() + text.size(), step);
+  if (r.ec != std::errc() || r.ptr != text.data() + text.size() || step < 0)
+    fail(Status::kBadArgument,
+         "option \"step\": \"%s\" is neither first nor last nor a number from 0", text.c_str());
+  return step;
+}
+
+uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options,
+                    const std::function<double(uint64_t)>& time) {
+  const uint64_t step = options.step == kLastStep ? count - 1 : static_cast<uint64_t>(options.step);
+  if (step >= count)
+    fail(Status::kBadArgument,
+         "%s: there is no time step %llu (option step, --step): there are 0 "
+         "to %llu",
+         mesh.name.c_str(), static_cast<unsigned long long>(step),
+         static_cast<unsigned long long>(count - 1));
+  if (count == 1) return step;
+  std::string text = textOf(
+      "of %llu time steps, 0 to %llu, step %llu is read", static_cast<unsigned long long>(count),
+      static_cast<unsigned long long>(count - 1), static_cast<unsigned long long>(step));
+  if (time) text += textOf(", at time %.9g", time(step));
+  mesh.addNote(text);
+  return step;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,185 @@
+#include "xdmf_tree.h"
+
+#include <strings.h>
+#include <charconv>
+#include <cstring>
+
+#include "mesh_pieces.h"
+
+namespace tetstream {
+
+bool sameWord(const std::string& a, const char* b) {
+  return strcasecmp(a.c_str(), b) == 0;
+}
+
+uint64_t XdmfItem::count() const {
+  uint64_t count = sizes.empty() ? 0 : 1;
+  for (const uint64_t size : sizes) count *= size;  // bounded when they are read
+  return count;
+}
+
+namespace {
+
+constexpr size_t kMaxGrids = 1 << 18, kMaxItems = 1 << 20;
+constexpr size_t kMaxDepth = 64;
+
+class XdmfTree final : XmlFeed {
+ public:
+  explicit XdmfTree(ByteSource& bytes) : XmlFeed(bytes, Doctype::kPassedOver) {}
+
+  std::vector<XdmfGrid> run() {
+    feed();
+    return std::move(grids_);
+  }
+
+ private:
+  // What the tags that are open hold; kOther is passed over with all that is in it.
+  enum Open { kRoot, kDomain, kGrid, kTopology, kGeometry, kAttribute, kItem, kOther };
+
+  void start(const char* name, Attributes attributes) override {
+    if (open_.size() == kMaxDepth) failHere("the tags are nested too deeply", Status::kUnsupported);
+    open_.push_back(kindOf(name, attributes));
+  }
+
+  void end() override {
+    const Open closed = open_.back();
+    open_.pop_back();
+    if (closed == kItem && item_) {
+      item_->end = std::max(tagBegin(), item_->begin);
+      item_ = nullptr;
+    }
+    if (closed == kGrid) grid_ = grids_[static_cast<size_t>(grid_)].parent;
+    if (closed == kTopology || closed == kGeometry || closed == kAttribute) items_ = nullptr;
+  }
+
+  Open kindOf(const char* name, Attributes attributes) {
+    if (open_.empty()) {
+      if (std::strcmp(name, "Xdmf") != 0)
+        failHere("this is no XDMF file: it begins with <" + cutMeshName(name) + ">");
+      return kRoot;
+    }
+    const Open in = open_.back();
+    if (in == kRoot && std::strcmp(name, "Domain") == 0) return kDomain;
+    if ((in == kDomain || in == kGrid) && std::strcmp(name, "Grid") == 0)
+      return addGrid(attributes);
+    if (in == kGrid) return addToGrid(name, attributes);
+    if ((in == kTopology || in == kGeometry || in == kAttribute) &&
+        std::strcmp(name, "DataItem") == 0)
+      return addItem(attributes);
+    return kOther;
+  }
+
+  static std::string wordOf(Attributes attributes, const char* name, const char* otherwise) {
+    const char* found = find(attributes, name);
+    return found ? found : otherwise;
+  }
+
+  Open addGrid(Attributes attributes) {
+    if (grids_.size() == kMaxGrids) failHere("there are too many grids", Status::kUnsupported);
+    XdmfGrid grid;
+    grid.name = wordOf(attributes, "Name", "");
+    const std::string type = wordOf(attributes, "GridType", "Uniform");
+    if (sameWord(type, "Collection"))
+      grid.kind = sameWord(wordOf(attributes, "CollectionType", "Spatial"), "Temporal")
+                      ? XdmfGrid::kTemporal
+                      : XdmfGrid::kSpatial;
+    else if (sameWord(type, "Tree"))
+      grid.kind = XdmfGrid::kSpatial;
+    else if (!sameWord(type, "Uniform"))
+      failHere("a grid of the type \"" + cutMeshName(type) + "\" is not read",
+               Status::kUnsupported);
+    grid.parent = grid_;
+    grid_ = static_cast<int>(grids_.size());
+    grids_.push_back(std::move(grid));
+    return kGrid;
+  }
+
+  Open addToGrid(const char* name, Attributes attributes) {
+    XdmfGrid& grid = grids_[static_cast<size_t>(grid_)];
+    if (std::strcmp(name, "Topology") == 0) {
+      grid.topology.emplace();
+      grid.topology->type =
+          wordOf(attributes, "TopologyType", wordOf(attributes, "Type", "").c_str());
+      items_ = &grid.topology->items;
+      return kTopology;
+    }
+    if (std::strcmp(name, "Geometry") == 0) {
+      grid.geometry.emplace();
+      grid.geometry->type =
+          wordOf(attributes, "GeometryType", wordOf(attributes, "Type", "XYZ").c_str());
+      items_ = &grid.geometry->items;
+      return kGeometry;
+    }
+    if (std::strcmp(name, "Attribute") == 0) {
+      grid.attributes.push_back({wordOf(attributes, "Name", ""),
+                                 wordOf(attributes, "Center", "Node"),
+                                 find(attributes, "ItemType") != nullptr,
+                                 {}});
+      items_ = &grid.attributes.back().items;
+      return kAttribute;
+    }
+    if (std::strcmp(name, "Time") == 0) {
+      const std::string value = wordOf(attributes, "Value", "");
+      double time = 0;
+      if (std::from_chars(value.data(), value.data() + value.size(), time).ec == std::errc())
+        grid.time = time;
+    }
+    const char* local = std::strrchr(name, ':');
+    if (std::strcmp(local ? local + 1 : name, "include") == 0)
+      grid.includes.push_back(wordOf(attributes, "xpointer", ""));
+    return kOther;
+  }
+
+  Open addItem(Attributes attributes) {
+    const std::string type = wordOf(attributes, "ItemType", "Uniform");
+    if (!sameWord(type, "Uniform") || find(attributes, "Reference"))
+      failHere("a DataItem of the type \"" + cutMeshName(type) + "\" is not read, nor a reference",
+               Status::kUnsupported);
+    if (++item_count_ > kMaxItems) failHere("there are too many arrays", Status::kUnsupported);
+    XdmfItem item;
+    item.format = wordOf(attributes, "Format", "XML");
+    item.kind = wordOf(attributes, "NumberType", wordOf(attributes, "DataType", "Float").c_str());
+    const char* precision = find(attributes, "Precision");
+    if (precision && !parseUnsigned(precision, &item.precision))
+      failHere("a Precision is no number");
+    readSizes(wordOf(attributes, "Dimensions", ""), item);
+    item.begin = item.end = tagEnd();
+    items_->push_back(std::move(item));
+    item_ = &items_->back();
+    return kItem;
+  }
+
+  void readSizes(const std::string& text, XdmfItem& item) const {
+    uint64_t count = 1;
+    const char* end = text.data() + text.size();
+    for (const char* at = text.data(); at < end;) {
+      if (std::strchr(" \t\r\n", *at)) {
+        ++at;
+        continue;
+      }
+      uint64_t size = 0;
+      const std::from_chars_result r = std::from_chars(at, end, size);
+      if (r.ec != std::errc() || size > kMaxMeshCount ||
+          (size > 0 && count > 9 * kMaxMeshCount / size))
+        failHere("the Dimensions \"" + cutMeshName(text) + "\" are none");
+      count *= size;
+      item.sizes.push_back(size);
+      at = r.ptr;
+    }
+  }
+
+  std::vector<XdmfGrid> grids_;
+  std::vector<Open> open_;
+  int grid_ = -1;  // that is open
+  std::vector<XdmfItem>* items_ = nullptr;
+  XdmfItem* item_ = nullptr;
+  size_t item_count_ = 0;
+};
+
+}  // namespace
+
+std::vector<XdmfGrid> readXdmf(ByteSource& bytes) {
+  return XdmfTree(bytes).run();
+}
+
+}  // namespace tetstream

@@ -1,0 +1,40 @@
+// tests: HDF5 files in memory that a test looks into.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "hdf5_column.h"
+#include "status.h"
+
+namespace tetstream::test {
+
+class MemoryStorage final : public Hdf5Storage {
+ public:
+  explicit MemoryStorage(std::string& bytes) : bytes_(bytes) {}
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    return offset < bytes_.size() ? bytes_.copy(static_cast<char*>(out), size, offset) : 0;
+  }
+  void writeAt(uint64_t offset, const void* data, size_t size) override {
+    if (fail_at_ >= 0 && fail_at_-- == 0) fail(Status::kIo, "the disk is full");
+    bytes_.resize(std::max<size_t>(bytes_.size(), offset + size));
+    bytes_.replace(offset, size, static_cast<const char*>(data), size);
+  }
+  void resize(uint64_t size) override { bytes_.resize(size); }
+  uint64_t size() const override { return bytes_.size(); }
+  int fail_at_ = -1;
+
+ private:
+  std::string& bytes_;
+};
+
+// A dataset of rows.
+template <class T>
+void addColumn(Hdf5File& file, const std::string& path, ValueType type, int components,
+               const std::vector<T>& values) {
+  Hdf5Column column(file, path, type, components, false);
+  column.append(values.data(), values.size() / static_cast<size_t>(components));
+  column.finish();
+}
+
+}  // namespace tetstream::test

@@ -1,0 +1,59 @@
+// XDMF files whose values stand in HDF5.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "hdf5_testing.h"
+#include "vtu_read.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+class XdmfHdf5 : public testing::Test {
+ protected:
+  XdmfHdf5() {
+    std::string bytes;
+    Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
+    {
+      const Hdf5Turn turn;
+      file.createGroup("Mesh");
+      addColumn<double>(file, "Mesh/geometry", ValueType::kFloat64, 3,
+                        {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1});
+      addColumn<uint32_t>(file, "Mesh/topology", ValueType::kUInt32, 4, {0, 1, 2, 3, 1, 2, 3, 4});
+    }
+    file.close();
+    std::ofstream(path_, std::ios::binary) << bytes;
+  }
+  ~XdmfHdf5() override { std::remove(path_.c_str()); }
+
+  std::string text(const std::string& topology, const std::string& rows) const {
+    return "<Xdmf><Domain><Grid><Topology TopologyType=\"Tetrahedron\"><DataItem Dimensions=\"" +
+           rows + " 4\" Format=\"HDF\">\n  " + path_ + ":/Mesh/" + topology +
+           "\n</DataItem></Topology><Geometry><DataItem Dimensions=\"5 3\" Format=\"HDF\">" +
+           path_ + ":/Mesh/geometry</DataItem></Geometry></Grid></Domain></Xdmf>";
+  }
+
+  const std::string path_ = testing::TempDir() + "tetstream_xdmf_hdf5_test.h5";
+};
+
+TEST_F(XdmfHdf5, IsReadWhereItLies) {
+  for (const size_t step : {1, 1000}) {
+    const VtuMesh mesh = readAs("xdmf", text("topology", "2"), step);
+    EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 1, 2, 3, 4}));
+    EXPECT_EQ(valuesAs<double>(mesh.positions)[3], 1);
+  }
+}
+
+TEST_F(XdmfHdf5, SaysWhatIsNotThere) {
+  EXPECT_NE(failureAs("xdmf", text("none", "2")).find("there is no dataset"), std::string::npos);
+  EXPECT_NE(failureAs("xdmf", text("topology", "3")).find("has not the 12 numbers"),
+            std::string::npos);
+  std::remove(path_.c_str());
+  EXPECT_TRUE(failureAs("xdmf", text("topology", "2")).starts_with("TETSTREAM_IO"));
+}
+
+}  // namespace
+}  // namespace tetstream

@@ -1,0 +1,169 @@
+// XDMF files whose values stand in their text.
+#include <gtest/gtest.h>
+
+#include "status.h"
+#include "vtu_read.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+bool hasNote(const VtuMesh& mesh, const std::string& text) {
+  for (const std::string& note : mesh.notes)
+    if (has(note, text)) return true;
+  return false;
+}
+
+std::string file(const std::string& grids) {
+  return "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"3.0\" "
+         "xmlns:xi=\"http://www.w3.org/2001/XInclude\"><Domain>" +
+         grids + "</Domain></Xdmf>";
+}
+
+const std::string kPoints =
+    "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"5 3\" NumberType=\"Float\" "
+    "Precision=\"8\" Format=\"XML\">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataItem></Geometry>";
+const std::string kCells =
+    "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"2\"><DataItem Dimensions=\"2 4\" "
+    "NumberType=\"Int\" Format=\"XML\">0 1 2 3 1 2 3 4</DataItem></Topology>";
+
+std::string attribute(const std::string& name, const std::string& values,
+                      const std::string& center = "Node", const std::string& sizes = "5") {
+  return "<Attribute Name=\"" + name + "\" AttributeType=\"Scalar\" Center=\"" + center +
+         "\"><DataItem Dimensions=\"" + sizes + "\" Format=\"XML\">" + values +
+         "</DataItem></Attribute>";
+}
+
+std::string uniform(const std::string& name, const std::string& content) {
+  return "<Grid Name=\"" + name + "\" GridType=\"Uniform\">" + content + "</Grid>";
+}
+
+std::string collection(const std::string& name, const char* type, const std::string& grids) {
+  return "<Grid Name=\"" + name + "\" GridType=\"Collection\" CollectionType=\"" + type + "\">" +
+         grids + "</Grid>";
+}
+
+const std::vector<int64_t> kTwoCells = {0, 1, 2, 3, 1, 2, 3, 4};
+
+TEST(Xdmf, OneGridIsReadWithItsValues) {
+  const std::string text = file(uniform("mesh", kCells + kPoints + attribute("p", "1 2 3 4 5") +
+                                                    attribute("rho", "7 8", "Cell", "2 1") +
+                                                    attribute("g", "1", "Grid", "1")));
+  for (const size_t step : {1, 1000}) {
+    const VtuMesh mesh = readAs("xdmf", text, step);
+    EXPECT_EQ(mesh.schema.position_type, ScalarType::kFloat64);
+    EXPECT_EQ(valuesAs<double>(mesh.positions),
+              (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
+    EXPECT_EQ(mesh.cells, kTwoCells);
+    EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(valuesAs<float>(mesh.cell_data[0]), (std::vector<float>{7, 8}));
+    EXPECT_TRUE(hasNote(mesh, "array \"g\" is left out: it is of Grid"));
+  }
+}
+
+// As FEniCS writes functions: the mesh once, then grids that include it.
+TEST(Xdmf, StepsIncludeTheirMeshAndFunctionsOnItJoin) {
+  const std::string include =
+      "<xi:include xpointer=\"xpointer(//Grid[@Name=&quot;mesh&quot;]/*[self::Topology or "
+      "self::Geometry])\"/>";
+  const auto step = [&](const std::string& name, const char* time, const std::string& values) {
+    return uniform(name, include + "<Time Value=\"" + time + "\"/>" + attribute(name, values));
+  };
+  const std::string text = file(
+      uniform("mesh", kCells + kPoints) +
+      collection("u", "Temporal", step("u", "0", "1 2 3 4 5") + step("u", "0.5", "6 7 8 9 10")) +
+      collection("v", "Temporal", step("v", "0", "0 0 0 0 0") + step("v", "0.5", "1 1 1 1 1")) +
+      collection("w", "Temporal", step("w", "0", "0 0 0 0 0")));
+  const VtuMesh mesh = readAs("xdmf", text);
+  EXPECT_EQ(mesh.cells, kTwoCells);
+  ASSERT_EQ(mesh.schema.fields.size(), 2u);
+  EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{6, 7, 8, 9, 10}));
+  EXPECT_EQ(valuesAs<float>(mesh.fields[1]), (std::vector<float>{1, 1, 1, 1, 1}));
+  EXPECT_TRUE(hasNote(mesh, "of 2 time steps, 0 to 1, step 1 is read, at time 0.5"));
+  EXPECT_TRUE(hasNote(mesh, "grid \"w\" is left out: it has other time steps"));
+  ReadOptions options;
+  options.step = 0;
+  EXPECT_EQ(valuesAs<float>(readAs("xdmf", text, 1, options).fields[0]),
+            (std::vector<float>{1, 2, 3, 4, 5}));
+  options.step = 2;
+  EXPECT_THROW(readAs("xdmf", text, 1, options), Error);
+}
+
+// As FEniCS of 2019: the first step holds the mesh, the others include it from there.
+TEST(Xdmf, StepsIncludeTheMeshOfTheFirst) {
+  const std::string include =
+      "<xi:include xpointer=\"xpointer(//Grid[@Name='all']/Grid[1]/*[self::Topology or "
+      "self::Geometry])\"/>";
+  const VtuMesh mesh = readAs(
+      "xdmf", file(collection("all", "Temporal",
+                              uniform("mesh", kCells + kPoints + attribute("u", "1 2 3 4 5")) +
+                                  uniform("mesh", include + attribute("u", "2 3 4 5 6")))));
+  EXPECT_EQ(mesh.cells, kTwoCells);
+  EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{2, 3, 4, 5, 6}));
+}
+
+TEST(Xdmf, CellsOfSeveralTypesAreSplitAndFacesLabelled) {
+  const std::string mixed =
+      "<Topology TopologyType=\"Mixed\"><DataItem Dimensions=\"19\" NumberType=\"Int\" "
+      "Format=\"XML\">6 0 1 2 3  4 0 1 2  7 0 1 2 3 4  2 2 0 1</DataItem></Topology>";
+  const std::string bad =
+      "<Topology TopologyType=\"Mixed\"><DataItem Dimensions=\"8\" NumberType=\"Int\" "
+      "Format=\"XML\">6 0 1 2 3  6 1 2</DataItem></Topology>";
+  const std::string label =
+      "<Attribute Name=\"tag\" Center=\"Cell\"><DataItem Dimensions=\"4\" NumberType=\"Int\" "
+      "Format=\"XML\">7 8 9 10</DataItem></Attribute>";
+  const std::string text = file(uniform("m", mixed + kPoints + label));
+  EXPECT_TRUE(has(failureAs("xdmf", text), "cell 2 has VTK's type 14, a pyramid; only tetra"));
+  ReadOptions options;
+  options.split = true;
+  const VtuMesh mesh = readAs("xdmf", text, 1, options);
+  EXPECT_EQ(mesh.schema.cell_count, 3);
+  EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]), (std::vector<int32_t>{7, 9, 9}));
+  EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{8}));
+  EXPECT_TRUE(
+      has(failureAs("xdmf", file(uniform("m", bad + kPoints))), "cell 1 is not there in full"));
+}
+
+TEST(Xdmf, GridsInSpaceAreJoined) {
+  const VtuMesh mesh = readAs(
+      "xdmf", file(collection("parts", "Spatial",
+                              uniform("a", kCells + kPoints) + uniform("b", kCells + kPoints))));
+  EXPECT_EQ(mesh.schema.vertex_count, 5);
+  EXPECT_EQ(mesh.schema.cell_count, 4);
+}
+
+TEST(Xdmf, SaysWhatIsWrong) {
+  const auto failure = [](const std::string& content) {
+    return failureAs("xdmf", file(uniform("m", content)));
+  };
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    return text.replace(text.find(what), what.size(), by);
+  };
+  EXPECT_TRUE(has(failureAs("xdmf", "<VTKFile/>"), "this is no XDMF file"));
+  EXPECT_TRUE(has(failureAs("xdmf", file("")), "there is no grid with cells"));
+  EXPECT_TRUE(has(failure(kPoints), "there is no grid with cells"));
+  EXPECT_TRUE(has(failure(kCells), "has no topology or no geometry"));
+  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "XYZ", "XY")), "\"XY\" is not read"));
+  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "5 4")), "three coordinates"));
+  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "5 -3")), "are none"));
+  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "1152921504606846976 3")), "are none"));
+  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "72057594037927936 3")), "BAD_DATA"));
+  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "XML", "Binary")), "\"Binary\" are not read"));
+  EXPECT_TRUE(has(failure(replaced(kCells, "2 4", "7") + kPoints), "are not 4 nodes to a cell"));
+  EXPECT_TRUE(has(failure(replaced(kCells, "3 4<", "3 5<") + kPoints), "cell 1 uses point 5"));
+  EXPECT_TRUE(
+      has(failure(kCells + kPoints + attribute("p", "1 2", "Node", "2")), "2 values for 5"));
+  EXPECT_TRUE(has(failureAs("xdmf", "<!DOCTYPE Xdmf [<!ENTITY a \"b\">]><Xdmf/>"),
+                  "declarations of entities are not read"));
+  const std::string good = file(uniform("m", kCells + kPoints));
+  for (size_t size = 0; size < good.size(); ++size)
+    EXPECT_TRUE(failureAs("xdmf", good.substr(0, size)).starts_with("TETSTREAM_BAD_DATA")) << size;
+}
+
+}  // namespace
+}  // namespace tetstream
