@@ -11,6 +11,8 @@
 
 namespace tetstream {
 
+class Tasks;
+
 enum class QuadricForm { kDeterminant, kGarlandZhou };
 enum class Mode { kSweep, kPaper, kQueue };
 // Edges are collapsed in a window with links, one by one, at the same ratio all along the stream.
@@ -40,6 +42,7 @@ struct SimplifyOptions {
   Shape shape = Shape::kField;
   int64_t window_cells = 0;  // 0: from the front
   int64_t memory_bytes = 0;  // 0: no limit
+  Tasks* tasks = nullptr;    // for a sweep; null: the caller's thread alone
   // For comparisons, beyond what users are offered.
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
   bool uniform_ratio = false;  // all along the stream, whatever the mode

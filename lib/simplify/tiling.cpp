@@ -96,7 +96,7 @@ void Tiling<S>::addCell(uint32_t tile, uint32_t cell) {
 
 // In one pass: how many cells a tile will have is not known before.
 template <class S>
-void Tiling<S>::listCells() {
+void Tiling<S>::addCells() {
   const Topology& mesh = core_.window.mesh;
   neighbours_.assign(tiles_.size(), {});
   block_before_.clear();
@@ -117,15 +117,15 @@ void Tiling<S>::listCells() {
 }
 
 template <class S>
-const uint32_t* Tiling<S>::cells(const TilePiece& t) {
-  if (listed_.size() < t.cell_count) listed_.resize(t.cell_count + t.cell_count / 4);
+const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) const {
+  if (room.size() < t.cell_count) room.resize(t.cell_count + t.cell_count / 4);
   uint32_t block = t.last_block;
   for (size_t end = t.cell_count; end > 0; block = block_before_[block]) {
     const size_t begin = (end - 1) / kBlockCells * kBlockCells;
-    std::copy_n(&cells_[kBlockCells * block], end - begin, &listed_[begin]);
+    std::copy_n(&cells_[kBlockCells * block], end - begin, &room[begin]);
     end = begin;
   }
-  return listed_.data();
+  return room.data();
 }
 
 // The lowest colour that no neighbour before it has.
@@ -150,7 +150,7 @@ void Tiling<S>::build(unsigned round, float bound) {
   const size_t count = listVertices();
   if (count == 0) return;
   cut(count, round);
-  listCells();
+  addCells();
   colour();
 }
 

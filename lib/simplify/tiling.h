@@ -19,8 +19,7 @@ struct TilePiece {
 template <class S>
 class Tiling {
  public:
-  Tiling(Core<S>& core, Account& account)
-      : core_(core), vertices_(account), cells_(account), listed_(account) {}
+  Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account), cells_(account) {}
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
@@ -34,21 +33,21 @@ class Tiling {
   bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
-  // Until those of another tile are asked for.
-  const uint32_t* cells(const TilePiece& t);
+  // Its cells, listed in `room`, which grows if need be.
+  const uint32_t* listCells(const TilePiece& t, Array<uint32_t>& room) const;
 
  private:
   void markVertices(float bound);
   size_t listVertices();
   void cut(size_t count, unsigned round);
-  void listCells();
+  void addCells();
   size_t tilesOf(uint32_t cell, uint32_t tiles[4]) const;
   void addCell(uint32_t tile, uint32_t cell);
   void meet(uint32_t a, uint32_t b);
   void colour();
 
   Core<S>& core_;
-  Array<uint32_t> vertices_, cells_, listed_;
+  Array<uint32_t> vertices_, cells_;
   std::vector<uint32_t> block_before_;
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;

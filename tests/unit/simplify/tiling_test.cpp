@@ -26,7 +26,7 @@ void expectCellsOfTile(const Window<S>& window, Tiling<S>& tiling, const TilePie
   std::vector<bool> owned(window.mesh.vertexEnd(), false);
   for (size_t i = 0; i < tile.vertexCount(); ++i) owned[tiling.vertices(tile)[i]] = true;
   std::set<uint32_t> listed;
-  const uint32_t* cells = tiling.cells(tile);
+  const uint32_t* cells = tiling.listCells(tile, room);
   for (size_t i = 0; i < tile.cell_count; ++i)
     EXPECT_TRUE(listed.insert(cells[i]).second) << "a cell twice in a tile";
   EXPECT_TRUE(std::is_sorted(cells, cells + tile.cell_count));
@@ -51,7 +51,7 @@ void expectTiling(Core<S>& core, Tiling<S>& tiling) {
     EXPECT_GE(t.colour, colour) << "tiles are not in the order of their colours";
     colour = t.colour;
     expectCellsOfTile(core.window, tiling, t);
-    const uint32_t* cells = tiling.cells(t);
+    const uint32_t* cells = tiling.listCells(t, room);
     for (size_t i = 0; i < t.cell_count; ++i) {
       uint32_t& last = last_colour[cells[i]];
       ASSERT_NE(last, t.colour + 1) << "two tiles of a colour share a cell";
@@ -95,7 +95,7 @@ TEST(Tiling, CutsElsewhereInEachRound) {
     tiling.build(round, std::numeric_limits<float>::infinity());
     std::vector<int> tiles(w.core.window.cellEnd(), 0);
     for (const TilePiece& t : tiling.tiles()) {
-      const uint32_t* cells = tiling.cells(t);
+      const uint32_t* cells = tiling.listCells(t, room);
       for (size_t i = 0; i < t.cell_count; ++i) ++tiles[cells[i]];
     }
     return tiles;
