@@ -1,25 +1,27 @@
 // simplify: patches swept at rising bounds. See select.h.
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <thread>
 
 #include "patch_sweep.h"
 #include "reshape.h"
 #include "select.h"
 #include "sweep_bounds.h"
 #include "tasks.h"
+#include "tile_queue.h"
 #include "tiling.h"
 
 namespace tetstream {
 namespace {
 
-constexpr int64_t kSlackShare = 50;  // one part in these of a goal is no reason for another pass
+constexpr int64_t kSlackShare = 50;    // one part in these of a goal is no reason for another pass
+constexpr size_t kTilesTogether = 64;  // then what they did is added, for progress to be told
 
-// Tiles are swept in their order. Some next ones that share no cell may be swept at the same time,
-// where each would find the window as it is if the others were swept before it: which these are
-// depends on the window alone, and what they did is added in their order, so that the result is the
-// same for any number of threads.
+// Tiles are swept in their order, or at the same time where that makes no difference: those that
+// share no cell, and whose number is such that what they take cannot meet the goal between them.
+// Each then finds what it would have found in its turn, and what they did is added in their order,
+// so that the result is that of one thread for any number of threads.
 template <class S>
 class SweepSelector final : public Selector {
  public:
@@ -82,7 +84,7 @@ class SweepSelector final : public Selector {
   bool worksInOrder() const;
   size_t groupEnd(size_t first) const;
   size_t laneLimit() const;
-  void sweepGroup(size_t first, size_t end, float bound);
+  void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
   Swept sweepTile(const TilePiece& tile, float bound, Lane& lane);
   bool add(const Swept& swept);
   void addOf(Lane& lane) { add({lane.sweep.takeTally(), lane.sweep.takeDied()}); }
@@ -161,9 +163,8 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   bool more = false;
   for (size_t first = 0, end; first < tiling_.tiles().size(); first = end) {
     end = groupEnd(first);
-    sweepGroup(first, end, bound);
+    sweepGroup(first, end, bound, tick);
     for (const Swept& swept : swept_) more = add(swept) || more;
-    tick();
     if (mustStop()) return false;
   }
   return more;
@@ -178,14 +179,15 @@ bool SweepSelector<S>::worksInOrder() const {
          !core_.window.curves.empty() || core_.window.faces.anyPlaced();
 }
 
-// Tiles of one colour, as far as the goal cannot be met by what they take.
+// As many tiles as can be swept before the goal may be met.
 template <class S>
 size_t SweepSelector<S>::groupEnd(size_t first) const {
   const std::vector<TilePiece>& tiles = tiling_.tiles();
-  size_t end = first + 1;
-  if (worksInOrder()) return end;
+  if (worksInOrder()) return first + 1;
+  const size_t most = std::min(tiles.size(), first + kTilesTogether);
   int64_t left = core_.window.liveCells() - static_cast<int64_t>(tiles[first].cell_count);
-  for (; end < tiles.size() && tiles[end].colour == tiles[first].colour; ++end) {
+  size_t end = first + 1;
+  for (; end < most; ++end) {
     left -= static_cast<int64_t>(tiles[end].cell_count);
     if (goal_.isMet(left)) break;
   }
@@ -200,14 +202,24 @@ size_t SweepSelector<S>::laneLimit() const {
 }
 
 template <class S>
-void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound) {
+void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
+                                  const std::function<void()>& tick) {
   swept_.assign(end - first, {});
   const size_t lanes = std::min(end - first, laneLimit());
   while (lanes_.size() < lanes) addLane();
-  std::atomic<size_t> next = first;
+  TileQueue queue(tiling_.earlier(), first, end);
+  const std::thread::id caller = std::this_thread::get_id();
   const auto work = [&](size_t l) {
-    for (size_t i; (i = next++) < end;)
-      swept_[i - first] = sweepTile(tiling_.tiles()[i], bound, *lanes_[l]);
+    try {
+      while (const std::optional<size_t> tile = queue.take()) {
+        swept_[*tile - first] = sweepTile(tiling_.tiles()[*tile], bound, *lanes_[l]);
+        queue.finish(*tile);
+        if (std::this_thread::get_id() == caller) tick();  // the user's callbacks know one thread
+      }
+    } catch (...) {
+      queue.giveUp();
+      throw;
+    }
   };
   if (lanes == 1)
     work(0);

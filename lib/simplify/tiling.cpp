@@ -1,6 +1,7 @@
 #include "tiling.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "median_cut.h"
 #include "settled.h"
@@ -76,7 +77,7 @@ size_t Tiling<S>::tilesOf(uint32_t cell, uint32_t tiles[4]) const {
 
 template <class S>
 void Tiling<S>::meet(uint32_t a, uint32_t b) {
-  std::vector<uint32_t>& of = neighbours_[std::max(a, b)];
+  std::vector<uint32_t>& of = earlier_[std::max(a, b)];
   const uint32_t other = std::min(a, b);
   if (std::find(of.begin(), of.end(), other) == of.end()) of.push_back(other);
 }
@@ -98,7 +99,7 @@ void Tiling<S>::addCell(uint32_t tile, uint32_t cell) {
 template <class S>
 void Tiling<S>::addCells() {
   const Topology& mesh = core_.window.mesh;
-  neighbours_.assign(tiles_.size(), {});
+  earlier_.assign(tiles_.size(), {});
   block_before_.clear();
   const uint32_t* of = core_.window.scratch();
   uint32_t tiles[4];
@@ -128,19 +129,40 @@ const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) 
   return room.data();
 }
 
-// The lowest colour that no neighbour before it has.
+// Of the colours that no neighbour has, the one of the fewest tiles so far: tiles of one colour may
+// be worked on at the same time, and while there is but one, all threads but one wait.
 template <class S>
 void Tiling<S>::colour() {
+  std::vector<size_t> tiles_of;
   std::vector<bool> taken;
   for (size_t i = 0; i < tiles_.size(); ++i) {
-    taken.assign(neighbours_[i].size() + 1, false);
-    for (uint32_t n : neighbours_[i])
-      if (tiles_[n].colour < taken.size()) taken[tiles_[n].colour] = true;
-    tiles_[i].colour =
-        static_cast<uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
+    taken.assign(tiles_of.size(), false);
+    for (uint32_t n : earlier_[i]) taken[tiles_[n].colour] = true;
+    size_t best = tiles_of.size();
+    for (size_t c = 0; c < tiles_of.size(); ++c)
+      if (!taken[c] && (best == tiles_of.size() || tiles_of[c] < tiles_of[best])) best = c;
+    if (best == tiles_of.size()) tiles_of.push_back(0);
+    ++tiles_of[best];
+    tiles_[i].colour = static_cast<uint32_t>(best);
   }
-  std::stable_sort(tiles_.begin(), tiles_.end(),
-                   [](const TilePiece& a, const TilePiece& b) { return a.colour < b.colour; });
+}
+
+template <class S>
+void Tiling<S>::sortByColour() {
+  std::vector<uint32_t> order(tiles_.size()), place(tiles_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [this](uint32_t a, uint32_t b) { return tiles_[a].colour < tiles_[b].colour; });
+  for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  std::vector<TilePiece> tiles;
+  std::vector<std::vector<uint32_t>> earlier(tiles_.size());
+  for (uint32_t a : order) {
+    tiles.push_back(tiles_[a]);
+    for (uint32_t b : earlier_[a])
+      earlier[std::max(place[a], place[b])].push_back(std::min(place[a], place[b]));
+  }
+  tiles_.swap(tiles);
+  earlier_.swap(earlier);
 }
 
 template <class S>
@@ -152,6 +174,7 @@ void Tiling<S>::build(unsigned round, float bound) {
   cut(count, round);
   addCells();
   colour();
+  sortByColour();
 }
 
 template class Tiling<float>;

@@ -1,5 +1,5 @@
 // simplify: the window's free vertices cut into tiles, each with the cells that a patch of it
-// needs, in an order that could run concurrently. Depends on core.h.
+// needs, in an order of which many may be worked on at the same time. Depends on core.h.
 #pragma once
 
 #include "core.h"
@@ -32,6 +32,8 @@ class Tiling {
   // Whether edges of free vertices that were not listed have errors above the bound.
   bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
+  // Of each tile: those before it that it shares cells with.
+  const std::vector<std::vector<uint32_t>>& earlier() const { return earlier_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
   // Its cells, listed in `room`, which grows if need be.
   const uint32_t* listCells(const TilePiece& t, Array<uint32_t>& room) const;
@@ -45,6 +47,7 @@ class Tiling {
   void addCell(uint32_t tile, uint32_t cell);
   void meet(uint32_t a, uint32_t b);
   void colour();
+  void sortByColour();
 
   Core<S>& core_;
   Array<uint32_t> vertices_, cells_;
@@ -52,7 +55,7 @@ class Tiling {
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
   bool others_wait_ = false;
-  std::vector<std::vector<uint32_t>> neighbours_;  // of each tile: those with cells in common
+  std::vector<std::vector<uint32_t>> earlier_;
 };
 
 }  // namespace tetstream

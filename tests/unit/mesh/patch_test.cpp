@@ -137,7 +137,7 @@ TEST(Patch, GathersWhatTheWindowDoes) {
   const auto owned = someOf(w.window.mesh.vertexEnd(), r, 5);
   const auto cells = w.cellsOf(owned);
   ASSERT_TRUE(
-        patch.load(owned.data(), owned.size(), cells.data(), cells.size(), w.window.liveCells()));
+      patch.load(owned.data(), owned.size(), cells.data(), cells.size(), w.window.liveCells()));
   EXPECT_LE(patch.cellEnd(), cells.size());
   for (uint32_t v = 0; v < patch.ownedEnd(); ++v) {
     EXPECT_EQ(patch.isBoundary(v), patch.slotOf(v) % 5 == 0);

@@ -26,6 +26,8 @@ void expectCellsOfTile(const Window<S>& window, Tiling<S>& tiling, const TilePie
   std::vector<bool> owned(window.mesh.vertexEnd(), false);
   for (size_t i = 0; i < tile.vertexCount(); ++i) owned[tiling.vertices(tile)[i]] = true;
   std::set<uint32_t> listed;
+  Account account;
+  Array<uint32_t> room(account);
   const uint32_t* cells = tiling.listCells(tile, room);
   for (size_t i = 0; i < tile.cell_count; ++i)
     EXPECT_TRUE(listed.insert(cells[i]).second) << "a cell twice in a tile";
@@ -45,6 +47,8 @@ void expectTiling(Core<S>& core, Tiling<S>& tiling) {
   const std::vector<int> owners = ownersOf(tiling, mesh.vertexEnd());
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v)
     ASSERT_EQ(owners[v], mesh.isFree(v) ? 1 : 0) << "vertex " << v;
+  Account account;
+  Array<uint32_t> room(account);
   std::vector<uint32_t> last_colour(mesh.cellEnd(), 0);  // plus one
   uint32_t colour = 0;
   for (const TilePiece& t : tiling.tiles()) {
@@ -94,6 +98,7 @@ TEST(Tiling, CutsElsewhereInEachRound) {
   const auto seam = [&](unsigned round) {
     tiling.build(round, std::numeric_limits<float>::infinity());
     std::vector<int> tiles(w.core.window.cellEnd(), 0);
+    Array<uint32_t> room(w.account);
     for (const TilePiece& t : tiling.tiles()) {
       const uint32_t* cells = tiling.listCells(t, room);
       for (size_t i = 0; i < t.cell_count; ++i) ++tiles[cells[i]];
