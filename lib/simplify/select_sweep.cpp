@@ -171,12 +171,12 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
 }
 
 // Whether what a tile does may hang on the one before, whatever lies between them: on the error
-// made so far, where it has a limit; on the order in which a log or a map is told; on hashes common
-// to all; on flips, which are measured by the error made so far.
+// made so far, where it has a limit; on the order in which a log or a map is told; the hash of
+// labelled faces, common to all; on flips, which are measured by the error made so far.
 template <class S>
 bool SweepSelector<S>::worksInOrder() const {
   return reshaper_ || std::isfinite(core_.error_limit) || core_.tracer ||
-         !core_.window.curves.empty() || core_.window.faces.anyPlaced();
+         core_.window.faces.anyPlaced();
 }
 
 // As many tiles as can be swept before the goal may be met.

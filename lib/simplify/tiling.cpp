@@ -129,21 +129,16 @@ const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) 
   return room.data();
 }
 
-// Of the colours that no neighbour has, the one of the fewest tiles so far: tiles of one colour may
-// be worked on at the same time, and while there is but one, all threads but one wait.
+// The lowest colour that no neighbour before it has.
 template <class S>
 void Tiling<S>::colour() {
-  std::vector<size_t> tiles_of;
   std::vector<bool> taken;
   for (size_t i = 0; i < tiles_.size(); ++i) {
-    taken.assign(tiles_of.size(), false);
-    for (uint32_t n : earlier_[i]) taken[tiles_[n].colour] = true;
-    size_t best = tiles_of.size();
-    for (size_t c = 0; c < tiles_of.size(); ++c)
-      if (!taken[c] && (best == tiles_of.size() || tiles_of[c] < tiles_of[best])) best = c;
-    if (best == tiles_of.size()) tiles_of.push_back(0);
-    ++tiles_of[best];
-    tiles_[i].colour = static_cast<uint32_t>(best);
+    taken.assign(earlier_[i].size() + 1, false);
+    for (uint32_t n : earlier_[i])
+      if (tiles_[n].colour < taken.size()) taken[tiles_[n].colour] = true;
+    tiles_[i].colour =
+        static_cast<uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
   }
 }
 
