@@ -88,7 +88,8 @@ void expectLoadAndStoreChangeNothing() {
   for (int round = 0; round < 10; ++round) {
     const auto owned = someOf(w.window.mesh.vertexEnd(), r, static_cast<uint32_t>(round));
     const auto cells = w.cellsOf(owned);
-    ASSERT_TRUE(patch.load(owned.data(), owned.size(), cells.data(), cells.size()));
+    ASSERT_TRUE(
+        patch.load(owned.data(), owned.size(), cells.data(), cells.size(), w.window.liveCells()));
     EXPECT_EQ(patch.ownedEnd(), owned.size());
     EXPECT_EQ(patch.cellEnd(), cells.size());
     for (uint32_t v = 0; v < owned.size(); ++v) EXPECT_EQ(patch.slotOf(v), owned[v]);
@@ -135,7 +136,8 @@ TEST(Patch, GathersWhatTheWindowDoes) {
   Patch<float> patch(w.account, w.window);
   const auto owned = someOf(w.window.mesh.vertexEnd(), r, 5);
   const auto cells = w.cellsOf(owned);
-  ASSERT_TRUE(patch.load(owned.data(), owned.size(), cells.data(), cells.size()));
+  ASSERT_TRUE(
+      patch.load(owned.data(), owned.size(), cells.data(), cells.size(), w.window.liveCells()));
   EXPECT_LE(patch.cellEnd(), cells.size());
   for (uint32_t v = 0; v < patch.ownedEnd(); ++v) {
     EXPECT_EQ(patch.isBoundary(v), patch.slotOf(v) % 5 == 0);
@@ -154,7 +156,8 @@ struct Twins {
       : a(mesh), b(mesh), patch(b.account, b.window), stars(b.account) {}
   void load(const std::vector<uint32_t>& owned) {
     const auto cells = b.cellsOf(owned);
-    ASSERT_TRUE(patch.load(owned.data(), owned.size(), cells.data(), cells.size()));
+    ASSERT_TRUE(
+        patch.load(owned.data(), owned.size(), cells.data(), cells.size(), b.window.liveCells()));
   }
   // By place in the patch.
   void merge(uint32_t u, uint32_t v) {
