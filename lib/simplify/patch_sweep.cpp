@@ -26,6 +26,8 @@ PatchSweep<S>::PatchSweep(Core<S>& core, Account& account)
       seen_(account),
       looks_(account),
       spared_(account),
+      seam_values_(account),
+      seam_quadrics_(account),
       z_(static_cast<size_t>(core.plan.dimension)) {}
 
 template <class S>
@@ -221,19 +223,38 @@ bool PatchSweep<S>::sweep(float bound) {
   return least < std::numeric_limits<float>::infinity();
 }
 
+// A vertex of the window, with its row copied: kernels read beyond the end of a row, and what lies
+// there another patch may be writing.
+template <class S>
+void PatchSweep<S>::copySeamRow(uint32_t slot, size_t row) {
+  Window<S>& window = core_.window;
+  const auto values = static_cast<size_t>(window.shape().values);
+  const auto quadric = static_cast<size_t>(window.shape().quadric);
+  if (seam_values_.size() < (row + 1) * values + 3) {
+    const size_t rows = 2 * row + 32;
+    seam_values_.resize(rows * values + 3);
+    seam_quadrics_.resize(rows * quadric + 3);
+  }
+  copyRow(window.values(slot), values, &seam_values_[row * values]);
+  copyRow(window.quadric(slot), quadric, &seam_quadrics_[row * quadric]);
+}
+
 // The least error of v's edges to vertices of other patches. Those that had refused edges must
 // look at them again if v changed.
 template <class S>
 float PatchSweep<S>::leastAcrossSeam(uint32_t v) {
   listNeighbours(v);
   Window<S>& window = core_.window;
+  copySeamRow(patch_.slotOf(v), 0);
   for (size_t i = 0; i < count_; ++i) {
-    neighbours_[i] = patch_.slotOf(neighbours_[i]);
-    if (solutions_.hasMoved(v)) unsettleRefused(window, neighbours_[i]);
+    const uint32_t slot = patch_.slotOf(neighbours_[i]);
+    if (solutions_.hasMoved(v)) unsettleRefused(window, slot);
+    copySeamRow(slot, i + 1);
+    neighbours_[i] = static_cast<uint32_t>(i + 1);
   }
   measureIn(
-      {window.allQuadrics(), window.allValues(), window.shape().quadric, window.shape().values},
-      patch_.slotOf(v));
+      {seam_quadrics_.data(), seam_values_.data(), window.shape().quadric, window.shape().values},
+      0);
   S least = std::numeric_limits<S>::infinity();
   for (size_t i = 0; i < count_; ++i) least = errors_[i] < least ? errors_[i] : least;  // no NaN
   return static_cast<float>(least);

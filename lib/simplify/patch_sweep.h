@@ -45,6 +45,7 @@ class PatchSweep {
 
  private:
   bool mustStop() const { return goal_.isMet(patch_.liveCells()) || collapser_.errorReached(); }
+  void copySeamRow(uint32_t slot, size_t row);
   float leastAcrossSeam(uint32_t v);
   void findSeams();
   void addEdges(uint32_t v);
@@ -69,9 +70,10 @@ class PatchSweep {
   Choices choices_;
   Solutions<S> solutions_;
   Array<S> errors_;
-  Array<uint32_t> neighbours_, seen_;  // seen_: per vertex, the mark_ of its last listing
-  Array<uint8_t> looks_;               // of an owned vertex: at all its edges
-  Array<float> spared_;                // and the least error of those that were spared
+  Array<uint32_t> neighbours_, seen_;     // seen_: per vertex, the mark_ of its last listing
+  Array<uint8_t> looks_;                  // of an owned vertex: at all its edges
+  Array<float> spared_;                   // and the least error of those that were spared
+  Array<S> seam_values_, seam_quadrics_;  // rows of the window: a vertex, its neighbours
   std::vector<S> z_;
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
