@@ -1,11 +1,21 @@
 #include "tasks.h"
 
+#include <sched.h>
+
+#include <algorithm>
 #include <exception>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 namespace tetstream {
+
+size_t coresToUse() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (sched_getaffinity(0, sizeof set, &set) == 0) return std::max(CPU_COUNT(&set), 1);
+  return std::max(std::thread::hardware_concurrency(), 1u);
+}
 
 void Tasks::forParts(size_t count, const std::function<void(size_t)>& work) const {
   std::vector<std::exception_ptr> errors(count);

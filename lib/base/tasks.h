@@ -6,6 +6,9 @@
 
 namespace tetstream {
 
+// Cores that the process may use, at least 1.
+size_t coresToUse();
+
 class Tasks {
  public:
   explicit Tasks(size_t threads) : threads_(threads) {}
