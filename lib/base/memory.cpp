@@ -20,12 +20,16 @@ size_t checkedAdd(size_t a, size_t b) {
 }
 
 void Account::charge(size_t bytes) {
-  const size_t after = checkedAdd(used_, bytes);
-  if (limit_ != 0 && after > limit_)
-    fail(Status::kNoMemory, "the memory budget of %zu bytes is too small: %zu are needed", limit_,
-         after);
-  used_ = after;
-  if (used_ > peak_) peak_ = used_;
+  size_t before = used(), after;
+  do {
+    after = checkedAdd(before, bytes);
+    if (limit_ != 0 && after > limit_)
+      fail(Status::kNoMemory, "the memory budget of %zu bytes is too small: %zu are needed", limit_,
+           after);
+  } while (!used_.compare_exchange_weak(before, after, std::memory_order_relaxed));
+  size_t peak = this->peak();
+  while (after > peak && !peak_.compare_exchange_weak(peak, after, std::memory_order_relaxed)) {
+  }
 }
 
 void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_bytes) {

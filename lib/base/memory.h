@@ -1,9 +1,11 @@
 // base: memory that is counted against a budget. Depends on status.h.
 //
-// An Account is the budget of one handle; every large array of the window and of the layout is
-// an Array that charges it. Small things (names, headers) use the standard containers.
+// An Account is the budget of one handle, whose threads may charge it at the same time; every large
+// array of the window and of the layout is an Array that charges it. Small things (names, headers)
+// use the standard containers.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -24,13 +26,14 @@ class Account {
   Account& operator=(const Account&) = delete;
 
   void charge(size_t bytes);  // throws kNoMemory when the limit (0: none) would be passed
-  void release(size_t bytes) noexcept { used_ -= bytes; }
-  size_t used() const noexcept { return used_; }
-  size_t peak() const noexcept { return peak_; }
+  void release(size_t bytes) noexcept { used_.fetch_sub(bytes, std::memory_order_relaxed); }
+  size_t used() const noexcept { return used_.load(std::memory_order_relaxed); }
+  size_t peak() const noexcept { return peak_.load(std::memory_order_relaxed); }
   size_t limit() const noexcept { return limit_; }
 
  private:
-  size_t limit_, used_ = 0, peak_ = 0;
+  const size_t limit_;
+  std::atomic<size_t> used_ = 0, peak_ = 0;
 };
 
 void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_bytes);

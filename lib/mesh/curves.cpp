@@ -1,6 +1,7 @@
 #include "curves.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "mix.h"
 
@@ -18,6 +19,18 @@ uint64_t Curves::firstOf(uint32_t v) const {
 }
 
 bool Curves::has(uint32_t u, uint32_t v) const {
+  if (empty()) return false;
+  const std::shared_lock lock(mutex_);
+  return holds(u, v);
+}
+
+bool Curves::passes(uint32_t v) const {
+  if (empty()) return false;
+  const std::shared_lock lock(mutex_);
+  return holdsAny(v);
+}
+
+bool Curves::holds(uint32_t u, uint32_t v) const {
   if (count_ == 0) return false;
   for (size_t i = placeOf(u); places_[i] != kEmpty; i = (i + 1) & (places_.size() - 1))
     if (places_[i] == entryOf(u, v)) return true;
@@ -40,19 +53,28 @@ void Curves::remove(uint64_t entry) {
 }
 
 void Curves::add(uint32_t u, uint32_t v) {
-  if (has(u, v)) return;
+  const std::unique_lock lock(mutex_);
+  put(u, v);
+  any_ = count_ > 0;
+}
+
+void Curves::put(uint32_t u, uint32_t v) {
+  if (holds(u, v)) return;
   if (2 * (used_ + 2) > places_.size()) rebuild(count_ + 2, nullptr);
   insert(entryOf(u, v));
   insert(entryOf(v, u));
 }
 
 void Curves::merge(uint32_t u, uint32_t v) {
-  while (passes(v)) {
+  if (!passes(v)) return;
+  const std::unique_lock lock(mutex_);
+  while (holdsAny(v)) {
     const auto other = static_cast<uint32_t>(firstOf(v));
     remove(entryOf(v, other));
     remove(entryOf(other, v));
-    if (other != u) add(u, other);
+    if (other != u) put(u, other);
   }
+  any_ = count_ > 0;
 }
 
 void Curves::rebuild(size_t entries, const uint32_t* keep) {
@@ -73,7 +95,9 @@ void Curves::rebuild(size_t entries, const uint32_t* keep) {
 }
 
 void Curves::remap(const uint32_t* keep) {
+  const std::unique_lock lock(mutex_);
   if (count_ > 0) rebuild(count_, keep);
+  any_ = count_ > 0;
 }
 
 }  // namespace tetstream

@@ -101,7 +101,7 @@ void Patch<S>::forget() {
 
 template <class S>
 bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
-                    size_t cell_count) {
+                    size_t cell_count, int64_t live_cells) {
   if (cell_count > kMostCells || owned_count > kMostVertices) return false;
   forget();
   sizeFor(owned_count, cell_count);
@@ -116,28 +116,31 @@ bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* c
     return false;
   }
   listStars();
-  live_ = window_.mesh.liveCells();
+  live_ = live_cells;
   return true;
 }
 
+// Returns whether the cell lives.
 template <class S>
-void Patch<S>::storeCell(uint32_t c) {
+bool Patch<S>::storeCell(uint32_t c) {
   Topology& mesh = window_.mesh;
   const uint32_t cell = global_cell_[c];
   if (!isLive(c)) {
-    mesh.kill(cell);
-    return;
+    mesh.flagCell(cell, kDead);
+    return false;
   }
   const uint32_t swap = mesh.cellFlags(cell) & kNegative ? 1 : 0;
   mesh.setCorner(4 * cell, global_vertex_[vertexOf(c, 0)]);
   mesh.setCorner(4 * cell + 1, global_vertex_[vertexOf(c, 1)]);
   mesh.setCorner(4 * cell + 2, global_vertex_[vertexOf(c, 2 + swap)]);
   mesh.setCorner(4 * cell + 3, global_vertex_[vertexOf(c, 3 - swap)]);
+  return true;
 }
 
 template <class S>
-void Patch<S>::store() {
-  for (uint32_t c = 0; c < cells_; ++c) storeCell(c);
+int64_t Patch<S>::storeUncounted() {
+  int64_t died = 0;
+  for (uint32_t c = 0; c < cells_; ++c) died += !storeCell(c);
   for (uint32_t v = 0; v < owned_; ++v) {
     const uint32_t slot = global_vertex_[v];
     window_.mesh.flagVertex(slot, flags_[v]);
@@ -145,6 +148,7 @@ void Patch<S>::store() {
     copyRow(values(v), value_stride_, window_.values(slot));
     copyRow(quadric(v), quadric_stride_, window_.quadric(slot));
   }
+  return died;
 }
 
 template <class S>

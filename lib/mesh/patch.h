@@ -21,11 +21,15 @@ class Patch {
 
   Patch(Account& account, Window<S>& window);
 
-  // `cells`: at least all live cells that touch an owned vertex; dead ones are passed over. False
-  // if the piece is too large: nothing is loaded then.
-  bool load(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count);
+  // `cells`: at least all live cells that touch an owned vertex; dead ones are passed over.
+  // `live_cells`: of the whole window. False if the piece is too large: nothing is loaded then.
+  bool load(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count,
+            int64_t live_cells);
   // Puts what was changed into the window. The patch can still be looked at, until the next load.
-  void store();
+  void store() { window_.mesh.countOut(storeUncounted()); }
+  // The same beside other patches: returns the cells that died, by which the window's count of live
+  // ones is to be lowered once they have come to rest.
+  int64_t storeUncounted();
 
   uint32_t ownedEnd() const { return owned_; }
   uint32_t vertexEnd() const { return vertices_; }
@@ -96,7 +100,7 @@ class Patch {
   void loadVertex(uint32_t slot);
   void forget();
   uint16_t* roomFor(size_t count);
-  void storeCell(uint32_t c);
+  bool storeCell(uint32_t c);
   void unlist(uint32_t c);
   void list(uint32_t c);
 

@@ -118,6 +118,8 @@ class Topology {
   StarCell starCell(uint32_t corner) const;
 
   void kill(uint32_t cell);
+  // Cells were flagged as dead, not counted.
+  void countOut(int64_t cells) { live_cells_ -= static_cast<uint32_t>(cells); }
   void setCorner(uint32_t corner, uint32_t v) { vertex_of_[corner] = v; }  // without links
   // The cells of the ring, which hold both vertices, die, those of v's star get u in its place, v
   // is gone. As gathered.

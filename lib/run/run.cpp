@@ -12,6 +12,7 @@
 #include "spooled_mesh.h"
 #include "status.h"
 #include "stream_facts.h"
+#include "tasks.h"
 
 namespace tetstream {
 
@@ -36,6 +37,15 @@ class Nowhere final : public Sink {
   void finish() override {}
 };
 
+size_t threadsOf(const RunOptions& options) {
+  return options.threads > 0 ? static_cast<size_t>(options.threads) : coresToUse();
+}
+
+RunOptions withTasks(RunOptions options, const Tasks* tasks) {
+  options.simplify.tasks = tasks;
+  return options;
+}
+
 // `before`: the share of the time that ordering took.
 void tellCells(Progress& p, size_t more, double before, const ProgressFunction& progress) {
   p.cells_read += static_cast<int64_t>(more);
@@ -49,9 +59,10 @@ void tellCells(Progress& p, size_t more, double before, const ProgressFunction& 
 
 struct SimplifyRun::State {
   State(const RunOptions& the_options, Sink& out, ProgressFunction the_progress)
-      : options(the_options),
+      : tasks(threadsOf(the_options)),
+        options(withTasks(the_options, &tasks)),
         progress(std::move(the_progress)),
-        simplifier(the_options.simplify, out, [this](const Progress& p) { tell(p); }) {}
+        simplifier(options.simplify, out, [this](const Progress& p) { tell(p); }) {}
 
   // The simplifier's progress after the part that ordering took.
   void tell(Progress p) {
@@ -61,6 +72,7 @@ struct SimplifyRun::State {
     progress(p);
   }
 
+  Tasks tasks;
   RunOptions options;
   ProgressFunction progress;
   double order_share = 0;  // of the time, of ordering that is done

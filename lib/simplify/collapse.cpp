@@ -13,14 +13,20 @@ constexpr float kDearGrowth = 1.5f;
 constexpr double kOnEdge = 1e-3;
 
 template <class Mesh>
-Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Account& account)
+Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& account)
     : core_(core),
       mesh_(mesh),
+      tally_(tally),
       refusals_(account),
       link_(account),
       stars_(account),
       merged_(static_cast<size_t>(core.plan.values)),
       z_(static_cast<size_t>(core.plan.dimension)) {}
+
+template <class Mesh>
+void Collapser<Mesh>::forget() {
+  std::fill_n(refusals_.data(), refusals_.size(), Refusal{kNone, kNone, kNone});
+}
 
 template <class Mesh>
 void Collapser<Mesh>::endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
@@ -92,7 +98,7 @@ Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turne
   if (u > v) std::swap(u, v);
   if (refusals_.size() == 0) {
     refusals_.resize(kRefusals);
-    std::fill_n(refusals_.data(), kRefusals, Refusal{kNone, kNone, kNone});
+    forget();
   }
   refusals_[placeOf(u, v)] = {u, v, turned.cell()};
   return Outcome::kOrientation;
@@ -270,39 +276,49 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
   Outcome outcome = Outcome::kNotFinite;
   if (std::isfinite(error)) {
     outcome = test(u, v, &error, least_cells, spares);
-    if (outcome == Outcome::kDone && core_.error + growth(u, v, error) > core_.error_limit) {
-      core_.error_reached = true;
+    if (outcome == Outcome::kDone && passesLimit(u, v, error)) {
+      tally_.error_reached = true;
       outcome = Outcome::kTooFar;
     }
   }
-  Report& report = core_.report;
-  switch (outcome) {
-    case Outcome::kDone:
-      ++report.collapses;
-      break;
-    case Outcome::kLocked:
-      ++report.rejected_locked;
-      break;
-    case Outcome::kTopology:
-      ++report.rejected_link;
-      break;
-    case Outcome::kOrientation:
-      ++report.rejected_orientation;
-      break;
-    case Outcome::kTooMany:
-    case Outcome::kTooFar:
-    case Outcome::kDear:
-    case Outcome::kNotFinite:
-      ++report.rejected_other;
-      break;
-  }
+  count(outcome);
   if (outcome == Outcome::kDone) mergeInto(u, v, error);
   return outcome;
 }
 
 template <class Mesh>
+bool Collapser<Mesh>::passesLimit(uint32_t u, uint32_t v, S error) {
+  const double of_others = &tally_ == &core_.tally ? 0 : core_.tally.error;
+  return of_others + tally_.error + growth(u, v, error) > core_.error_limit;
+}
+
+template <class Mesh>
+void Collapser<Mesh>::count(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kDone:
+      ++tally_.collapses;
+      break;
+    case Outcome::kLocked:
+      ++tally_.rejected_locked;
+      break;
+    case Outcome::kTopology:
+      ++tally_.rejected_link;
+      break;
+    case Outcome::kOrientation:
+      ++tally_.rejected_orientation;
+      break;
+    case Outcome::kTooMany:
+    case Outcome::kTooFar:
+    case Outcome::kDear:
+    case Outcome::kNotFinite:
+      ++tally_.rejected_other;
+      break;
+  }
+}
+
+template <class Mesh>
 void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
-  core_.error += growth(u, v, error);
+  tally_.error += growth(u, v, error);
   if (core_.plan.values > core_.plan.dimension) interpolateCarried(u, v);
   if (core_.plan.picks > 0) pickNearest(u, v);
   if (core_.plan.cell_means > 0) handOverCellData(v);
@@ -316,7 +332,7 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   const int last = core_.window.shape().quadric - 1;
   for (int i = 0; i < last; ++i) a[i] += b[i];
   a[last] = error;
-  core_.report.largest_error = std::max(core_.report.largest_error, in_users_terms);
+  tally_.largest_error = std::max(tally_.largest_error, in_users_terms);
 }
 
 // Before the mesh changes: the cells are those of the stars, with the merged vertex at their

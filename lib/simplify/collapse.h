@@ -27,9 +27,17 @@ class Collapser {
  public:
   using S = typename Mesh::Scalar;
 
-  Collapser(Core<S>& core, Mesh& mesh, Account& account);
+  // What it does it counts in the tally of the whole,
+  Collapser(Core<S>& core, Mesh& mesh, Account& account)
+      : Collapser(core, mesh, core.tally, account) {}
+  // or of a part.
+  Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& account);
 
   Mesh& mesh() { return mesh_; }
+  // Before work on another mesh, or on the same again, that is to depend on nothing done before.
+  void forget();
+  // Whether a collapse was refused for the limit on the error, here or before.
+  bool errorReached() const { return core_.tally.error_reached || tally_.error_reached; }
 
   // Merges v into u at z, normalised and relative to the edge's midpoint, if the result is legal:
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
@@ -37,7 +45,6 @@ class Collapser {
   // larger; the whole error within its limit; no fewer than `least_cells` cells left in the window.
   // Where it spares, the share of those below the dear angles may not grow either, and keeping the
   // volumes of regions may not cost much: kDear otherwise.
-  // Counts what happened in the report.
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                    bool spares = false);
 
@@ -69,6 +76,8 @@ class Collapser {
   bool turnsSameCell(uint32_t u, uint32_t v) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
+  bool passesLimit(uint32_t u, uint32_t v, S error);
+  void count(Outcome outcome);
   void placeAt(uint32_t u, uint32_t v, const S* z);
   StarShape shapeFrom(const S* place, const StarCell* cells, size_t count,
                       const ThinAngle& angle) const;
@@ -102,6 +111,7 @@ class Collapser {
 
   Core<S>& core_;
   Mesh& mesh_;
+  Tally& tally_;
   Array<Refusal> refusals_;
   LinkCondition link_;
   StrataCondition strata_;

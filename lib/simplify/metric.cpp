@@ -172,7 +172,7 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
     core_.kernels.rescale(factor.data(), weight, core_.plan.dimension, core_.window.quadric(v));
     if (!(core_.window.mesh.vertexFlags(v) & kWritten)) unsettle(core_.window, v);
   }
-  core_.error *= static_cast<double>(weight);
+  core_.tally.error *= static_cast<double>(weight);
   core_.rescaled *= static_cast<double>(weight);
 }
 

@@ -11,6 +11,8 @@
 
 namespace tetstream {
 
+class Tasks;
+
 enum class QuadricForm { kDeterminant, kGarlandZhou };
 enum class Mode { kSweep, kPaper, kQueue };
 // Edges are collapsed in a window with links, one by one, at the same ratio all along the stream.
@@ -38,11 +40,13 @@ struct SimplifyOptions {
   int64_t seed = 1;
   int64_t candidates = 8;
   Shape shape = Shape::kField;
-  int64_t window_cells = 0;  // 0: from the front
-  int64_t memory_bytes = 0;  // 0: no limit
+  int64_t window_cells = 0;      // 0: from the front
+  int64_t memory_bytes = 0;      // 0: no limit
+  const Tasks* tasks = nullptr;  // for a sweep; null: the caller's thread alone
   // For comparisons, beyond what users are offered.
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
   bool uniform_ratio = false;  // all along the stream, whatever the mode
+  int64_t tile_vertices = 0;   // of a patch, at most; 0: what fits the cache and the memory budget
   bool tries_again = true;     // mode queue: edges that were refused, once the window has changed
   // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
   bool last_resort = true;

@@ -25,7 +25,7 @@ template <class S>
 bool Reshaper<S>::reshape(int64_t least_cells, int64_t most_cells) {
   least_cells_ = least_cells;
   most_cells_ = most_cells;
-  allowed_change_ = core_.volume > 0 ? kMostChange * core_.error / core_.volume : 0;
+  allowed_change_ = core_.volume > 0 ? kMostChange * core_.tally.error / core_.volume : 0;
   patch_.listGone();
   if (changed_.size() < patch_.vertexEnd()) changed_.resize(patch_.vertexEnd() + 1024);
   std::fill_n(changed_.data(), patch_.vertexEnd(), uint8_t{0});

@@ -26,6 +26,14 @@ struct Goal {
   int64_t enough_cells = 0;
   // And only while the error of the whole is below.
   double most_error = std::numeric_limits<double>::infinity();
+
+  // Whether a sweep must stop at so many live cells. No goal is undercut; where only a ring's cells
+  // or so may go, nearly all edges take too many.
+  bool isMet(int64_t live) const {
+    constexpr int64_t kLeastRoom = 8;  // a collapse takes 5 or 6
+    const int64_t room = live - least_cells;
+    return last ? live <= cells || room <= 0 : room <= kLeastRoom;
+  }
 };
 
 class Selector {

@@ -50,7 +50,7 @@ class ExhaustiveSelector final : public Selector {
   };
 
   bool reached(const Goal& goal) const {
-    return mesh_.liveCells() <= goal.cells || core_.error_reached;
+    return mesh_.liveCells() <= goal.cells || collapser_.errorReached();
   }
   uint32_t listEdges(uint32_t first_cell);
   S minimize(uint32_t u, uint32_t v, S* z);

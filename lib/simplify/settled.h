@@ -6,6 +6,7 @@
 // something changes round it. Kept where the window will have the vertex's rank in the output.
 #pragma once
 
+#include <atomic>
 #include <bit>
 
 #include "window.h"
@@ -37,6 +38,13 @@ void settle(Window<S>& window, uint32_t v, Settled s) {
 template <class S>
 void unsettle(Window<S>& window, uint32_t v) {
   window.outRank(v) = 0;
+}
+
+// The same for one that had refused edges; several patches may have it on their rims.
+template <class S>
+void unsettleRefused(Window<S>& window, uint32_t v) {
+  const std::atomic_ref<uint64_t> bits(window.outRank(v));
+  if (bits.load(std::memory_order_relaxed) & kRefusedBit) bits.store(0, std::memory_order_relaxed);
 }
 
 }  // namespace tetstream

@@ -237,9 +237,9 @@ class WindowedEngine final : public Simplifier::Engine {
     l.keep = keptCells();
     l.rescaled = core_.rescaled;
     l.error_unit = core_.error_unit;
-    l.error = core_.error;
+    l.error = core_.tally.error;
     l.error_limit = core_.error_limit;
-    l.error_met = core_.error_reached;
+    l.error_met = core_.tally.error_reached;
     l.front = front_cells_;
     return l;
   }
@@ -315,8 +315,20 @@ class WindowedEngine final : public Simplifier::Engine {
     progress_(p);
   }
 
+  void reportTally() {
+    Report& r = core_.report;
+    const Tally& t = core_.tally;
+    r.collapses = t.collapses;
+    r.rejected_orientation = t.rejected_orientation;
+    r.rejected_link = t.rejected_link;
+    r.rejected_locked = t.rejected_locked;
+    r.rejected_other = t.rejected_other;
+    r.largest_error = t.largest_error;
+  }
+
   void closeReport() {
     Report& r = core_.report;
+    reportTally();
     r.cells_in = static_cast<int64_t>(intake_.cellsRead());
     r.vertices_in = static_cast<int64_t>(core_.front.introduced());
     r.vertices_out = static_cast<int64_t>(release_.verticesWritten());
@@ -324,12 +336,12 @@ class WindowedEngine final : public Simplifier::Engine {
     r.front_span = core_.front.span();
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
     r.peak_window_bytes = account_.peak();
-    r.estimated_error = percentOf(core_, core_.error);
+    r.estimated_error = percentOf(core_, core_.tally.error);
     tell(0);
     const Target target = targetOf(plan_.schema, options_);
     const bool by_count = target.ratio > 0 || target.cells > 0;
     r.target_cells = by_count ? target.cellsOf(r.cells_in) : 0;
-    if (core_.error_reached)
+    if (core_.tally.error_reached)
       r.reached = "error";
     else if (by_count && r.cells_out <= r.target_cells)
       r.reached = std::min(target.cells, r.cells_in) == r.target_cells ? "cells" : "ratio";

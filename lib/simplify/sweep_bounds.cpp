@@ -82,8 +82,8 @@ double SweepBounds<S>::next(double bound, const Goal& goal) {
   const double by_count = boundToTake(std::max(cells, 0.0)) / bound;
   // The squared error rises as n^(-4/3).
   const double by_error =
-      core_.error > 0
-          ? std::pow(std::min(goal.most_error, core_.error_limit) / core_.error, 7.0 / 4)
+      core_.tally.error > 0
+          ? std::pow(std::min(goal.most_error, core_.error_limit) / core_.tally.error, 7.0 / 4)
           : std::numeric_limits<double>::infinity();
   double step = std::min({by_count, by_error, kLargestStep});
   if (!std::isfinite(core_.error_limit))

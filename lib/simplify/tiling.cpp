@@ -1,6 +1,7 @@
 #include "tiling.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "median_cut.h"
 #include "settled.h"
@@ -76,7 +77,7 @@ size_t Tiling<S>::tilesOf(uint32_t cell, uint32_t tiles[4]) const {
 
 template <class S>
 void Tiling<S>::meet(uint32_t a, uint32_t b) {
-  std::vector<uint32_t>& of = neighbours_[std::max(a, b)];
+  std::vector<uint32_t>& of = earlier_[std::max(a, b)];
   const uint32_t other = std::min(a, b);
   if (std::find(of.begin(), of.end(), other) == of.end()) of.push_back(other);
 }
@@ -96,9 +97,9 @@ void Tiling<S>::addCell(uint32_t tile, uint32_t cell) {
 
 // In one pass: how many cells a tile will have is not known before.
 template <class S>
-void Tiling<S>::listCells() {
+void Tiling<S>::addCells() {
   const Topology& mesh = core_.window.mesh;
-  neighbours_.assign(tiles_.size(), {});
+  earlier_.assign(tiles_.size(), {});
   block_before_.clear();
   const uint32_t* of = core_.window.scratch();
   uint32_t tiles[4];
@@ -117,15 +118,15 @@ void Tiling<S>::listCells() {
 }
 
 template <class S>
-const uint32_t* Tiling<S>::cells(const TilePiece& t) {
-  if (listed_.size() < t.cell_count) listed_.resize(t.cell_count + t.cell_count / 4);
+const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) const {
+  if (room.size() < t.cell_count) room.resize(t.cell_count + t.cell_count / 4);
   uint32_t block = t.last_block;
   for (size_t end = t.cell_count; end > 0; block = block_before_[block]) {
     const size_t begin = (end - 1) / kBlockCells * kBlockCells;
-    std::copy_n(&cells_[kBlockCells * block], end - begin, &listed_[begin]);
+    std::copy_n(&cells_[kBlockCells * block], end - begin, &room[begin]);
     end = begin;
   }
-  return listed_.data();
+  return room.data();
 }
 
 // The lowest colour that no neighbour before it has.
@@ -133,14 +134,30 @@ template <class S>
 void Tiling<S>::colour() {
   std::vector<bool> taken;
   for (size_t i = 0; i < tiles_.size(); ++i) {
-    taken.assign(neighbours_[i].size() + 1, false);
-    for (uint32_t n : neighbours_[i])
+    taken.assign(earlier_[i].size() + 1, false);
+    for (uint32_t n : earlier_[i])
       if (tiles_[n].colour < taken.size()) taken[tiles_[n].colour] = true;
     tiles_[i].colour =
         static_cast<uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
   }
-  std::stable_sort(tiles_.begin(), tiles_.end(),
-                   [](const TilePiece& a, const TilePiece& b) { return a.colour < b.colour; });
+}
+
+template <class S>
+void Tiling<S>::sortByColour() {
+  std::vector<uint32_t> order(tiles_.size()), place(tiles_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [this](uint32_t a, uint32_t b) { return tiles_[a].colour < tiles_[b].colour; });
+  for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
+  std::vector<TilePiece> tiles;
+  std::vector<std::vector<uint32_t>> earlier(tiles_.size());
+  for (uint32_t a : order) {
+    tiles.push_back(tiles_[a]);
+    for (uint32_t b : earlier_[a])
+      earlier[std::max(place[a], place[b])].push_back(std::min(place[a], place[b]));
+  }
+  tiles_.swap(tiles);
+  earlier_.swap(earlier);
 }
 
 template <class S>
@@ -150,8 +167,9 @@ void Tiling<S>::build(unsigned round, float bound) {
   const size_t count = listVertices();
   if (count == 0) return;
   cut(count, round);
-  listCells();
+  addCells();
   colour();
+  sortByColour();
 }
 
 template class Tiling<float>;

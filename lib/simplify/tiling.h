@@ -1,5 +1,5 @@
 // simplify: the window's free vertices cut into tiles, each with the cells that a patch of it
-// needs, in an order that could run concurrently. Depends on core.h.
+// needs, in an order of which many may be worked on at the same time. Depends on core.h.
 #pragma once
 
 #include "core.h"
@@ -19,8 +19,7 @@ struct TilePiece {
 template <class S>
 class Tiling {
  public:
-  Tiling(Core<S>& core, Account& account)
-      : core_(core), vertices_(account), cells_(account), listed_(account) {}
+  Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account), cells_(account) {}
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
@@ -33,27 +32,30 @@ class Tiling {
   // Whether edges of free vertices that were not listed have errors above the bound.
   bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
+  // Of each tile: those before it that it shares cells with.
+  const std::vector<std::vector<uint32_t>>& earlier() const { return earlier_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
-  // Until those of another tile are asked for.
-  const uint32_t* cells(const TilePiece& t);
+  // Its cells, listed in `room`, which grows if need be.
+  const uint32_t* listCells(const TilePiece& t, Array<uint32_t>& room) const;
 
  private:
   void markVertices(float bound);
   size_t listVertices();
   void cut(size_t count, unsigned round);
-  void listCells();
+  void addCells();
   size_t tilesOf(uint32_t cell, uint32_t tiles[4]) const;
   void addCell(uint32_t tile, uint32_t cell);
   void meet(uint32_t a, uint32_t b);
   void colour();
+  void sortByColour();
 
   Core<S>& core_;
-  Array<uint32_t> vertices_, cells_, listed_;
+  Array<uint32_t> vertices_, cells_;
   std::vector<uint32_t> block_before_;
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
   bool others_wait_ = false;
-  std::vector<std::vector<uint32_t>> neighbours_;  // of each tile: those with cells in common
+  std::vector<std::vector<uint32_t>> earlier_;
 };
 
 }  // namespace tetstream

@@ -59,6 +59,8 @@ static void published_numbers_have_their_names_and_types(void) {
       {TETSTREAM_OPTION_WINDOW, TETSTREAM_OPTION_IS_INT64, "window"},
       {TETSTREAM_OPTION_MEMORY, TETSTREAM_OPTION_IS_INT64, "memory"},
       {TETSTREAM_OPTION_TMPDIR, TETSTREAM_OPTION_IS_TEXT, "tmpdir"},
+      {TETSTREAM_OPTION_THREADS, TETSTREAM_OPTION_IS_INT64, "threads"},
+      {TETSTREAM_OPTION_SPLIT, TETSTREAM_OPTION_IS_TEXT, "split"},
       {TETSTREAM_OPTION_AXIS, TETSTREAM_OPTION_IS_TEXT, "axis"},
   };
   for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; ++i) {

@@ -256,7 +256,7 @@ class Patches {
  private:
   void walkTile(const TilePiece& tile, Times& times, Times& plain) {
     times.load.back() += nsOf([&] {
-      if (!patch_.load(tiling_.vertices(tile), tile.vertexCount(), tiling_.cells(tile),
+      if (!patch_.load(tiling_.vertices(tile), tile.vertexCount(), tiling_.listCells(tile, listed_),
                        tile.cell_count))
         fail(Status::kUnsupported, "a tile is too large for a patch");
     });
@@ -288,6 +288,7 @@ class Patches {
   Account account_, tiling_account_, patch_account_;
   Core<float> core_;
   Tiling<float> tiling_;
+  Array<uint32_t> listed_{tiling_account_};
   Patch<float> patch_;
   Walker walker_;
   Seen seen_plainly_;

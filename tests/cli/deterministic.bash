@@ -25,3 +25,20 @@ dearest=$(simplified --release error --window 2000)
 [[ $dearest != "$(simplified --window 2000)" ]] || fail "simplify: both releases, same bytes"
 [[ $dearest == "$(simplified --release error --window 2000)" ]] || fail "simplify: two runs, different bytes"
 [[ $paper != "$(simplified --mode paper --seed -77)" ]] || fail "simplify: other seed, same bytes"
+
+# Any number of threads gives the same bytes: held whole, through windows, with regions, in text.
+tetstream generate ball --cells 40000 many.tets --seed 5
+with_threads() {
+  tetstream simplify many.tets out.tets --ratio 0.2 --quiet "$@"
+  bytes_of out.tets
+}
+for options in "" "--window 8000" "--regions none" "--feature-angle 40"; do
+  # shellcheck disable=SC2086  # words, or none
+  one=$(with_threads --threads 1 $options)
+  for threads in 2 3 4 8 0; do
+    # shellcheck disable=SC2086
+    [[ $one == "$(with_threads --threads $threads $options)" ]] || fail "$threads threads $options: other bytes"
+  done
+done
+expect_error 1 "threads" simplify many.tets none.tets --ratio 0.2 --threads -1
+expect_error 1 "threads" simplify many.tets none.tets --ratio 0.2 --threads 1025

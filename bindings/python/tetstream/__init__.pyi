@@ -36,6 +36,7 @@ class _Options(TypedDict, total=False):
     window: int | str
     memory: int | str
     tmpdir: str
+    threads: int | str
     axis: Literal["auto", "x", "y", "z"]
     order: str
     split: Literal["no", "yes"]
@@ -151,6 +152,7 @@ class Options:
     window: int | str
     memory: int | str
     tmpdir: str
+    threads: int | str
     axis: str
     order: str
     split: str

@@ -88,7 +88,8 @@ void expectLoadAndStoreChangeNothing() {
   for (int round = 0; round < 10; ++round) {
     const auto owned = someOf(w.window.mesh.vertexEnd(), r, static_cast<uint32_t>(round));
     const auto cells = w.cellsOf(owned);
-    ASSERT_TRUE(patch.load(owned.data(), owned.size(), cells.data(), cells.size()));
+    ASSERT_TRUE(
+        patch.load(owned.data(), owned.size(), cells.data(), cells.size(), w.window.liveCells()));
     EXPECT_EQ(patch.ownedEnd(), owned.size());
     EXPECT_EQ(patch.cellEnd(), cells.size());
     for (uint32_t v = 0; v < owned.size(); ++v) EXPECT_EQ(patch.slotOf(v), owned[v]);
@@ -135,7 +136,8 @@ TEST(Patch, GathersWhatTheWindowDoes) {
   Patch<float> patch(w.account, w.window);
   const auto owned = someOf(w.window.mesh.vertexEnd(), r, 5);
   const auto cells = w.cellsOf(owned);
-  ASSERT_TRUE(patch.load(owned.data(), owned.size(), cells.data(), cells.size()));
+  ASSERT_TRUE(
+      patch.load(owned.data(), owned.size(), cells.data(), cells.size(), w.window.liveCells()));
   EXPECT_LE(patch.cellEnd(), cells.size());
   for (uint32_t v = 0; v < patch.ownedEnd(); ++v) {
     EXPECT_EQ(patch.isBoundary(v), patch.slotOf(v) % 5 == 0);
@@ -154,7 +156,8 @@ struct Twins {
       : a(mesh), b(mesh), patch(b.account, b.window), stars(b.account) {}
   void load(const std::vector<uint32_t>& owned) {
     const auto cells = b.cellsOf(owned);
-    ASSERT_TRUE(patch.load(owned.data(), owned.size(), cells.data(), cells.size()));
+    ASSERT_TRUE(
+        patch.load(owned.data(), owned.size(), cells.data(), cells.size(), b.window.liveCells()));
   }
   // By place in the patch.
   void merge(uint32_t u, uint32_t v) {
@@ -243,12 +246,12 @@ TEST(Patch, RefusesWhatIsTooLargeAndIsAsBeforeThen) {
   const auto before = contentsOf(window);
   Patch<float> patch(account, window);
   const uint32_t first[4] = {0, 1, 2, 3};
-  EXPECT_FALSE(patch.load(first, 4, cells.data(), cells.size()));
+  EXPECT_FALSE(patch.load(first, 4, cells.data(), cells.size(), window.liveCells()));
   EXPECT_TRUE(contentsOf(window) == before);
   // The same cell again and again is as many cells.
   const std::vector<uint32_t> many(Patch<float>::kMostCells + 1, 0);
-  EXPECT_FALSE(patch.load(first, 4, many.data(), many.size()));
-  ASSERT_TRUE(patch.load(first, 4, cells.data() + 0, 1));
+  EXPECT_FALSE(patch.load(first, 4, many.data(), many.size(), window.liveCells()));
+  ASSERT_TRUE(patch.load(first, 4, cells.data() + 0, 1, window.liveCells()));
   EXPECT_EQ(patch.vertexEnd(), 4u);
   EXPECT_EQ(patch.slotOf(2), 2u);
   patch.store();
@@ -262,7 +265,7 @@ TEST(Patch, FollowsAGrowingWindow) {
   Patch<double> patch(w.account, w.window);
   const uint32_t old[2] = {0, 1};
   const auto cells = w.cellsOf({0, 1});
-  ASSERT_TRUE(patch.load(old, 2, cells.data(), cells.size()));
+  ASSERT_TRUE(patch.load(old, 2, cells.data(), cells.size(), w.window.liveCells()));
   patch.store();
   w.window.growVertices(mesh.vertexCount() + 1000);
   w.window.growCells(mesh.cellCount() + 10);
@@ -271,7 +274,7 @@ TEST(Patch, FollowsAGrowingWindow) {
   std::fill_n(w.window.values(corners[3]), kShape.values, 1.0);
   std::fill_n(w.window.quadric(corners[3]), kShape.quadric, 2.0);
   const uint32_t cell = w.window.mesh.addCell(corners, 0);
-  ASSERT_TRUE(patch.load(&corners[3], 1, &cell, 1));
+  ASSERT_TRUE(patch.load(&corners[3], 1, &cell, 1, w.window.liveCells()));
   Star star(w.account), ring(w.account);
   patch.gather(0, kNone, star, ring);
   ASSERT_EQ(star.size(), 1u);

@@ -35,7 +35,7 @@ struct Pieces {
     for (const Corners& c : cells) all.push_back(window.mesh.addCell(c.data(), 0));
     for (uint32_t c = 0; c < all.size(); ++c)
       if (sixVolumeOf(corners(c)) < 0) window.mesh.flagCell(c, kNegative);
-    loaded = patch.load(owned.data(), owned.size(), all.data(), all.size());
+    loaded = patch.load(owned.data(), owned.size(), all.data(), all.size(), window.liveCells());
     patch.listGone();
   }
   Corners corners(uint32_t c) const {

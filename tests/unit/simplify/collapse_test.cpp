@@ -88,7 +88,7 @@ TYPED_TEST(Collapsers, TellTheTracerOfEachCollapse) {
   w.selector()->decimate({100, 90, true}, [] {});
   w.store();
   tracer.flush();
-  ASSERT_EQ(static_cast<int64_t>(log.kept.size()), w.core.report.collapses);
+  ASSERT_EQ(static_cast<int64_t>(log.kept.size()), w.core.tally.collapses);
   EXPECT_GT(log.kept.size(), 30u);
   EXPECT_LE(w.core.window.mesh.liveCells(), 100u);
   EXPECT_GE(w.core.window.mesh.liveCells(), 90u);
@@ -101,7 +101,7 @@ TYPED_TEST(Collapsers, TellTheTracerOfEachCollapse) {
     largest = std::max(largest, log.errors[i]);
     EXPECT_GE(log.errors[i], 0);
   }
-  EXPECT_EQ(largest, w.core.report.largest_error);
+  EXPECT_EQ(largest, w.core.tally.largest_error);
   for (uint32_t v = 0; v < gone.size(); ++v)
     EXPECT_EQ(gone[v], (w.core.window.mesh.vertexFlags(v) & kCollapsed) != 0);
   EXPECT_EQ(topologyChange(factsOf(w.mesh), factsOf(w.live())), "");
@@ -112,7 +112,7 @@ TYPED_TEST(Collapsers, RefuseToTurnACellOver) {
   const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
   double z[4] = {1000, 0, 0, 0};
   EXPECT_EQ(collapse(w, u, v, z), Outcome::kOrientation);
-  EXPECT_EQ(w.core.report.rejected_orientation, 1);
+  EXPECT_EQ(w.core.tally.rejected_orientation, 1);
   // Onto the plane of the star's outer faces: flat is as bad as turned over.
   z[0] = 1.5 * w.core.scale[0];
   EXPECT_EQ(collapse(w, u, v, z), Outcome::kOrientation);
@@ -142,7 +142,7 @@ TYPED_TEST(Collapsers, SpareCellsOfDearAngles) {
   EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kOrientation);
   z[0] = 0.9 * distance;
   EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDear);
-  EXPECT_EQ(w.core.report.rejected_other, 1);
+  EXPECT_EQ(w.core.tally.rejected_other, 1);
   z[0] = 0.8 * distance;  // above the second, below the first
   EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDear);
   w.core.dear = {ThinAngle(10)};
@@ -175,7 +175,7 @@ TYPED_TEST(Collapsers, RefuseWhatIsNotFinite) {
   const double z[4] = {0, 0, 0, 0}, bad[4] = {0, 0, 0, nan};
   EXPECT_EQ(collapse(w, u, v, z, nan), Outcome::kNotFinite);
   EXPECT_EQ(collapse(w, u, v, bad), Outcome::kNotFinite);
-  EXPECT_EQ(w.core.report.rejected_other, 2);
+  EXPECT_EQ(w.core.tally.rejected_other, 2);
 }
 
 TYPED_TEST(Collapsers, RefuseLockedAndGoneVertices) {
@@ -204,7 +204,7 @@ TYPED_TEST(Collapsers, RefuseToPinch) {
   TypeParam w(mesh);
   const double z[3] = {0, 0, 0};
   EXPECT_EQ(collapse(w, slotAt(mesh, 2, 2, 0), slotAt(mesh, 2, 2, 1), z), Outcome::kTopology);
-  EXPECT_EQ(w.core.report.rejected_link, 1);
+  EXPECT_EQ(w.core.tally.rejected_link, 1);
 }
 
 TYPED_TEST(Collapsers, RoundPlacesToTheTypeThatIsWritten) {

@@ -31,7 +31,7 @@ struct Squeezed : WholePatch<double> {
   explicit Squeezed(const std::string& region_names = "auto")
       : WholePatch<double>(squeezed(8), options(region_names)), reshaper(core, patch, account) {
     core.poor = thinnessOfAngle(25);
-    core.error = core.volume;  // any change of the field is allowed
+    core.tally.error = core.volume;  // any change of the field is allowed
     mergeSome();
   }
   static SimplifyOptions options(const std::string& region_names) {
@@ -105,7 +105,7 @@ TEST(Reshape, StaysWithinTheLimitsOfCells) {
 
 TEST(Reshape, LeavesFieldsAloneThatWouldChange) {
   Squeezed s;
-  s.core.error = 0;
+  s.core.tally.error = 0;
   EXPECT_FALSE(s.reshaper.reshape(0, 1 << 30));
 }
 

@@ -26,7 +26,9 @@ void expectCellsOfTile(const Window<S>& window, Tiling<S>& tiling, const TilePie
   std::vector<bool> owned(window.mesh.vertexEnd(), false);
   for (size_t i = 0; i < tile.vertexCount(); ++i) owned[tiling.vertices(tile)[i]] = true;
   std::set<uint32_t> listed;
-  const uint32_t* cells = tiling.cells(tile);
+  Account account;
+  Array<uint32_t> room(account);
+  const uint32_t* cells = tiling.listCells(tile, room);
   for (size_t i = 0; i < tile.cell_count; ++i)
     EXPECT_TRUE(listed.insert(cells[i]).second) << "a cell twice in a tile";
   EXPECT_TRUE(std::is_sorted(cells, cells + tile.cell_count));
@@ -45,13 +47,15 @@ void expectTiling(Core<S>& core, Tiling<S>& tiling) {
   const std::vector<int> owners = ownersOf(tiling, mesh.vertexEnd());
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v)
     ASSERT_EQ(owners[v], mesh.isFree(v) ? 1 : 0) << "vertex " << v;
+  Account account;
+  Array<uint32_t> room(account);
   std::vector<uint32_t> last_colour(mesh.cellEnd(), 0);  // plus one
   uint32_t colour = 0;
   for (const TilePiece& t : tiling.tiles()) {
     EXPECT_GE(t.colour, colour) << "tiles are not in the order of their colours";
     colour = t.colour;
     expectCellsOfTile(core.window, tiling, t);
-    const uint32_t* cells = tiling.cells(t);
+    const uint32_t* cells = tiling.listCells(t, room);
     for (size_t i = 0; i < t.cell_count; ++i) {
       uint32_t& last = last_colour[cells[i]];
       ASSERT_NE(last, t.colour + 1) << "two tiles of a colour share a cell";
@@ -94,8 +98,9 @@ TEST(Tiling, CutsElsewhereInEachRound) {
   const auto seam = [&](unsigned round) {
     tiling.build(round, std::numeric_limits<float>::infinity());
     std::vector<int> tiles(w.core.window.cellEnd(), 0);
+    Array<uint32_t> room(w.account);
     for (const TilePiece& t : tiling.tiles()) {
-      const uint32_t* cells = tiling.cells(t);
+      const uint32_t* cells = tiling.listCells(t, room);
       for (size_t i = 0; i < t.cell_count; ++i) ++tiles[cells[i]];
     }
     return tiles;

@@ -79,7 +79,7 @@ struct WholePatch : WholeWindow<S> {
     for (uint32_t v = 0; v < window.vertexEnd(); ++v)
       if (window.isFree(v)) owned.push_back(v);
     for (uint32_t c = 0; c < window.cellEnd(); ++c) cells.push_back(c);
-    loaded = patch.load(owned.data(), owned.size(), cells.data(), cells.size());
+    loaded = patch.load(owned.data(), owned.size(), cells.data(), cells.size(), window.liveCells());
   }
 
   Patch<S> patch;

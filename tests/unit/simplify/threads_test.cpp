@@ -1,0 +1,175 @@
+// Any number of threads gives what one gives, whatever a run is asked for.
+#include <cmath>
+#include <thread>
+
+#include "faces.h"
+#include "tasks.h"
+#include "ways_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+constexpr size_t kThreads[] = {2, 3, 4, 8};
+constexpr int64_t kFewVertices = 48;  // to a tile: small meshes have many then
+
+TestMesh wavyGrid(int n, ScalarType type) {
+  TestMesh mesh = fullGrid(n, n, n, 0.1);
+  addPositionField(mesh, {"f", 1, type},
+                   [](double x, double y, double z) { return std::sin(x * y) - z; });
+  return mesh;
+}
+
+struct Outcomes {
+  Recorder out;
+  Report report;
+};
+
+Outcomes ran(const TestMesh& mesh, SimplifyOptions options, size_t threads,
+             const FaceLabels& faces = {}) {
+  const Tasks tasks(threads);
+  options.tasks = threads > 1 ? &tasks : nullptr;
+  options.tile_vertices = kFewVertices;
+  Outcomes run;
+  Simplifier simplifier(options, run.out, {});
+  FacedStream stream(mesh, Cut{}, faces);
+  copyStream(stream, simplifier);
+  run.report = simplifier.report();
+  EXPECT_EQ(run.out.problem, "");
+  return run;
+}
+
+void expectSame(const TestMesh& mesh, const SimplifyOptions& options,
+                const FaceLabels& faces = {}) {
+  const Outcomes one = ran(mesh, options, 1, faces);
+  EXPECT_GT(one.report.collapses, 0);
+  for (size_t threads : kThreads) {
+    SCOPED_TRACE(textOf("%zu threads", threads));
+    const Outcomes many = ran(mesh, options, threads, faces);
+    EXPECT_TRUE(many.out.allBytes() == one.out.allBytes());
+    EXPECT_TRUE(many.out.faces == one.out.faces);
+    EXPECT_EQ(many.report.collapses, one.report.collapses);
+    EXPECT_EQ(many.report.rejected_orientation, one.report.rejected_orientation);
+    EXPECT_EQ(many.report.rejected_other, one.report.rejected_other);
+    EXPECT_EQ(many.report.largest_error, one.report.largest_error);
+    EXPECT_EQ(many.report.estimated_error, one.report.estimated_error);
+  }
+}
+
+int side() {
+  return slowRun() ? 6 : 10;
+}
+
+TEST(SweepThreads, GiveTheSameBytesForEachRatioAndWindow) {
+  for (ScalarType type : {ScalarType::kFloat32, ScalarType::kFloat64})
+    for (double ratio : {0.5, 0.1, 0.02})
+      for (int64_t window : {0, 2500}) {
+        SCOPED_TRACE(textOf("ratio %g, window %lld", ratio, static_cast<long long>(window)));
+        expectSame(wavyGrid(side(), type), toRatio(ratio, window));
+      }
+}
+
+TEST(SweepThreads, GiveTheSameBytesUpToAnError) {
+  SimplifyOptions options;
+  options.error = 5;
+  expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+}
+
+TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
+  SimplifyOptions options = toRatio(0.2);
+  options.shape = Shape::kSolver;
+  expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+}
+
+TEST(SweepThreads, GiveTheSameBytesWithWhatVerticesAndCellsCarry) {
+  TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  mesh.addIntegerField("id", [](size_t v) { return static_cast<int64_t>(v); });
+  mesh.addCellData({"density", 2, ScalarType::kFloat32},
+                   [](size_t c, int k) { return std::sin(static_cast<double>(c) + k); });
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(v % 17 == 0);
+  expectSame(mesh, toRatio(0.2));
+}
+
+TEST(SweepThreads, GiveTheSameBytesWithRegions) {
+  TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    return mesh.position(static_cast<size_t>(mesh.cells[4 * c]), 2) < side() / 2 ? 3 : 8;
+  });
+  expectSame(mesh, toRatio(0.2));
+}
+
+TEST(SweepThreads, GiveTheSameBytesWithLabelledFacesAndFeatures) {
+  const int n[3] = {side(), side(), side()};
+  const TestMesh mesh = inStreamOrder(shakenInside(side()));
+  expectSame(mesh, toRatio(0.2), sidesOf(mesh, n));
+  SimplifyOptions options = toRatio(0.2);
+  options.feature_angle = 30;
+  expectSame(mesh, options);
+}
+
+struct Rows final : MapSink, LogSink {
+  void begin() override {}
+  void begin(const Schema&) override {}
+  void put(const MapRows& rows) override {
+    ids.insert(ids.end(), rows.vertices, rows.vertices + rows.count);
+    ids.insert(ids.end(), rows.cells, rows.cells + rows.count);
+  }
+  void put(const LogRows& rows) override {
+    ids.insert(ids.end(), rows.kept, rows.kept + rows.count);
+    ids.insert(ids.end(), rows.removed, rows.removed + rows.count);
+  }
+  void finish() override {}
+  std::vector<int64_t> ids;
+};
+
+TEST(SweepThreads, TellTheSameMapAndLog) {
+  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  const auto traced = [&](size_t threads) {
+    const Tasks tasks(threads);
+    SimplifyOptions options = toRatio(0.2);
+    options.tasks = &tasks;
+    options.tile_vertices = kFewVertices;
+    Rows rows;
+    Recorder out;
+    Simplifier simplifier(options, out, {});
+    simplifier.trace({&rows, &rows});
+    MeshStream stream(mesh, Cut{});
+    copyStream(stream, simplifier);
+    return rows.ids;
+  };
+  const std::vector<int64_t> one = traced(1);
+  EXPECT_GT(one.size(), mesh.vertexCount());
+  EXPECT_TRUE(traced(3) == one);
+}
+
+// Callbacks come on the caller's thread; one that fails ends the run, and nobody waits for ever.
+TEST(SweepThreads, StopWhenACallbackFails) {
+  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  const Tasks tasks(4);
+  const std::thread::id caller = std::this_thread::get_id();
+  for (int last = 1; last < 6; ++last) {
+    SimplifyOptions options = toRatio(0.1);
+    options.tasks = &tasks;
+    options.tile_vertices = kFewVertices;
+    int told = 0;
+    Recorder out;
+    Simplifier simplifier(options, out, [&](const Progress&) {
+      EXPECT_EQ(std::this_thread::get_id(), caller);
+      if (++told == last) fail(Status::kCancelled, "enough");
+    });
+    MeshStream stream(mesh, Cut{});
+    EXPECT_EQ(thrownBy([&] { copyStream(stream, simplifier); }).second, "enough");
+  }
+}
+
+// With a memory budget there is one patch at a time, and no more memory than one takes.
+TEST(SweepThreads, TakeNoMemoryBeyondABudget) {
+  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  SimplifyOptions options = toRatio(0.2);
+  options.memory_bytes = 8 << 20;
+  const Outcomes one = ran(mesh, options, 1), many = ran(mesh, options, 8);
+  EXPECT_TRUE(many.out.allBytes() == one.out.allBytes());
+  EXPECT_EQ(many.report.peak_window_bytes, one.report.peak_window_bytes);
+}
+
+}  // namespace
+}  // namespace tetstream::test

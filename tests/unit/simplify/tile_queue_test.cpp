@@ -1,0 +1,54 @@
+// Tiles are given out in their order, as soon as those before them that they share cells with are
+// done.
+#include "tile_queue.h"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace tetstream::test {
+namespace {
+
+using Earlier = std::vector<std::vector<uint32_t>>;
+
+TEST(TileQueue, GivesOutWhatWaitsForNothing) {
+  const Earlier earlier = {{}, {0}, {}, {1, 2}};
+  TileQueue queue(earlier, 0, 4);
+  EXPECT_EQ(queue.take(), 0u);
+  EXPECT_EQ(queue.take(), 2u) << "1 waits for 0";
+  queue.finish(0);
+  EXPECT_EQ(queue.take(), 1u);
+  queue.finish(2);
+  queue.finish(1);
+  EXPECT_EQ(queue.take(), 3u);
+  queue.finish(3);
+  EXPECT_EQ(queue.take(), std::nullopt);
+}
+
+TEST(TileQueue, TakesTilesBeforeItsOwnAsDone) {
+  const Earlier earlier = {{}, {0}, {0, 1}};
+  TileQueue queue(earlier, 1, 3);
+  EXPECT_EQ(queue.take(), 1u);
+  queue.finish(1);
+  EXPECT_EQ(queue.take(), 2u);
+}
+
+TEST(TileQueue, LetsThreadsWaitUntilATileIsDoneOrSomebodyGivesUp) {
+  const Earlier earlier = {{}, {0}, {1}};
+  TileQueue queue(earlier, 0, 3);
+  EXPECT_EQ(queue.take(), 0u);
+  std::optional<size_t> second, third;
+  std::thread other([&] {
+    second = queue.take();
+    third = queue.take();  // waits for the second, which nobody finishes
+  });
+  queue.finish(0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  queue.giveUp();
+  other.join();
+  EXPECT_TRUE(second == 1u || second == std::nullopt);
+  EXPECT_EQ(third, std::nullopt);
+}
+
+}  // namespace
+}  // namespace tetstream::test
