@@ -257,7 +257,7 @@ class Patches {
   void walkTile(const TilePiece& tile, Times& times, Times& plain) {
     times.load.back() += nsOf([&] {
       if (!patch_.load(tiling_.vertices(tile), tile.vertexCount(), tiling_.listCells(tile, listed_),
-                       tile.cell_count))
+                       tile.cell_count, core_.window.liveCells()))
         fail(Status::kUnsupported, "a tile is too large for a patch");
     });
     order_.resize(patch_.ownedEnd());
