@@ -61,7 +61,7 @@ def call(path, ratio, out):
     with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
         file.write("5")  # the peak counts from here
     before, clock, cpu = memory("VmRSS"), time.perf_counter(), resource.getrusage(0)
-    result = tetstream.simplify(points, cells, arrays, ratio=float(ratio))
+    result = tetstream.simplify(points, cells, arrays, ratio=float(ratio), threads=1)
     after = resource.getrusage(0)
     seconds, peak = time.perf_counter() - clock, memory("VmHWM")
     kept = sum(a.nbytes for a in (result.points, result.cells, *result.fields.values()))

@@ -13,7 +13,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import harness  # noqa: E402
 
-HEAD = ("mesh", "cells", "ratio", "got / asked", "s", "CPU s", "M cells/s", "ns / cell", "peak MB",
+HEAD = ("mesh", "cells", "ratio", "threads", "got / asked", "s", "CPU s", "M cells/s", "ns / cell", "peak MB",
         "VTK got / asked", "VTK s", "VTK CPU s", "VTK peak MB", "speed / VTK")
 
 
@@ -25,6 +25,8 @@ def arguments():
                         metavar="MESH:FIELD", help="real meshes, too: a name in TETSTREAM_MESHES "
                         "or a path")
     parser.add_argument("--ratio", nargs="+", type=float, default=[0.1], metavar="R")
+    parser.add_argument("--threads", nargs="+", type=int, default=[1], metavar="N",
+                        help="0: one for each core")
     parser.add_argument("--rounds", type=int, default=3, help="runs for the time; 5 is fair")
     parser.add_argument("--vtk-cells", type=float, default=4e6)
     parser.add_argument("--calibrate", action="store_true", help="measure the memory, too")
@@ -38,7 +40,8 @@ class Speed:
 
     def lines(self, name, stream, mesh, field):
         for ratio in self.args.ratio:
-            self.line(name, stream, mesh, field, ratio)
+            for self.tetstream.threads in self.args.threads:
+                self.line(name, stream, mesh, field, ratio)
 
     def line(self, name, stream, mesh, field, ratio):
         """`mesh` is the .vtu of `stream`, or None: VTK is left out."""
@@ -48,7 +51,7 @@ class Speed:
             self.args.rounds, lambda: self.tetstream.simplify(*words),
             mesh and (lambda: self.vtk.decimate(mesh, field, ratio, "scaled")))
         wall, cpu = ours["seconds"], ours["cpu_seconds"]
-        line = [name, report["cells_in"], f"{ratio:g}",
+        line = [name, report["cells_in"], f"{ratio:g}", self.tetstream.threads,
                 f"{report['cells_out'] / report['target_cells']:.4f}", f"{wall:.3f}", f"{cpu:.3f}",
                 f"{report['cells_in'] / wall / 1e6:.3f}", f"{1e9 * cpu / report['cells_in']:.0f}",
                 f"{harness.megabytes(ours['peak_bytes']):.1f}"]

@@ -110,7 +110,11 @@ class Program:
 
 
 class Tetstream(Program):
-    """The command."""
+    """The command, which simplifies with so many threads, 0 as by default."""
+
+    def __init__(self, program, measured=None, threads=0):
+        super().__init__(program, measured)
+        self.threads = threads
 
     def info(self, path):
         return json.loads(self.run("info", path, "--json", "--quiet")[0])
@@ -126,7 +130,8 @@ class Tetstream(Program):
 
     def simplify(self, source, target, *words, stdin=None):
         """The report of a run, with the measurements under "measured"."""
-        text, taken = self.run("simplify", source, target, "--quiet", "--report", "json", *words,
+        text, taken = self.run("simplify", source, target, "--quiet", "--report", "json",
+                               "--threads", self.threads, *words,
                                allowed=(0, TARGET_MISSED), stdin=stdin)
         return {**json.loads(text), "measured": taken}
 
@@ -150,12 +155,13 @@ class Switched(Program):
 
 
 def bench_programs(build):
-    """From the folder of a build: the command, and VTK's filter or None, both measured."""
+    """From the folder of a build: the command with one thread, as VTK's filter has, and that filter
+    or None, both measured."""
     bench = os.path.join(build, "tests", "bench")
     measured = os.path.join(bench, "measured")
     filter_path = os.path.join(bench, "vtk_decimate")
     vtk = VtkFilter(filter_path, measured) if os.path.isfile(filter_path) else None
-    return Tetstream(os.path.join(build, "bindings", "cli", "tetstream"), measured), vtk
+    return Tetstream(os.path.join(build, "bindings", "cli", "tetstream"), measured, threads=1), vtk
 
 
 def bench_path(build, name):
