@@ -27,7 +27,9 @@
  *   when there is no memory even for that, or no place to put it.
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   A handle is used by one thread at a time; different handles may be used at once, also a reader
- *   and a writer of different simplifiers. There is no global state.
+ *   and a writer of different simplifiers. There is no global state. A simplifier starts threads of
+ *   its own (option `threads`); callbacks are called on the caller's thread, and the threads end
+ *   with the simplifier.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
  *
