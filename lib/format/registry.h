@@ -14,8 +14,9 @@ namespace tetstream {
 struct ReadOptions {
   std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
   std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
-  std::string path;    // of a file; empty: the bytes come from elsewhere, nothing lies beside them
-  bool split = false;  // hexahedra, prisms and pyramids into tetrahedra; else they are errors
+  std::string path;  // of a file; empty: the bytes come from elsewhere, nothing lies beside them
+  bool recover = false;  // .tets: what is whole of a file that is damaged or cut off
+  bool split = false;    // hexahedra, prisms and pyramids into tetrahedra; else they are errors
 };
 
 struct WriteOptions {

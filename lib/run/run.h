@@ -23,8 +23,9 @@ struct RunOptions {
   enum class Auto { kKeeps, kSweeps, kNarrows } automatic = Auto::kSweeps;
   std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
-  std::string split = "no";  // of other cells, when a file is read
-  bool origins = false;      // ordered vertices tell their ranks in the input
+  std::string split = "no";    // of other cells, when a file is read
+  std::string recover = "no";  // what is whole of a damaged file
+  bool origins = false;        // ordered vertices tell their ranks in the input
   CompareOptions compare;
 };
 

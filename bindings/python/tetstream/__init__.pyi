@@ -39,6 +39,7 @@ class _Options(TypedDict, total=False):
     axis: Literal["auto", "x", "y", "z"]
     order: str
     split: Literal["no", "yes"]
+    recover: Literal["no", "yes"]
 
 class _OptionsWithRegions(_Options, total=False):
     regions: str
@@ -153,6 +154,7 @@ class Options:
     axis: str
     order: str
     split: str
+    recover: str
     def __init__(self, **values: Unpack[_OptionsWithRegions]) -> None: ...
     def add_field(self, name: str, weight: float = 1.0) -> None: ...
 
