@@ -22,11 +22,13 @@ struct ReadOptions {
 struct WriteOptions {
   std::string temp_dir;
   std::function<void(const std::string&)> note;
-  std::string path;         // as for reading
-  bool compress = true;     // .tets: zstd where built in; .vtu: zlib
-  bool binary = true;       // .msh: else text
-  bool newest = true;       // .msh: 4.1, else 2.2
-  bool post_order = false;  // .sva, .svb
+  std::string path;             // as for reading
+  JointFiles* joint = nullptr;  // gives files beside the output their names together with it; null:
+                                // they get them at once
+  bool compress = true;         // .tets: zstd where built in; .vtu: zlib
+  bool binary = true;           // .msh: else text
+  bool newest = true;           // .msh: 4.1, else 2.2
+  bool post_order = false;      // .sva, .svb
 };
 
 // What a format can hold, so that values are rounded before and not after they were checked.

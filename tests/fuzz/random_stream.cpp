@@ -43,9 +43,9 @@ RandomStream::RandomStream(Choices& choices) : choices_(choices) {
   const auto count = [&] { return choices_.below(8) ? -1 : static_cast<int64_t>(choices_.bits()); };
   info_.vertex_count = count();
   info_.cell_count = count();
-  info_.front_width = count();
-  info_.front_span = count();
-  info_.front_cells = count();
+  // What is announced of the front is room that is set aside, untouched: not too much of it here.
+  for (int64_t* front : {&info_.front_width, &info_.front_span, &info_.front_cells})
+    *front = choices_.below(8) ? -1 : static_cast<int64_t>(choices_.below(1 << 16)) - 1;
   info_.face_count = choices_.below(8) ? 0 : count();
   field_rows_.resize(fields_.size());
   cell_rows_.resize(cell_data_.size());
