@@ -25,11 +25,18 @@ class Group:
     def __init__(self, bench, wanted):
         self.bench, self.wanted, self.tally = bench, wanted, runs.Tally()
         self.random = random.Random(1)
+        self.commands, self.references, self.turn = runs.table(bench.tool), {}, 0
 
     def each(self, choose=lambda command: True):
-        for command in runs.table(self.bench.tool):
-            if choose(command):
-                yield command, *self.bench.reference(command)
+        """The commands; where little is wanted every sixth, from another one on each time."""
+        chosen = [command for command in self.commands if choose(command)]
+        if self.wanted == 1:
+            self.turn += 1
+            chosen = chosen[self.turn % 6::6]
+        for command in chosen:
+            if command.name not in self.references:
+                self.references[command.name] = self.bench.reference(command)
+            yield command, *self.references[command.name]
 
     def call_fails(self, name, call, whats, allowed, choose=lambda command: True):
         """Number n of a call fails, for some n of each command."""
@@ -164,7 +171,7 @@ class Group:
             for name, place in (("no such folder", "gone/"), ("a file in place of a folder",
                                                               "in.tets/"),
                                 ("a folder without permission", "")):
-                if not place and not reachable:
+                if not place and not reachable:  # by another user
                     continue
                 self.bench.fill()
                 words = [place + word if word in command.outputs else word
