@@ -41,8 +41,6 @@ ComparisonFigures figuresOf(const tetstream_comparison* comparison) {
 
 namespace {
 
-constexpr size_t kMostLabels = 40;  // lines of regions, and of faces; JSON has all
-
 std::string number(double value) {
   return std::isinf(value) ? "infinite" : textOf("%.6g", value);
 }
@@ -186,9 +184,9 @@ std::string regionLine(const tetstream_region_comparison& r) {
 template <class Row>
 std::string linesOf(const std::vector<Row>& rows, std::string (*line)(const Row&)) {
   std::string text;
-  for (size_t i = 0; i < std::min(kMostLabels, rows.size()); ++i) text += line(rows[i]);
-  if (rows.size() > kMostLabels)
-    text += textOf("  and %zu more, which --report json tells\n", rows.size() - kMostLabels);
+  for (size_t i = 0; i < std::min(kMostListed, rows.size()); ++i) text += line(rows[i]);
+  if (rows.size() > kMostListed)
+    text += textOf("  and %zu more, which --report json tells\n", rows.size() - kMostListed);
   return text;
 }
 

@@ -52,16 +52,14 @@ std::string frontText(const tetstream_front_info& front) {
          row("window", countText(front.window_cells) + " cells for a simplification");
 }
 
-constexpr size_t kMostLabels = 40;  // lines of them; JSON has all
-
 std::string faceLabelsText(const FaceLabels& labels) {
   std::string text;
-  for (size_t i = 0; i < std::min(kMostLabels, labels.size()); ++i)
+  for (size_t i = 0; i < std::min(kMostListed, labels.size()); ++i)
     text += row("face label", textOf("%lld, ", static_cast<long long>(labels[i].label)) +
                                   countText(labels[i].faces) + " faces");
-  if (labels.size() > kMostLabels)
+  if (labels.size() > kMostListed)
     text +=
-        row("face label", textOf("and %zu more, which --json tells", labels.size() - kMostLabels));
+        row("face label", textOf("and %zu more, which --json tells", labels.size() - kMostListed));
   return text;
 }
 

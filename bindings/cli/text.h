@@ -1,6 +1,7 @@
 // cli: numbers and lines for people. Depends on failure.h.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,6 +17,9 @@ std::string megabytes(uint64_t bytes);                  // "14.2 MB", of 2^20 by
 std::string exactText(double value);                    // shortest text that reads back the same
 std::string_view typeName(int32_t type);                // "float32" of TETSTREAM_TYPE_FLOAT32
 std::string row(const char* name, const std::string&);  // a line of a report, in two columns
+
+// Lines of a list that a report tells to people, who look for the rest in JSON.
+constexpr size_t kMostListed = 40;
 
 // The text on one line: control characters, which file names may hold, become blanks.
 std::string oneLine(std::string text);

@@ -81,7 +81,7 @@ static std::string realPath(const std::string& path) {
 
 // The file that a name is, or would be, of.
 static std::string targetOf(const std::string& path) {
-  const std::string there = realPath(path);
+  std::string there = realPath(path);
   if (!there.empty()) return there;
   const size_t slash = path.find_last_of('/') + 1;
   const std::string folder = realPath(slash ? path.substr(0, slash) : ".");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rows_at_once.h"
 #include "status.h"
 
 namespace tetstream {
@@ -9,7 +10,6 @@ namespace tetstream {
 namespace {
 
 constexpr size_t kRow = 5;
-constexpr size_t kRowsAtOnce = 1024;
 
 class TetrahedronPoints final : public Values {
  public:

@@ -8,6 +8,7 @@
 
 #include "mesh_spool.h"
 #include "registry.h"
+#include "rows_at_once.h"
 
 namespace tetstream {
 
@@ -39,10 +40,9 @@ class MeshCollector : public Sink {
 // visit(row, pointer to it) for all rows of what read(first, count, out) reads, in order.
 template <class Read, class Visit>
 void forEachRow(uint64_t rows, size_t row_bytes, Read read, Visit visit) {
-  constexpr size_t kAtOnce = 1024;
-  std::vector<unsigned char> held(kAtOnce * row_bytes);
-  for (uint64_t first = 0; first < rows; first += kAtOnce) {
-    const auto n = static_cast<size_t>(rows - first < kAtOnce ? rows - first : kAtOnce);
+  std::vector<unsigned char> held(kRowsAtOnce * row_bytes);
+  for (uint64_t first = 0; first < rows; first += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(rows - first < kRowsAtOnce ? rows - first : kRowsAtOnce);
     read(first, n, held.data());
     for (size_t i = 0; i < n; ++i)
       visit(first + i, static_cast<const unsigned char*>(held.data()) + i * row_bytes);

@@ -5,13 +5,12 @@
 #include <cstring>
 
 #include "memory.h"
+#include "rows_at_once.h"
 #include "status.h"
 
 namespace tetstream {
 
 namespace {
-
-constexpr size_t kAtOnce = 1024;  // rows that are copied or checked
 
 std::string plural(uint64_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
@@ -89,7 +88,7 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
     held_cells_.insert(held_cells_.end(), std::begin(made[i]), std::end(made[i]));
   for (size_t k = 0; k < labels_.size(); ++k)
     takeLabel(labels_[k], labels[k], count, "cell", number);
-  if (held_cells_.size() >= 4 * kAtOnce) writeHeld();
+  if (held_cells_.size() >= 4 * kRowsAtOnce) writeHeld();
   return count;
 }
 
@@ -174,9 +173,9 @@ void MeshIntake::copyData() {
            ", where it is taken as 0");
     if (d->maybe_integers) d->column.type = ScalarType::kInt32;
     const size_t column = d->of_cells ? mesh_->addCellData(d->column) : mesh_->addField(d->column);
-    rows.resize(kAtOnce * d->rows.rowBytes());
-    for (uint64_t at = 0; at < count; at += kAtOnce) {
-      const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, count - at));
+    rows.resize(kRowsAtOnce * d->rows.rowBytes());
+    for (uint64_t at = 0; at < count; at += kRowsAtOnce) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - at));
       d->rows.read(at, n, rows.data());
       if (d->maybe_integers) toIntegers(rows, n);
       if (d->of_cells)
@@ -193,9 +192,9 @@ void MeshIntake::copyData() {
 void MeshIntake::checkCorners() {
   const auto points = static_cast<int64_t>(mesh_->pointCount());
   if (largest_corner_ < points) return;
-  std::vector<int64_t> rows(4 * kAtOnce);
-  for (uint64_t at = 0; at < mesh_->cellCount(); at += kAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_->cellCount() - at));
+  std::vector<int64_t> rows(4 * kRowsAtOnce);
+  for (uint64_t at = 0; at < mesh_->cellCount(); at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->cellCount() - at));
     mesh_->readCells(at, n, rows.data());
     for (size_t i = 0; i < 4 * n; ++i)
       if (rows[i] >= points)
@@ -215,9 +214,9 @@ void MeshIntake::takeFaces() {
   Account account;
   Array<uint64_t> used(account, static_cast<size_t>(mesh_->pointCount() / 64 + 1));
   std::fill_n(used.data(), used.size(), uint64_t{0});
-  std::vector<int64_t> rows(4 * kAtOnce);
-  for (uint64_t at = 0; at < mesh_->cellCount(); at += kAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_->cellCount() - at));
+  std::vector<int64_t> rows(4 * kRowsAtOnce);
+  for (uint64_t at = 0; at < mesh_->cellCount(); at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->cellCount() - at));
     mesh_->readCells(at, n, rows.data());
     for (size_t i = 0; i < 4 * n; ++i)
       used[static_cast<size_t>(rows[i] / 64)] |= uint64_t{1} << rows[i] % 64;

@@ -2,13 +2,13 @@
 #include <algorithm>
 
 #include "msh_mesh.h"
+#include "rows_at_once.h"
 #include "status.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr size_t kRowsAtOnce = 1024;
 constexpr int64_t kMostTag = INT64_MAX / 2;
 
 // Numbers that say nothing to us.

@@ -8,6 +8,7 @@
 #include "msh_kinds.h"
 #include "msh_labels.h"
 #include "number_sink.h"
+#include "rows_at_once.h"
 #include "status.h"
 
 namespace tetstream {
@@ -210,10 +211,10 @@ class MshWriter final : public MeshCollector {
   // visit(label, corners) for the faces that can be written.
   template <class Visit>
   void forEachFace(Visit visit) {
-    constexpr size_t kAtOnce = 1024;
-    int64_t corners[3 * kAtOnce], labels[kAtOnce];
-    for (uint64_t first = 0; first < mesh_->faceCount(); first += kAtOnce) {
-      const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, mesh_->faceCount() - first));
+    int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
+    for (uint64_t first = 0; first < mesh_->faceCount(); first += kRowsAtOnce) {
+      const auto n =
+          static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->faceCount() - first));
       mesh_->readFaces(first, n, corners, labels);
       for (size_t i = 0; i < n; ++i)
         if (MshLabels::isFaceLabel(labels[i]) &&
@@ -225,13 +226,12 @@ class MshWriter final : public MeshCollector {
   // visit(entity, corners)
   template <class Visit>
   void forEachCell(Visit visit) {
-    constexpr size_t kAtOnce = 1024;
-    int64_t corners[4 * kAtOnce];
+    int64_t corners[4 * kRowsAtOnce];
     labels_->forEachCell([&](uint64_t cell, const MshEntity& entity) {
-      if (cell % kAtOnce == 0)
-        mesh_->readCells(cell, static_cast<size_t>(std::min<uint64_t>(kAtOnce, cells() - cell)),
+      if (cell % kRowsAtOnce == 0)
+        mesh_->readCells(cell, static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, cells() - cell)),
                          corners);
-      visit(entity, corners + 4 * (cell % kAtOnce));
+      visit(entity, corners + 4 * (cell % kRowsAtOnce));
     });
   }
 
