@@ -173,7 +173,7 @@ void Parser::addTraces(CLI::App* command) {
 
 void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
   const std::string name = info.name;
-  if (info.id == TETSTREAM_OPTION_SPLIT) {
+  if (info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER) {
     command->add_flag_callback(
         "--" + name, [this, name] { arguments_.options.values.emplace_back(name, "yes"); },
         info.text);
@@ -194,7 +194,8 @@ void Parser::addStreamOptions(CLI::App* command) {
   for (const tetstream_option_info& info : optionTable())
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
         info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
-        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_STEP)
+        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER ||
+        info.id == TETSTREAM_OPTION_STEP)
       addTableOption(command, info);
 }
 

@@ -81,5 +81,10 @@ static ExitCode runAndExplain(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   tetstream::cli::prepareProcess();
-  return tetstream::cli::runAndExplain(argc, argv);
+  try {
+    return tetstream::cli::runAndExplain(argc, argv);
+  } catch (const std::bad_alloc&) {  // not even for the sentence
+    tetstream::cli::printError("tetstream: out of memory\n");
+    return tetstream::cli::kNoMemory;
+  }
 }

@@ -85,7 +85,7 @@ std::string oneLine(std::string text) {
 }
 
 // Returns 0 or the error's number.
-static int writeAll(int fd, const std::string& text) {
+static int writeAll(int fd, std::string_view text) {
   size_t done = 0;
   while (done < text.size()) {
     const ssize_t put = ::write(fd, text.data() + done, text.size() - done);
@@ -101,7 +101,7 @@ void printOut(const std::string& text) {
     throw Failure{kIo, textOf("standard output: cannot write: %s", std::strerror(error))};
 }
 
-void printError(const std::string& text) {
+void printError(std::string_view text) {
   writeAll(STDERR_FILENO, text);
 }
 

@@ -27,7 +27,7 @@ std::string oneLine(std::string text);
 // To standard output, at once; throws Failure if it does not get there.
 void printOut(const std::string& text);
 // To standard error; nobody is left to be told of a failure.
-void printError(const std::string& text);
+void printError(std::string_view text);  // needs no memory
 // "tetstream: note: ..." to standard error.
 void printNote(const std::string& text);
 

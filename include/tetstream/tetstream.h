@@ -122,6 +122,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_AXIS 210            /* text: of order "spatial": "auto", "x", "y", "z" */
 #define TETSTREAM_OPTION_ORDER 211           /* text: of the input: "auto", "none", "spatial", ... */
 #define TETSTREAM_OPTION_SPLIT 220           /* text: other cells into tetrahedra: "no", "yes" */
+#define TETSTREAM_OPTION_RECOVER 221         /* text: what is whole of a damaged .tets: "no", "yes" */
 #define TETSTREAM_OPTION_STEP 222            /* text: time step of a file: "last", "first", "3" */
 
 #define TETSTREAM_OPTION_IS_INT64 1
@@ -297,8 +298,11 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
                                                             const char *format,
                                                             tetstream_reader **reader);
 /* As without `_with`, with options for the reading, which may be NULL: `split` (hexahedra, prisms and
- * pyramids are cut into tetrahedra; else they are UNSUPPORTED), `step` (which time step of several is
- * read; a note tells how many there are; BAD_ARGUMENT if it is none of them) and `tmpdir`.
+ * pyramids are cut into tetrahedra; else they are UNSUPPORTED), `recover` (of a .tets file that is
+ * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
+ * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
+ * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none
+ * of them) and `tmpdir`.
  * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
                                                                const tetstream_options *options,

@@ -18,6 +18,7 @@ Output::Output(const tetstream_writer_callbacks& callbacks) : callbacks_(callbac
 
 Output::Output(const Format& format, const std::string& path) : format_(&format) {
   const Wrapping wrapping = wrappingOf(path, &options_.path);
+  options_.joint = &files_;
   bytes_ = wrapped(createFile(path, &files_), wrapping);
 }
 

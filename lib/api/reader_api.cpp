@@ -22,6 +22,10 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   ReadOptions options;
   options.temp_dir = run.temp_dir;
   options.split = run.split == "yes";
+  options.recover = run.recover == "yes";
+  if (options.recover && format.open != openTets)
+    fail(Status::kUnsupported, "%s: only .tets files can be recovered, not those of format \"%s\"",
+         bytes->name().c_str(), format.name);
   options.step = parseStep(run.step);
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
   wrappingOf(path, &options.path);

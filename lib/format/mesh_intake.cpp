@@ -82,7 +82,8 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
   split_ += kind.shape != CellShape::kTetra;
   for (int c = 0; c < cornersOf(kind.shape); ++c)
     largest_corner_ = std::max(largest_corner_, corners[c]);
-  held_cells_.insert(held_cells_.end(), made[0], made[0] + 4 * count);
+  for (size_t i = 0; i < count; ++i)
+    held_cells_.insert(held_cells_.end(), std::begin(made[i]), std::end(made[i]));
   for (size_t k = 0; k < labels_.size(); ++k)
     takeLabel(labels_[k], labels[k], count, "cell", number);
   if (held_cells_.size() >= 4 * kRowsAtOnce) writeHeld();

@@ -16,19 +16,22 @@ constexpr int64_t kLastStep = -1;
 struct ReadOptions {
   std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
   std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
-  std::string path;    // of a file; empty: the bytes come from elsewhere, nothing lies beside them
-  bool split = false;  // hexahedra, prisms and pyramids into tetrahedra; else they are errors
+  std::string path;  // of a file; empty: the bytes come from elsewhere, nothing lies beside them
+  bool recover = false;      // .tets: what is whole of a file that is damaged or cut off
+  bool split = false;        // hexahedra, prisms and pyramids into tetrahedra; else they are errors
   int64_t step = kLastStep;  // which of the time steps, from 0, of a file that has several
 };
 
 struct WriteOptions {
   std::string temp_dir;
   std::function<void(const std::string&)> note;
-  std::string path;         // as for reading
-  bool compress = true;     // .tets: zstd where built in; .vtu: zlib
-  bool binary = true;       // .msh: else text
-  bool newest = true;       // .msh: 4.1, else 2.2
-  bool post_order = false;  // .sva, .svb
+  std::string path;             // as for reading
+  JointFiles* joint = nullptr;  // gives files beside the output their names together with it; null:
+                                // they get them at once
+  bool compress = true;         // .tets: zstd where built in; .vtu: zlib
+  bool binary = true;           // .msh: else text
+  bool newest = true;           // .msh: 4.1, else 2.2
+  bool post_order = false;      // .sva, .svb
 };
 
 // What a format can hold, so that values are rounded before and not after they were checked.

@@ -40,7 +40,7 @@ void SectionReader::failTruncated() const {
 void SectionReader::readFully(void* out, size_t size) {
   unsigned char* to = static_cast<unsigned char*>(out);
   while (size > 0) {
-    const size_t got = bytes_->read(to, size);
+    const size_t got = resumed_ ? bytes_->readAt(offset_, to, size) : bytes_->read(to, size);
     if (got == 0) failTruncated();
     to += got;
     size -= got;
@@ -103,6 +103,50 @@ void SectionReader::skipBody() {
     left -= count;
   }
   checkBody(sum);
+}
+
+// ---------------------------------------------------------------------------- after damage
+
+// Whether a section that is not behind the last one begins there.
+bool SectionReader::headAt(uint64_t place, SectionHead* head) const {
+  const bool had_it = !in_head_ && head_.rank == sections_;
+  return bytes_->readAt(place, head, sizeof *head) == sizeof *head && !faultOf(*head) &&
+         head->rank >= sections_ + had_it;
+}
+
+// The first one from `place` on. Where bytes are missing or too many it is on no multiple of 64.
+bool SectionReader::findHead(uint64_t place, uint64_t* found, SectionHead* head) const {
+  constexpr size_t kBlock = 1 << 16;
+  const SectionHead any = makeHead(kChunk, 0);
+  const unsigned char* const marker = any.marker;
+  std::vector<unsigned char> block(kBlock);
+  for (;; place += kBlock - sizeof head->marker) {
+    const size_t got = bytes_->readAt(place, block.data(), block.size());
+    if (got < sizeof *head) return false;
+    for (auto at = block.begin(), end = at + static_cast<ptrdiff_t>(got);; ++at) {
+      at = std::search(at, end, marker, marker + sizeof head->marker);
+      if (at == end) break;
+      *found = place + static_cast<uint64_t>(at - block.begin());
+      if (headAt(*found, head)) return true;
+    }
+    if (got < block.size()) return false;
+  }
+}
+
+bool SectionReader::resume() {
+  resumed_ = true;
+  SectionHead head;
+  uint64_t found = section_at_;  // of a later section than the one that should stand there
+  if (!headAt(found, &head)) {
+    // Where the head is whole its section most likely has its length.
+    found = section_at_ + head_.length;
+    if ((in_head_ || head_.length > bytes_->size() || !headAt(found, &head)) &&
+        !findHead(section_at_ + 1, &found, &head))
+      return false;
+  }
+  offset_ = found;
+  sections_ = head.rank - 1;
+  return true;
 }
 
 // ------------------------------------------------------------------------------ from the end

@@ -25,6 +25,10 @@ class SectionReader {
   uint64_t offset() const { return offset_; }  // what was read so far
   ByteSource& bytes() { return *bytes_; }
   const std::string& name() const { return bytes_->name(); }
+  // After a section that cannot be read: goes on with the next one that has a head, and of which
+  // `rank` is higher; false if there is none. Seekable input only.
+  bool resume();
+
   // Chunks are counted, for messages.
   void countChunk() { ++chunks_; }
   uint64_t chunks() const { return chunks_; }
@@ -33,12 +37,14 @@ class SectionReader {
 
  private:
   void readFully(void* out, size_t size);
+  bool headAt(uint64_t place, SectionHead* head) const;
+  bool findHead(uint64_t place, uint64_t* found, SectionHead* head) const;
   [[noreturn]] void failTruncated() const;
   void checkBody(uint32_t sum) const;
 
   std::unique_ptr<ByteSource> bytes_;
   SectionHead head_ = {};
-  bool in_head_ = true;
+  bool in_head_ = true, resumed_ = false;
   uint64_t section_at_ = 0, offset_ = 0, sections_ = 0, chunks_ = 0;
   Account account_;
   Array<unsigned char> body_;

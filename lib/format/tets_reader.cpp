@@ -9,6 +9,7 @@
 #include "status.h"
 #include "tets_codec.h"
 #include "tets_input.h"
+#include "tets_recovery.h"
 
 namespace tetstream {
 namespace tets {
@@ -18,16 +19,21 @@ using ull = unsigned long long;
 
 class Reader final : public Source {
  public:
-  explicit Reader(std::unique_ptr<ByteSource> bytes);
+  // With `losses`, what is damaged is gone past and told there; cells may then name vertices that
+  // did not come.
+  explicit Reader(std::unique_ptr<ByteSource> bytes, Losses* losses = nullptr);
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
   std::unique_ptr<Source> again() override {
-    return in_.bytes().seekable() ? std::make_unique<Reader>(readAgain(in_.bytes())) : nullptr;
+    return in_.bytes().seekable() && !losses_ ? std::make_unique<Reader>(readAgain(in_.bytes()))
+                                              : nullptr;
   }
 
  private:
   bool nextChunk();
+  bool nextWholeChunk();
   void readChunk();
+  void goPastLostRows(uint64_t first_cell);
   void checkChunkHead(uint32_t codec);
   void unpack(uint32_t codec, const unsigned char* stored);
   void checkChunkColumns();
@@ -52,6 +58,7 @@ class Reader final : public Source {
   }
 
   SectionReader in_;
+  Losses* losses_;
   Schema schema_;
   std::unique_ptr<ChunkShape> shape_;
   Codec codec_;
@@ -76,7 +83,8 @@ class Reader final : public Source {
 
 // ------------------------------------------------------------------------------- the sections
 
-Reader::Reader(std::unique_ptr<ByteSource> bytes) : in_(std::move(bytes)), unpacked_(account_) {
+Reader::Reader(std::unique_ptr<ByteSource> bytes, Losses* losses)
+    : in_(std::move(bytes)), losses_(losses), unpacked_(account_) {
   const SectionHead& head = in_.next();
   if (!head.is(kHeader))
     fail(Status::kBadData, "%s: is not a .tets stream: the first section is no header",
@@ -86,7 +94,7 @@ Reader::Reader(std::unique_ptr<ByteSource> bytes) : in_(std::move(bytes)), unpac
     fail(Status::kBadData, "%s: the header claims %llu bytes, at most %zu are possible",
          in_.name().c_str(), ull{head.length}, kMaxHeaderBytes);
   schema_ = decodeHeader(head, in_.body(), in_.bodyBytes(), in_.name());
-  if (in_.bytes().seekable()) completeFromEnd(in_.bytes(), schema_);
+  if (in_.bytes().seekable() && !losses_) completeFromEnd(in_.bytes(), schema_);
   shape_ = std::make_unique<ChunkShape>(schema_);
   box_ = std::make_unique<Box>(schema_.boxSize());
   chunk_box_ = std::make_unique<Box>(schema_.boxSize());
@@ -102,7 +110,11 @@ bool Reader::nextChunk() {
       readChunk();
       return true;
     }
-    if (head.is(kIndex))
+    if (losses_ && (head.is(kIndex) || head.is(kTotals)))
+      in_.skipBody();  // they repeat what the chunks tell
+    else if (losses_ && head.is(kEnd))
+      ended_ = losses_->complete = true;
+    else if (head.is(kIndex))
       readIndex();
     else if (head.is(kTotals))
       readTotals();
@@ -112,6 +124,21 @@ bool Reader::nextChunk() {
       skipUnknown();
   }
   return false;
+}
+
+// As nextChunk, past what is damaged.
+bool Reader::nextWholeChunk() {
+  for (;;) {
+    const Totals before = seen_;
+    try {
+      return nextChunk();
+    } catch (const Error& error) {
+      if (!losses_ || error.status() != Status::kBadData) throw;
+      losses_->add(error.text());
+      seen_ = before;
+    }
+    if (!in_.resume()) return false;
+  }
 }
 
 void Reader::skipUnknown() {
@@ -153,7 +180,7 @@ void Reader::checkChunkHead(uint32_t codec) {
     fail(Status::kBadData,
          "%s: it has %llu bytes, %u of them columns, which does not fit its counts",
          in_.place().c_str(), ull{head.length}, head.value);
-  if (counts_.first_vertex != static_cast<uint64_t>(seen_.vertices))
+  if (!losses_ && counts_.first_vertex != static_cast<uint64_t>(seen_.vertices))
     fail(Status::kBadData, "%s: it begins with vertex %llu, but %lld vertices stand before",
          in_.place().c_str(), ull{counts_.first_vertex}, static_cast<long long>(seen_.vertices));
   if (have_totals_) fail(Status::kBadData, "%s: it follows the totals", in_.place().c_str());
@@ -178,7 +205,9 @@ void Reader::readChunk() {
   const unsigned char* body = in_.body();
   ChunkStart start;
   std::memcpy(&start, body, sizeof start);
-  if (start.first_cell != static_cast<uint64_t>(seen_.cells))
+  if (losses_)
+    goPastLostRows(start.first_cell);
+  else if (start.first_cell != static_cast<uint64_t>(seen_.cells))
     fail(Status::kBadData, "%s: it begins with cell %llu, but %lld cells stand before",
          in_.place().c_str(), ull{start.first_cell}, static_cast<long long>(seen_.cells));
   const size_t box_bytes = schema_.boxSize() * sizeof(double);
@@ -199,10 +228,12 @@ void Reader::readChunk() {
                       {}};
   std::memcpy(entry.box_min, chunk_box_->min.data(), sizeof entry.box_min);
   std::memcpy(entry.box_max, chunk_box_->max.data(), sizeof entry.box_max);
-  if (not_indexed_.size() == kIndexEntries)
-    fail(Status::kBadData, "%s: the index of the %u chunks before is missing", in_.place().c_str(),
-         kIndexEntries);
-  not_indexed_.push_back(entry);
+  if (!losses_) {
+    if (not_indexed_.size() == kIndexEntries)
+      fail(Status::kBadData, "%s: the index of the %u chunks before is missing",
+           in_.place().c_str(), kIndexEntries);
+    not_indexed_.push_back(entry);
+  }
   seen_.vertices += counts_.vertices;
   seen_.cells += counts_.cells;
   seen_.finalized += counts_.finalized;
@@ -211,6 +242,20 @@ void Reader::readChunk() {
   checkChunkColumns();
   vertex_ = cell_ = finalized_ = face_ = 0;
   in_chunk_ = true;
+}
+
+// Chunks tell which vertices and cells stand before them: what is missing is so many.
+void Reader::goPastLostRows(uint64_t first_cell) {
+  const uint64_t vertex = counts_.first_vertex, most = uint64_t{1} << 62;
+  if (vertex < static_cast<uint64_t>(seen_.vertices) || vertex > most ||
+      first_cell < static_cast<uint64_t>(seen_.cells) || first_cell > most)
+    fail(Status::kBadData,
+         "%s: it begins with vertex %llu and cell %llu, %lld and %lld came before",
+         in_.place().c_str(), ull{vertex}, ull{first_cell}, static_cast<long long>(seen_.vertices),
+         static_cast<long long>(seen_.cells));
+  losses_->cells += first_cell - static_cast<uint64_t>(seen_.cells);
+  seen_.vertices = static_cast<int64_t>(vertex);
+  seen_.cells = static_cast<int64_t>(first_cell);
 }
 
 void Reader::checkRange(size_t i, const char* what) const {
@@ -388,7 +433,7 @@ void Reader::takeVertices(uint64_t end, BatchView& batch) {
 
 bool Reader::next(BatchView& batch) {
   batch = BatchView{};
-  if (!in_chunk_ && !nextChunk()) return false;
+  if (!in_chunk_ && !nextWholeChunk()) return false;
   const size_t end = endOfBatch();
   uint64_t vertices = takeCells(end, batch);
   takeMarks(end, &vertices, batch);
@@ -403,14 +448,22 @@ bool Reader::next(BatchView& batch) {
 }
 
 }  // namespace
+
+std::unique_ptr<Source> openTolerant(std::unique_ptr<ByteSource> bytes, Losses& losses) {
+  return std::make_unique<Reader>(std::move(bytes), &losses);
+}
+
 }  // namespace tets
 
-Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions&) {
+Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   if (!tets::kHostFits)
     fail(Status::kUnsupported, "%s: .tets is not supported on big-endian machines",
          bytes->name().c_str());
   Input input;
-  input.stream = std::make_unique<tets::Reader>(std::move(bytes));
+  if (options.recover)
+    input.stream = tets::recover(makeSeekable(std::move(bytes), options.temp_dir), options.note);
+  else
+    input.stream = std::make_unique<tets::Reader>(std::move(bytes));
   return input;
 }
 

@@ -23,10 +23,11 @@ struct RunOptions {
   enum class Auto { kKeeps, kSweeps, kNarrows } automatic = Auto::kSweeps;
   std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
-  int64_t threads = 0;        // that simplify; 0: one for each core that the process may use
-  std::string split = "no";   // of other cells, when a file is read
-  std::string step = "last";  // time step, likewise
-  bool origins = false;       // ordered vertices tell their ranks in the input
+  int64_t threads = 0;         // that simplify; 0: one for each core that the process may use
+  std::string split = "no";    // of other cells, when a file is read
+  std::string recover = "no";  // what is whole of a damaged file
+  std::string step = "last";   // time step, likewise
+  bool origins = false;        // ordered vertices tell their ranks in the input
   CompareOptions compare;
 };
 

@@ -1,5 +1,5 @@
-/* Options of the reading: other cells that are split, time steps, folders of temporary files;
- * properties of the format msh. */
+/* Options of the reading: other cells that are split, damaged files, time steps, folders of
+ * temporary files; properties of the format msh. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,6 +80,48 @@ static void one_time_step_is_read(void) {
   }
 }
 
+/* What a reader of those bytes gives when they are converted. */
+static tetstream_status convert_with(const void* data, size_t size,
+                                     const tetstream_options* options, tetstream_reader** reader,
+                                     tetstream_writer** writer) {
+  const tetstream_status status =
+      tetstream_reader_open_memory_with(data, size, "tets", options, reader);
+  if (status < 0) return status;
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", writer), TETSTREAM_OK);
+  return tetstream_convert(*reader, *writer, NULL, NULL, NULL);
+}
+
+static void a_damaged_file_is_read_only_if_asked_for(void) {
+  tetstream_options* recover = with(TETSTREAM_OPTION_RECOVER, "yes");
+  tetstream_reader *reader = NULL, *whole = NULL;
+  tetstream_writer *writer = NULL, *file = NULL;
+  const void *data = NULL, *out = NULL;
+  size_t size = 0, out_size = 0;
+  CHECK_EQUAL(tetstream_reader_generate("ball", 100000, 1, &whole), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", &file), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(whole, file, NULL, NULL, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_get_memory(file, &data, &size), TETSTREAM_OK);
+  CHECK_EQUAL(convert_with(data, size / 2, NULL, &reader, &writer), TETSTREAM_BAD_DATA);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(convert_with(data, size / 2, recover, &reader, &writer), TETSTREAM_OK);
+  CHECK_SAYS(tetstream_reader_note(reader, 0), "ends at byte");
+  CHECK_SAYS(tetstream_reader_note(reader, 1), "the end is missing");
+  CHECK_EQUAL(tetstream_writer_get_memory(writer, &out, &out_size), TETSTREAM_OK);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_memory(out, out_size, "tets", &reader), TETSTREAM_OK);
+  CHECK(cells_of(reader) > 5000);
+  tetstream_reader_destroy(reader);
+  tetstream_writer_destroy(writer);
+  CHECK_EQUAL(
+      tetstream_reader_open_memory_with(kPyramid, sizeof kPyramid - 1, "mesh", recover, &reader),
+      TETSTREAM_UNSUPPORTED);
+  CHECK_SAYS(tetstream_reader_message(reader), "only .tets files can be recovered");
+  tetstream_reader_destroy(reader);
+  tetstream_reader_destroy(whole);
+  tetstream_writer_destroy(file);
+  tetstream_options_destroy(recover);
+}
+
 static void every_way_of_opening_takes_options(void) {
   char path[] = "/tmp/tetstream_reading.XXXXXX";
   const int fd = mkstemp(path);
@@ -156,6 +198,7 @@ static void the_format_msh_has_an_encoding_and_a_version(void) {
 int main(void) {
   RUN_CASE(other_cells_are_split_only_if_asked_for);
   RUN_CASE(one_time_step_is_read);
+  RUN_CASE(a_damaged_file_is_read_only_if_asked_for);
   RUN_CASE(every_way_of_opening_takes_options);
   RUN_CASE(a_pipe_is_spooled_where_the_options_say);
   RUN_CASE(null_is_refused);

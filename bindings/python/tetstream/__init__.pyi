@@ -40,6 +40,7 @@ class _Options(TypedDict, total=False):
     axis: Literal["auto", "x", "y", "z"]
     order: str
     split: Literal["no", "yes"]
+    recover: Literal["no", "yes"]
     step: str
 
 class _OptionsWithRegions(_Options, total=False):
@@ -156,6 +157,7 @@ class Options:
     axis: str
     order: str
     split: str
+    recover: str
     step: str
     def __init__(self, **values: Unpack[_OptionsWithRegions]) -> None: ...
     def add_field(self, name: str, weight: float = 1.0) -> None: ...

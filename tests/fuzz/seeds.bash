@@ -1,0 +1,172 @@
+#!/usr/bin/env bash
+# bash seeds.bash COMMAND FOLDER: makes the seeds of the fuzz targets, small files of every format,
+# with the tetstream command. The formats that it does not write are written here.
+set -eu
+command=$(realpath "$1") folder=$2
+rm -rf "$folder"
+mkdir -p "$folder"/{tets,vtu,pvtu,vtk,vtkhdf,sva,svb,msh,mesh,meshb,tetgen,su2,wrapped,push,work}
+cd "$folder/work"
+
+convert() { "$command" convert --quiet "$@"; }
+has() { "$command" --version | grep -q "^  $1 "; }
+
+"$command" generate fluid --cells 24 small.tets --quiet
+"$command" generate ball+stress --cells 60 ball.tets --quiet
+
+cp small.tets ball.tets ../tets
+convert small.tets ../tets/plain.tets --compress no
+"$command" simplify --quiet ball.tets ../tets/simplified.tets --ratio 0.5 >report || true
+convert small.tets ../vtu/small.vtu
+convert small.tets ../vtu/plain.vtu --compress no
+convert small.tets ../vtk/small.vtk
+if has vtkhdf; then
+  convert small.tets ../vtkhdf/small.vtkhdf --compress no
+  convert small.tets ../vtkhdf/packed.vtkhdf
+fi
+for format in sva svb; do
+  convert small.tets ../$format/pre.$format --vertex-order pre
+  convert small.tets ../$format/post.$format --vertex-order post
+done
+for version in 4.1 2.2; do
+  for encoding in text binary; do
+    convert small.tets ../msh/$version-$encoding.msh --msh-version $version --encoding $encoding
+  done
+done
+
+# Several files, with a line between them.
+join() {
+  local name=$1 first=$2
+  shift 2
+  cp "$first" "$name"
+  for file; do
+    printf '\n@@@@\n' >>"$name"
+    cat "$file" >>"$name"
+  done
+}
+convert small.tets m.mesh
+convert small.tets m.meshb
+join ../mesh/fields m.mesh m.sol
+join ../meshb/fields m.meshb m.solb
+cp m.mesh ../mesh/alone
+cp m.meshb ../meshb/alone
+
+cat >../vtk/text.vtk <<'END'
+# vtk DataFile Version 3.0
+two cells
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 5 float
+0 0 0  1 0 0  0 1 0  0 0 1  1 1 1
+CELLS 3 14
+4 0 1 2 3
+4 1 2 3 4
+3 0 1 2
+CELL_TYPES 3
+10 10 5
+CELL_DATA 3
+SCALARS region int 1
+LOOKUP_TABLE default
+1 2 3
+POINT_DATA 5
+VECTORS v float
+0 0 0 1 1 1 2 2 2 3 3 3 4 4 4
+FIELD more 1
+s 1 5 double
+1 2 3 4 5
+END
+
+cat >../vtu/text.vtu <<'END'
+<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">
+<UnstructuredGrid><Piece NumberOfPoints="5" NumberOfCells="2">
+<PointData><DataArray type="Float32" Name="s" format="ascii">1 2 3 4 5</DataArray></PointData>
+<CellData><DataArray type="Int32" Name="region" format="ascii">1 2</DataArray></CellData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">
+0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataArray></Points>
+<Cells><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 3 1 2 3 4</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4 8</DataArray>
+<DataArray type="UInt8" Name="types" format="ascii">10 10</DataArray></Cells>
+</Piece></UnstructuredGrid></VTKFile>
+END
+cat >p.pvtu <<'END'
+<VTKFile type="PUnstructuredGrid" version="0.1" byte_order="LittleEndian">
+<PUnstructuredGrid GhostLevel="0"><PPointData><PDataArray type="Float32" Name="s"/></PPointData>
+<PPoints><PDataArray type="Float64" NumberOfComponents="3"/></PPoints>
+<Piece Source="0.vtu"/><Piece Source="1.vtu"/></PUnstructuredGrid></VTKFile>
+END
+sed 's/0 0 0 1 0 0 0 1 0 0 0 1 1 1 1/1 0 0 0 1 0 0 0 1 1 1 1 2 2 2/' ../vtu/text.vtu >1.vtu
+join ../pvtu/two p.pvtu ../vtu/text.vtu 1.vtu
+join ../pvtu/packed p.pvtu ../vtu/small.vtu ../vtu/plain.vtu
+
+cat >t.node <<'END'
+5 3 1 1
+1 0 0 0 1.5 0
+2 1 0 0 2.5 0
+3 0 1 0 3.5 1
+4 0 0 1 4.5 1
+5 1 1 1 5.5 1
+END
+printf '2 4 1\n1 1 2 3 4 7\n2 2 3 4 5 8\n' >t.ele
+printf '2 1\n1 1 2 3 5\n2 2 3 5 6\n' >t.face
+join ../tetgen/faces t.node t.ele t.face
+join ../tetgen/cells t.node t.ele
+sed 's/^5 3 1 1/5 3 0 0/; s/ [0-9.]* [01]$//' t.node >plain.node
+join ../tetgen/plain plain.node t.ele
+
+cat >../su2/two.su2 <<'END'
+NDIME= 3
+NELEM= 3
+10 0 1 2 3 0
+10 1 2 3 4 1
+14 0 1 4 2 3 2
+NPOIN= 5
+0 0 0 0
+1 0 0 1
+0 1 0 2
+0 0 1 3
+1 1 1 4
+NMARK= 1
+MARKER_TAG= wall
+MARKER_ELEMS= 2
+5 0 1 2
+5 2 3 4
+END
+cat >../msh/kinds.msh <<'END'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+3 7 "inside"
+$EndPhysicalNames
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0 0 1
+6 1 0 1
+7 1 1 1
+9 0 1 1
+$EndNodes
+$Elements
+4
+1 5 2 7 1 1 2 3 4 5 6 7 9
+2 4 2 7 1 1 2 3 5
+3 2 2 5 2 1 2 3
+4 6 2 7 1 1 2 3 5 6 7
+$EndElements
+END
+printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n6\n0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 2\n1 0 1 2
+0 1 1 2\nTetrahedra\n1\n1 2 3 4 3\nPrisms\n1\n1 2 3 4 5 6 1\nTriangles\n1\n1 2 3 9\nEnd\n' >../mesh/kinds
+
+gzip -n9 <../sva/pre.sva >../wrapped/pre.sva.gz
+gzip -n1 <../sva/post.sva >../wrapped/post.sva.gz
+if command -v zstd >where; then zstd -q <../sva/pre.sva >../wrapped/pre.sva.zst; fi
+
+# Choices of the target push: any bytes are some, compressed ones as good as random.
+"$command" generate ball --cells 4000 choices.tets --quiet
+for ((i = 1; i <= 8; ++i)); do
+  head -c $((i * 2000)) choices.tets | tail -c $((i * 250)) >../push/$i
+done
+cd .. && rm -r work
