@@ -26,6 +26,26 @@ void Reconnector<S>::addGone(uint32_t c, Reconnection& out) const {
   out.before = std::max(out.before, thinnessOfCell(c));
 }
 
+// As far as the patch knows: all cells of owned vertices.
+template <class S>
+bool Reconnector<S>::hasEdge(uint32_t a, uint32_t b) {
+  if (a >= patch_.ownedEnd()) std::swap(a, b);
+  if (a >= patch_.ownedEnd()) return false;
+  patch_.gather(a, b, star_, ring_);
+  return ring_.size() > 0;
+}
+
+template <class S>
+bool Reconnector<S>::hasFace(const uint32_t corners[3]) {
+  const uint32_t* owned = std::min_element(corners, corners + 3);
+  if (*owned >= patch_.ownedEnd()) return false;
+  const auto k = static_cast<size_t>(owned - corners);
+  patch_.gather(*owned, corners[(k + 1) % 3], star_, ring_);
+  for (const StarCell& s : ring_)
+    if (s.has(corners[(k + 2) % 3])) return true;
+  return false;
+}
+
 template <class S>
 bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out) {
   out = {};
@@ -53,6 +73,7 @@ bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out) {
     out.after = std::max(out.after, thinnessAt(made));
     if (out.after >= out.before) return true;
   }
+  if (hasEdge(d, e)) out.after = kTurned;
   return true;
 }
 
@@ -82,11 +103,10 @@ bool Reconnector<S>::orderRing(uint32_t v, uint32_t* ring) const {
 // The triangulation of the ring whose worst cell is best, by dynamic programming over its chains
 // (Klincsek 1980): each triangle makes a cell with u and one with v.
 template <class S>
-void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring,
-                                 Reconnection& out) const {
+void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, Reconnection& out) {
   constexpr uint32_t kMost = Reconnection::kMostRing;
   const uint32_t n = out.gone_count;
-  double worst[kMost][kMost];
+  double worst[kMost][kMost] = {};
   uint32_t middle[kMost][kMost];
   const auto best = [&](uint32_t i, uint32_t k) {
     worst[i][k] = kTurned;
@@ -105,6 +125,7 @@ void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring,
   for (uint32_t length = 2; length < n; ++length)
     for (uint32_t i = 0; i + length < n; ++i) best(i, i + length);
   out.after = worst[0][n - 1];
+  if (out.improves() && n == 3 && hasFace(ring)) out.after = kTurned;
   if (!out.improves()) return;
   uint32_t chains[kMost][2] = {{0, n - 1}};
   for (uint32_t count = 1; count > 0;) {
@@ -113,6 +134,10 @@ void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring,
     for (const auto& cell : cells) std::copy_n(cell, 4, out.made[out.made_count++]);
     for (const auto& [begin, end] : {std::pair(i, j), std::pair(j, k)}) {
       if (end - begin < 2) continue;
+      if (hasEdge(ring[begin], ring[end])) {
+        out.after = kTurned;
+        return;
+      }
       chains[count][0] = begin;
       chains[count++][1] = end;
     }

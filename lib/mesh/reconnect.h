@@ -2,7 +2,9 @@
 //
 // After Freitag and Ollivier-Gooch 1997 and Klingner and Shewchuk 2007. A flip replaces cells by
 // others with the same outer faces, so boundary, interfaces and vertices stay; with the new cells
-// strictly positive, which is decided exactly, they cover the same points once.
+// strictly positive, which is decided exactly, they cover the same points once. Where the mesh
+// folds over itself, as after rounding, an edge or a face that a flip makes may be there already,
+// elsewhere: such a flip is none.
 #pragma once
 
 #include "patch.h"
@@ -36,9 +38,11 @@ class Reconnector {
 
  private:
   double thinnessAt(const uint32_t corners[4]) const;
+  bool hasEdge(uint32_t a, uint32_t b);
+  bool hasFace(const uint32_t corners[3]);
   bool orderRing(uint32_t v, uint32_t* ring) const;
   void addGone(uint32_t c, Reconnection& out) const;
-  void triangulate(uint32_t u, uint32_t v, const uint32_t* ring, Reconnection& out) const;
+  void triangulate(uint32_t u, uint32_t v, const uint32_t* ring, Reconnection& out);
 
   Patch<S>& patch_;
   Star star_, ring_;

@@ -269,5 +269,45 @@ TEST(Reconnect, NoCellIsTurnedOver) {
   EXPECT_FALSE(r.improves());
 }
 
+// A mesh that folds over itself may have the new edge, or the new face, elsewhere already: then a
+// flip would make a face of three cells.
+TEST(Reconnect, WhatIsThereAlreadyIsNotMadeAgain) {
+  const auto faceImproves = [](bool folded) {
+    std::vector<Point> points = {{0, 0, 0.2},  {1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0},
+                                 {0, 0, -0.2}, {3, 0, 0}, {0, 3, 0}};
+    std::vector<Corners> cells = {{0, 1, 2, 3}, {4, 1, 2, 3}, {1, 2, 5, 6}};
+    if (folded) cells.push_back({0, 4, 5, 6});
+    Pieces pieces(points, cells);
+    Reconnection r;
+    for (uint32_t j = 0; j < 4; ++j)
+      if (pieces.patch.slotOf(pieces.patch.vertexOf(0, j)) == 0) {
+        EXPECT_TRUE(pieces.reconnector.removeFace(0, j, r));
+        return r.improves();
+      }
+    return false;
+  };
+  EXPECT_TRUE(faceImproves(false));
+  EXPECT_FALSE(faceImproves(true));
+
+  const auto edgeImproves = [](std::vector<Point> points, const std::vector<Corners>& folded) {
+    std::vector<Corners> cells = ringCells(static_cast<uint32_t>(points.size()) - 2);
+    for (double x : {3.0, 4.0}) points.push_back({x, 1, 1});
+    cells.insert(cells.end(), folded.begin(), folded.end());
+    Pieces pieces(points, cells);
+    Reconnection r;
+    return pieces.removeEdge(0, 1, r) && r.improves();
+  };
+  EXPECT_TRUE(edgeImproves(ringPoints(3, 8), {{2, 3, 5, 6}}));   // of course a ring has its edges
+  EXPECT_FALSE(edgeImproves(ringPoints(3, 8), {{2, 3, 4, 6}}));  // the triangle
+  Random r(7);
+  int improved = 0;
+  for (int tries = 0; tries < 200; ++tries) {
+    const std::vector<Point> points = ringPoints(4, 2, r, 0.9);
+    improved += edgeImproves(points, {{2, 3, 6, 7}});
+    EXPECT_FALSE(edgeImproves(points, {{2, 4, 6, 7}, {3, 5, 6, 7}}));  // both chords
+  }
+  EXPECT_GT(improved, 0);
+}
+
 }  // namespace
 }  // namespace tetstream::test
