@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "hdf5_bytes.h"
 #include "hdf5_driver.h"
 #include "status.h"
 
@@ -12,8 +13,6 @@ namespace tetstream {
 
 // Deflate makes at most 1032 bytes of one; filters that do better are not for numbers.
 constexpr uint64_t kMaxHdf5Ratio = 1040;
-// Chunks are decompressed whole; VTK's have some hundred kilobytes.
-constexpr uint64_t kMaxChunkBytes = uint64_t{256} << 20;
 constexpr size_t kMaxText = 256, kMaxHdf5Name = 4096;
 // H5F_ACC_RDONLY and H5F_ACC_TRUNC; the macros themselves call the library.
 constexpr unsigned kReadOnly = 0, kTruncate = 2;
@@ -93,25 +92,11 @@ std::vector<std::string> Hdf5File::datasetsOf(const std::string& path) {
 }
 
 Hdf5Id Hdf5File::openDataset(const std::string& path) {
-  const std::string what = "dataset \"" + path + "\"";
-  Hdf5Id dataset(check(hdf5().Dopen2(file_, path.c_str(), H5P_DEFAULT), what), hdf5().Dclose);
-  const Hdf5Id plan(check(hdf5().Dget_create_plist(dataset), what), hdf5().Pclose);
-  if (hdf5().Pget_layout(plan) != H5D_CHUNKED) return dataset;
-  hsize_t chunk[2] = {1, 1};
-  const int dimensions = check(hdf5().Pget_chunk(plan, 2, chunk), what);
-  const Hdf5Id type(check(hdf5().Dget_type(dataset), what), hdf5().Tclose);
-  const uint64_t limit = kMaxChunkBytes / std::max<size_t>(hdf5().Tget_size(type), 1);
-  if (dimensions > 2 || chunk[0] > limit || chunk[1] > limit / std::max<hsize_t>(chunk[0], 1))
-    fail(Status::kUnsupported, "%s: %s has chunks of more than 256 MiB", name_.c_str(),
-         what.c_str());
-  // Two chunks in memory: else each of them would be read anew for each part.
-  const size_t bytes = static_cast<size_t>(chunk[0] * chunk[1]) * hdf5().Tget_size(type);
-  const Hdf5Id access(check(hdf5().Pcreate(hdf5().P_CLS_DATASET_ACCESS_ID), what), hdf5().Pclose);
-  check(hdf5().Pset_chunk_cache(access, 127, 2 * bytes, 1.0), what);
-  return Hdf5Id(check(hdf5().Dopen2(file_, path.c_str(), access), what), hdf5().Dclose);
+  return Hdf5Id(check(hdf5().Dopen2(file_, path.c_str(), H5P_DEFAULT), "dataset \"" + path + "\""),
+                hdf5().Dclose);
 }
 
-static bool readType(hid_t type, ValueType* out) {
+static bool findType(hid_t type, ValueType* out) {
   const H5T_class_t kind = hdf5().Tget_class(type);
   const size_t size = hdf5().Tget_size(type);
   if (kind == H5T_FLOAT && (size == 4 || size == 8)) {
@@ -128,15 +113,29 @@ static bool readType(hid_t type, ValueType* out) {
   return false;
 }
 
+// Whether all of its bits lie as in a type of ours, but for the order of the bytes.
+bool Hdf5File::readType(hid_t type, Hdf5Shape* shape) {
+  if (!findType(type, &shape->type)) return false;
+  const Hdf5Functions& h = hdf5();
+  const hid_t ours = hdf5Type(shape->type);
+  const Hdf5Id turned(check(h.Tcopy(type), "a type"), h.Tclose);
+  check(h.Tset_order(turned, h.Tget_order(ours)), "a type");
+  shape->element = sizeOf(shape->type);
+  shape->big_endian = h.Tget_order(type) == H5T_ORDER_BE;
+  return h.Tequal(turned, ours) > 0;
+}
+
 Hdf5Shape Hdf5File::shapeOf(const std::string& path) {
   const std::string what = "dataset \"" + path + "\"";
-  const Hdf5Id dataset(check(hdf5().Dopen2(file_, path.c_str(), H5P_DEFAULT), what), hdf5().Dclose);
+  const Hdf5Id dataset = openDataset(path);
   const Hdf5Id space(check(hdf5().Dget_space(dataset), what), hdf5().Sclose);
   const Hdf5Id type(check(hdf5().Dget_type(dataset), what), hdf5().Tclose);
   Hdf5Shape shape;
   shape.dimensions = check(hdf5().Sget_simple_extent_ndims(space), what);
-  shape.numbers = readType(type, &shape.type) && (shape.dimensions == 1 || shape.dimensions == 2);
-  if (!shape.numbers) return shape;
+  if (shape.dimensions != 1 && shape.dimensions != 2) return shape;
+  shape.numbers = readType(type, &shape);
+  shape.characters = hdf5().Tget_class(type) == H5T_STRING && hdf5().Tget_size(type) == 1;
+  if (!shape.numbers && !shape.characters) return shape;
   hsize_t sizes[2] = {0, 1};
   check(hdf5().Sget_simple_extent_dims(space, sizes, nullptr), what);
   shape.rows = sizes[0];
@@ -155,7 +154,7 @@ void Hdf5File::checkStorage(hid_t dataset, const Hdf5Shape& shape, const std::st
   // Only chunks are compressed. note: of data in the dataset's own head libhdf5 believes the
   // extent.
   const uint64_t ratio = hdf5().Pget_layout(plan) == H5D_CHUNKED ? kMaxHdf5Ratio : 1;
-  const uint64_t most = stored * ratio / sizeOf(shape.type);
+  const uint64_t most = stored * ratio / shape.element;
   if (shape.rows == 0 || shape.components == 0) return;
   if (shape.rows > most || shape.components > most / shape.rows)
     fail(Status::kBadData, "%s: dataset \"%s\" claims %llu rows of %llu, in %llu bytes",
@@ -202,34 +201,29 @@ std::vector<int64_t> Hdf5File::integers(const std::string& path, size_t most) {
     fail(Status::kUnsupported, "%s: dataset \"%s\" has more than %zu numbers", name_.c_str(),
          path.c_str(), most);
   std::vector<int64_t> numbers(static_cast<size_t>(shape.rows));
-  const Hdf5Id dataset = openDataset(path);
-  if (!numbers.empty())
-    check(
-        hdf5().Dread(dataset, hdf5().T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()),
-        "dataset \"" + path + "\"");
+  openValues(path, shape)->read(0, numbers.size(), numbers.data(), ScalarType::kInt64);
   return numbers;
 }
 
 std::vector<std::string> Hdf5File::texts(const std::string& path, size_t most) {
   const std::string what = "dataset \"" + path + "\"";
-  const Hdf5Id dataset = openDataset(path);
-  const Hdf5Id space(check(hdf5().Dget_space(dataset), what), hdf5().Sclose);
-  const Hdf5Id type(check(hdf5().Dget_type(dataset), what), hdf5().Tclose);
-  hsize_t sizes[2] = {0, 0};
-  if (hdf5().Tget_class(type) != H5T_STRING || hdf5().Tget_size(type) != 1 ||
-      check(hdf5().Sget_simple_extent_ndims(space), what) != 2)
+  const Hdf5Shape shape = shapeOf(path);
+  if (!shape.characters || shape.dimensions != 2)
     fail(Status::kBadData, "%s: %s is no list of names", name_.c_str(), what.c_str());
-  check(hdf5().Sget_simple_extent_dims(space, sizes, nullptr), what);
-  if (sizes[0] > most || sizes[1] > kMaxHdf5Name)
+  if (shape.rows > most || shape.components > kMaxHdf5Name)
     fail(Status::kUnsupported, "%s: %s has more than %zu names, or longer ones than %zu bytes",
          name_.c_str(), what.c_str(), most, kMaxHdf5Name);
-  const auto width = static_cast<size_t>(sizes[1]);
-  std::string all(static_cast<size_t>(sizes[0]) * width, 0);
-  if (!all.empty())
-    check(hdf5().Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all.data()), what);
+  const auto width = static_cast<size_t>(shape.components);
+  std::string all(static_cast<size_t>(shape.rows) * width, 0);
+  openHdf5Bytes(*this, path, shape)->readAt(0, all.data(), all.size());
   std::vector<std::string> rows;
-  for (size_t i = 0; i < sizes[0]; ++i) rows.push_back(all.substr(i * width, width));
+  for (size_t i = 0; i < shape.rows; ++i) rows.push_back(all.substr(i * width, width));
   return rows;
+}
+
+std::unique_ptr<Values> Hdf5File::openValues(const std::string& path, const Hdf5Shape& shape) {
+  return openBinaryValues(openHdf5Bytes(*this, path, shape), name_ + ": dataset \"" + path + "\"",
+                          shape.type, shape.big_endian);
 }
 
 Hdf5Id Hdf5File::createGroup(const std::string& path) {
@@ -306,63 +300,19 @@ namespace {
 class Hdf5Values final : public Values {
  public:
   Hdf5Values(std::shared_ptr<Hdf5File> file, const std::string& path, uint64_t first)
-      : file_(std::move(file)), what_("dataset \"" + path + "\""), first_(first) {
+      : file_(std::move(file)), first_(first) {
     const Hdf5Turn turn;
-    shape_ = file_->shapeOf(path);
-    dataset_ = file_->openDataset(path);
+    values_ = file_->openValues(path, file_->shapeOf(path));
   }
 
   void read(uint64_t first, size_t count, void* out, ScalarType type) override {
-    unsigned char* to = static_cast<unsigned char*>(out);
-    if (isSame(shape_.type, type)) return readStored(first_ + first, count, to);
-    const size_t row = static_cast<size_t>(shape_.components);
-    const size_t at_once = row < kConverted ? kConverted / row * row : kConverted;
-    stored_.resize(at_once * sizeOf(shape_.type));
-    while (count > 0) {
-      const size_t n = std::min(count, at_once);
-      readStored(first_ + first, n, stored_.data());
-      convertValues(stored_.data(), {shape_.type, file_->name() + ": " + what_, first}, to, type,
-                    n);
-      to += n * sizeOf(type);
-      first += n;
-      count -= n;
-    }
+    values_->read(first_ + first, count, out, type);
   }
 
  private:
-  static constexpr size_t kConverted = 4096;  // values
-
-  // A part of a row, then whole rows, then a part of one.
-  void readStored(uint64_t first, size_t count, unsigned char* out) {
-    const Hdf5Turn turn;
-    const uint64_t row = shape_.components;
-    for (size_t n; count > 0; first += n, count -= n, out += n * sizeOf(shape_.type)) {
-      const uint64_t column = first % row;
-      const bool whole = column == 0 && count >= row;
-      n = static_cast<size_t>(whole ? count - count % row
-                                    : std::min<uint64_t>(count, row - column));
-      const hsize_t start[2] = {first / row, column};
-      const hsize_t size[2] = {whole ? n / row : 1, whole ? row : n};
-      readSlab(start, size, out);
-    }
-  }
-
-  void readSlab(const hsize_t* start, const hsize_t* size, void* out) {
-    const Hdf5Functions& h = hdf5();
-    const Hdf5Id space(file_->check(h.Dget_space(dataset_), what_), h.Sclose);
-    // Of as many dimensions: else the library goes value by value.
-    const Hdf5Id memory(file_->check(h.Screate_simple(shape_.dimensions, size, nullptr), what_),
-                        h.Sclose);
-    file_->check(h.Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, size, nullptr), what_);
-    file_->check(h.Dread(dataset_, hdf5Type(shape_.type), memory, space, H5P_DEFAULT, out), what_);
-  }
-
   std::shared_ptr<Hdf5File> file_;
-  std::string what_;
   uint64_t first_;
-  Hdf5Shape shape_;
-  Hdf5Id dataset_;
-  std::vector<unsigned char> stored_;
+  std::unique_ptr<Values> values_;
 };
 
 }  // namespace

@@ -48,8 +48,11 @@ class Hdf5Id {
 
 // What a dataset holds, as far as we read it.
 struct Hdf5Shape {
-  bool numbers = false;  // of a type of ours
+  bool numbers = false;     // of a type of ours
+  bool characters = false;  // single ones
   ValueType type = ValueType::kFloat32;
+  size_t element = 1;  // bytes
+  bool big_endian = false;
   uint64_t rows = 0;
   uint64_t components = 1;
   int dimensions = 1;  // 2: rows and components
@@ -96,6 +99,8 @@ class Hdf5File {
   // The rows of a dataset of single characters.
   std::vector<std::string> texts(const std::string& path, size_t most);
   std::vector<int64_t> integers(const std::string& path, size_t most);
+  // Of a dataset of numbers, which borrow the file. Read in turns of their own.
+  std::unique_ptr<Values> openValues(const std::string& path, const Hdf5Shape& shape);
 
   Hdf5Id createGroup(const std::string& path);
   void addAttribute(hid_t object, const char* attribute, const std::string& text);
@@ -115,6 +120,7 @@ class Hdf5File {
 
  private:
   [[noreturn]] void failCall(const std::string& what);
+  bool readType(hid_t type, Hdf5Shape* shape);
   void checkStorage(hid_t dataset, const Hdf5Shape& shape, const std::string& path);
 
   std::unique_ptr<Hdf5Storage> storage_;
