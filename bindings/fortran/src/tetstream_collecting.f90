@@ -20,6 +20,7 @@ module tetstream_collecting
 
   ! A mesh that comes in batches.
   type, extends(tetstream_sink), public :: collector
+    type(tetstream_stream_info) :: info
     type(tetstream_mesh) :: mesh
     integer(c_int64_t) :: point_count = 0, cell_count = 0
   contains
@@ -56,6 +57,7 @@ contains
 
     associate (stays => stat, stays_too => errmsg)
     end associate
+    this%info = info
     this%mesh = tetstream_mesh()
     this%point_count = 0
     this%cell_count = 0

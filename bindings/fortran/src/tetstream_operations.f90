@@ -250,12 +250,14 @@ contains
 
   ! ------------------------------------------------------------------------------- whole meshes
 
-  ! A whole file as a mesh. An indexed mesh is brought into an order.
-  subroutine tetstream_read(path, mesh, format, options, stat, errmsg)
+  ! A whole file as a mesh. An indexed mesh is brought into an order. `info` is what is known of the
+  ! stream, the front among it.
+  subroutine tetstream_read(path, mesh, format, options, info, stat, errmsg)
     character(*), intent(in) :: path
     type(tetstream_mesh), intent(out) :: mesh
     character(*), intent(in), optional :: format
     type(tetstream_options), intent(in), optional :: options
+    type(tetstream_stream_info), intent(inout), optional :: info
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(tetstream_reader) :: reader
@@ -268,6 +270,7 @@ contains
     if (status >= 0) call writer%create(taken, status, sentence)
     if (status >= 0) call tetstream_convert(reader, writer, options, stat=status, errmsg=sentence)
     if (forwarded(status, sentence, stat, errmsg)) return
+    if (present(info)) info = taken%info
     call hand_over(taken%mesh, mesh)
   end subroutine
 
