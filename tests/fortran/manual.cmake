@@ -1,0 +1,52 @@
+# Takes the programs after "Sh EXAMPLES" out of tetstream-fortran(3), compiles and runs each; and compares
+# the page with the module: every public name stands in it.
+cmake_minimum_required(VERSION 3.25)
+
+file(READ ${SOURCE}/man/man3/tetstream-fortran.3 text)
+file(READ ${SOURCE}/bindings/fortran/src/tetstream.f90 module)
+string(REGEX REPLACE "[^\n]*\nmodule tetstream\n" "" module "${module}")
+string(REGEX REPLACE "use tetstream_[a-z]+, only:" "" names "${module}")
+string(REGEX MATCHALL "tetstream_[a-z_]+" names "${names}")
+list(LENGTH names count)
+if(count LESS 35)
+  message(FATAL_ERROR "only ${count} names were found")
+endif()
+foreach(name IN LISTS names)
+  if(NOT text MATCHES "${name}[^a-z_]" AND NOT name MATCHES "^tetstream_(constants|figures)$")
+    message(SEND_ERROR "the page does not tell of ${name}")
+  endif()
+endforeach()
+
+file(REMOVE_RECURSE ${WORK})
+file(MAKE_DIRECTORY ${WORK})
+file(COPY ${SOURCE}/tests/data/bracket/bracket.vtu DESTINATION ${WORK})
+string(FIND "${text}" "\n.Sh EXAMPLES" start)
+string(SUBSTRING "${text}" ${start} -1 rest)
+set(count 0)
+# note: CMake's regular expressions know no "shortest match".
+while(rest MATCHES "\n\\.Bd -literal")
+  string(FIND "${rest}" ".Bd -literal\n" start)
+  string(FIND "${rest}" ".Ed" end)
+  math(EXPR from "${start} + 13")
+  math(EXPR length "${end} - ${from}")
+  string(SUBSTRING "${rest}" ${from} ${length} program)
+  math(EXPR end "${end} + 3")
+  string(SUBSTRING "${rest}" ${end} -1 rest)
+  math(EXPR count "${count} + 1")
+  file(WRITE ${WORK}/example_${count}.f90 "${program}")
+  execute_process(COMMAND ${FC} ${FLAGS} example_${count}.f90 -I${MODULES} ${LIBRARY} ${SHARED}
+    -Wl,-rpath,${SHARED_FOLDER} -o example_${count} WORKING_DIRECTORY ${WORK}
+    COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ./example_${count} WORKING_DIRECTORY ${WORK} OUTPUT_VARIABLE told
+    COMMAND_ERROR_IS_FATAL ANY)
+  string(APPEND all "${told}")
+endwhile()
+if(NOT count EQUAL 3)
+  message(FATAL_ERROR "${count} examples were found")
+endif()
+foreach(words "75[0-9][0-9] *cells, error about" "75232 -> *[0-9]+ *error"
+    "TETSTREAM_IO: nowhere.vtu: cannot open" " 2 cells came out")
+  if(NOT all MATCHES "${words}")
+    message(SEND_ERROR "the examples do not tell \"${words}\": ${all}")
+  endif()
+endforeach()
