@@ -16,7 +16,7 @@ class MemorySource : public IndexedSource {
   // How the ids are written.
   struct Ids {
     bool narrow_cells = false;  // those of cells are int32
-    int64_t first = 0;          // the id of the first vertex: from there rows count in messages, too
+    int64_t first = 0;  // the id of the first vertex: from there rows count in messages, too
   };
   MemorySource(const Schema& schema, const BatchView& mesh, Ids ids);
   MemorySource(const Schema& schema, const BatchView& mesh) : MemorySource(schema, mesh, Ids()) {}

@@ -274,7 +274,8 @@ static void ids_may_count_from_one(void) {
   for (int kind = 0; kind < 2; ++kind) {
     batch.cells = kind == 0 ? cells : (const int64_t*)(const void*)narrow;
     const uint32_t more = kind == 0 ? 0 : TETSTREAM_STREAM_INT32_CELLS;
-    tetstream_writer* again = converted(&batch, more | TETSTREAM_STREAM_FROM_ONE, &same, &same_size);
+    tetstream_writer* again =
+        converted(&batch, more | TETSTREAM_STREAM_FROM_ONE, &same, &same_size);
     CHECK_EQUAL(same_size, size);
     CHECK(same_size == size && memcmp(same, bytes, size) == 0);
     tetstream_writer_destroy(again);
