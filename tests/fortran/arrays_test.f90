@@ -209,6 +209,11 @@ contains
     call check_says(errmsg, "options or a ratio, not both", "one of both")
     call tetstream_simplify(empty, small, stat=stat, errmsg=errmsg)
     call check_says(errmsg, "a mesh needs points and cells", "a mesh that is empty")
+    call tetstream_simplify(points, cells, [tetstream_field(repeat("n", 300), field)], small, stat=stat, &
+                            errmsg=errmsg)
+    call check_equal(stat, TETSTREAM_BAD_ARGUMENT, "a name of 300 letters")
+    call tetstream_simplify(points, cells, [tetstream_field(repeat("n", 255), field)], small, stat=stat)
+    call check_equal(len(small%fields(1)%name), 255, "but 255 letters are a name")
     call options%set("cells", 47)
     call tetstream_simplify(points, cells, [tetstream_field("wave", field)], small, options, stat=stat, errmsg=errmsg)
     call check(stat >= 0, "the module goes on after failures")

@@ -10,9 +10,10 @@ module tetstream_arrays
 
   integer, parameter, public :: tetstream_real = c_double, tetstream_index = c_int64_t
 
-  ! note: the name has a fixed length: gfortran 12 forgets allocatable components in [a, b].
+  ! note: the name has a fixed length: gfortran 12 forgets allocatable components in [a, b]. One letter
+  ! more than the library takes, so that it refuses what is longer.
   type, public :: tetstream_field
-    character(255) :: name = ""
+    character(256) :: name = ""
     integer :: components = 0
     integer :: type = 0
     integer(c_int64_t) :: rows = 0
@@ -201,11 +202,12 @@ contains
     if (allocated(this%int64)) deallocate (this%int64)
   end subroutine
 
-  ! Puts rows that lie in C behind the first `count`.
-  subroutine array_add(this, count, values, rows)
+  ! Puts rows that lie in C behind the first `count`; `failed` as of grow.
+  subroutine array_add(this, count, values, rows, failed)
     class(tetstream_array), intent(inout) :: this
     integer(c_int64_t), intent(in) :: count, rows
     type(c_ptr), intent(in) :: values
+    integer, intent(inout) :: failed
     real(c_float), pointer :: float32(:, :)
     real(c_double), pointer :: float64(:, :)
     integer(c_int32_t), pointer :: int32(:, :)
@@ -216,16 +218,16 @@ contains
     shape = [int(this%components(), c_int64_t), rows]
     if (allocated(this%float32)) then
       call c_f_pointer(values, float32, shape)
-      call grow(this%float32, count, float32)
+      call grow(this%float32, count, float32, failed)
     else if (allocated(this%float64)) then
       call c_f_pointer(values, float64, shape)
-      call grow(this%float64, count, float64)
+      call grow(this%float64, count, float64, failed)
     else if (allocated(this%int32)) then
       call c_f_pointer(values, int32, shape)
-      call grow(this%int32, count, int32)
+      call grow(this%int32, count, int32, failed)
     else
       call c_f_pointer(values, int64, shape)
-      call grow(this%int64, count, int64)
+      call grow(this%int64, count, int64, failed)
     end if
   end subroutine
 

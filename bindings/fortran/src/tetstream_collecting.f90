@@ -61,11 +61,19 @@ contains
     this%mesh = tetstream_mesh()
     this%point_count = 0
     this%cell_count = 0
-    allocate (this%mesh%points(3, max(info%vertex_count, 0_c_int64_t)))
-    allocate (this%mesh%cells(4, max(info%cell_count, 0_c_int64_t)))
+    allocate (this%mesh%points(3, promised(info%vertex_count)))
+    allocate (this%mesh%cells(4, promised(info%cell_count)))
     call begin(this%mesh%fields, info%fields)
     call begin(this%mesh%cell_data, info%cell_data)
   end subroutine
+
+  ! How many rows are taken on trust: the header of a broken file may tell of any number.
+  pure function promised(count)
+    integer(c_int64_t), intent(in) :: count
+    integer(c_int64_t) :: promised
+
+    promised = min(max(count, 0_c_int64_t), 2_c_int64_t**24)
+  end function
 
   subroutine begin(arrays, columns)
     type(tetstream_array), allocatable, intent(inout) :: arrays(:)
@@ -86,21 +94,20 @@ contains
     character(*), intent(inout) :: errmsg
     integer :: i
 
-    associate (stays => stat, stays_too => errmsg)
-    end associate
     call add_flags(this%mesh%locked, this%point_count, batch%locked, size(batch%points, 2, c_int64_t))
-    call grow(this%mesh%points, this%point_count, batch%points)
-    call grow(this%mesh%cells, this%cell_count, batch%cells)
+    call grow(this%mesh%points, this%point_count, batch%points, stat)
+    call grow(this%mesh%cells, this%cell_count, batch%cells, stat)
     do i = 1, size(this%mesh%fields)
-      call this%mesh%fields(i)%add(this%point_count, batch%fields(i)%location(), batch%fields(i)%rows())
+      call this%mesh%fields(i)%add(this%point_count, batch%fields(i)%location(), batch%fields(i)%rows(), stat)
     end do
     do i = 1, size(this%mesh%cell_data)
       call this%mesh%cell_data(i)%add(this%cell_count, batch%cell_data(i)%location(), &
-                                      batch%cell_data(i)%rows())
+                                      batch%cell_data(i)%rows(), stat)
     end do
     this%point_count = this%point_count + size(batch%points, 2)
     this%cell_count = this%cell_count + size(batch%cells, 2)
     call add_marks(this%mesh, batch)
+    if (stat /= 0) errmsg = "there is no memory for the result"
   end subroutine
 
   ! Labelled faces and locked edges: few, beside the cells.

@@ -9,9 +9,9 @@ module tetstream_handover
   implicit none
   private
 
-  ! Names end with a zero in C.
+  ! A name as C has it, with room for one letter more than the library takes: it refuses that.
   type :: column_room
-    character(kind=c_char) :: names(256)
+    character(kind=c_char) :: names(257)
   end type
 
   ! A tetstream_stream_info for C, and what it points to.
@@ -87,7 +87,7 @@ contains
     allocate (made(count), names(count))
     do i = 1, count
       names(i)%names = c_null_char
-      do j = 1, min(len(columns(i)%name), 255)
+      do j = 1, min(len(columns(i)%name), 256)
         names(i)%names(j) = columns(i)%name(j:j)
       end do
       made(i)%name = c_loc(names(i)%names)

@@ -207,8 +207,9 @@ contains
     type(tetstream_column), intent(in) :: columns(:)
     type(tetstream_array), allocatable, intent(out) :: to(:)
     type(c_ptr), pointer :: places(:)
-    integer :: i
+    integer :: i, failed
 
+    failed = 0
     nullify (places)
     allocate (to(size(columns)))
     if (rows > 0 .and. size(columns) > 0) call c_f_pointer(from, places, [size(columns)])
@@ -216,7 +217,7 @@ contains
       to(i)%name = columns(i)%name
       call to(i)%empty(columns(i)%type, columns(i)%components)
       if (rows == 0) cycle
-      call to(i)%add(0_c_int64_t, places(i), rows)
+      call to(i)%add(0_c_int64_t, places(i), rows, failed)
       call to(i)%trim(rows)
     end do
   end subroutine
