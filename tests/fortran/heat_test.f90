@@ -35,6 +35,7 @@ contains
     character(200) :: line
     integer :: file, status
 
+    code = 0  ! gfortran 12 reads it
     call execute_command_line("'"//variable("HEAT")//"' "//arguments//" >table 2>words", exitstat=code)
     allocate (states(0))
     open (newunit=file, file="table", status="old", action="read")

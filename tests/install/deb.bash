@@ -140,9 +140,11 @@ fi
 # --------------------------------------------------------------------------------------------- removed
 # Programs need the library alone.
 cd "$WORK"
+others=()
 for package in $PACKAGES; do
-  [[ $package == "$library" ]] || on_root --purge "$package"
+  [[ $package == "$library" ]] || others+=("$package")
 done
+on_root --purge "${others[@]}"
 LD_LIBRARY_PATH=$root/usr/lib/$MULTIARCH "$elsewhere/client"
 on_root --purge "$library"
 left=$(find "$root" -path "$database" -prune -o -type f -print -o -type l -print)

@@ -81,7 +81,7 @@ foreach(linkage shared static any)
   must(${CMAKE_COMMAND} --build ${WORK}/${linkage})
   must(${WORK}/${linkage}/client_c)
   must(${WORK}/${linkage}/client_cpp)
-  if(FC)
+  if(FC AND NOT linkage STREQUAL "shared")  # which is what "any" means there
     set(build "${WORK}/${linkage} fortran")
     must(${CMAKE_COMMAND} -S ${here}/project_fortran -B "${build}" -G ${GENERATOR}
       -DCMAKE_Fortran_COMPILER=${FC} -DCMAKE_Fortran_FLAGS=${flags} "-DCMAKE_PREFIX_PATH=${prefix}"
