@@ -7,12 +7,13 @@ module tetstream_arrays
   use tetstream_growth
   implicit none
   private
+  public :: tetstream_field
 
   integer, parameter, public :: tetstream_real = c_double, tetstream_index = c_int64_t
 
   ! note: the name has a fixed length: gfortran 12 forgets allocatable components in [a, b]. One letter
   ! more than the library takes, so that it refuses what is longer.
-  type, public :: tetstream_field
+  type :: tetstream_field
     character(256) :: name = ""
     integer :: components = 0
     integer :: type = 0
