@@ -3,10 +3,11 @@
 source "${BASH_SOURCE%/*}/../cli/common.bash"
 bracket=$TETSTREAM_SOURCE/tests/data/bracket/bracket.vtu
 
-# Under memcheck the examples are, not the command, which has tests of its own; and what they do is small.
+# Under memcheck the examples are, not the command, which has tests of its own; there, and with
+# sanitizers, what they do is small.
 launcher=${TETSTREAM_LAUNCHER:-}
 TETSTREAM_LAUNCHER=
-is_slow() { [[ -n $launcher ]]; }
+is_slow() { [[ -n ${TETSTREAM_SLOW:-} ]]; }
 mesh=$bracket
 if is_slow; then
   mkdir "$logs/mesh"
