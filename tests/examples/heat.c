@@ -82,12 +82,8 @@ static int32_t take_batch(void* user, const tetstream_batch* batch) {
 static void read_mesh(struct heat* h, const char* path) {
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;
-  tetstream_writer_callbacks callbacks;
-  memset(&callbacks, 0, sizeof callbacks);
-  callbacks.struct_size = sizeof callbacks;
-  callbacks.user = h;
-  callbacks.open = begin_mesh;
-  callbacks.put = take_batch;
+  const tetstream_writer_callbacks callbacks = {
+      .struct_size = sizeof callbacks, .user = h, .open = begin_mesh, .put = take_batch};
   if (tetstream_reader_open_file(path, NULL, &reader) < 0)
     fail(path, tetstream_reader_message(reader));
   if (tetstream_writer_create(&callbacks, &writer) < 0 ||
@@ -134,7 +130,8 @@ static void add_cell(struct heat* h, int64_t c) {
   const double volume =
       fabs(edge[1][0] * normal[1][0] + edge[1][1] * normal[1][1] + edge[1][2] * normal[1][2]) / 6;
   if (!(volume > 0)) {
-    fprintf(stderr, "heat: cell %lld is flat\n", (long long)c);
+    const double* at = h->points + 3 * corner[0];
+    fprintf(stderr, "heat: the cell at (%g, %g, %g) is flat\n", at[0], at[1], at[2]);
     exit(1);
   }
   for (int j = 0; j < 4; ++j) h->mass[corner[j]] += volume / 4;
@@ -233,55 +230,40 @@ static tetstream_status push_mesh(const struct heat* h, tetstream_simplifier* si
       high[k] = fmax(high[k], value);
     }
   }
-  tetstream_stream_info info;
-  memset(&info, 0, sizeof info);
-  info.struct_size = sizeof info;
-  info.position_type = TETSTREAM_TYPE_FLOAT64;
-  info.field_count = 1;
-  info.fields = &column;
-  info.vertex_count = h->vertex_count;
-  info.cell_count = h->cell_count;
-  info.front_width = info.front_span = -1;
-  info.front_cells = h->front_cells;
-  info.box_min = low;
-  info.box_max = high;
+  const tetstream_stream_info info = {.struct_size = sizeof info,
+                                      .position_type = TETSTREAM_TYPE_FLOAT64,
+                                      .field_count = 1,
+                                      .fields = &column,
+                                      .vertex_count = h->vertex_count,
+                                      .cell_count = h->cell_count,
+                                      .front_cells = h->front_cells,
+                                      .box_min = low,
+                                      .box_max = high};
   tetstream_status status = tetstream_simplifier_begin(simplifier, &info);
   int64_t vertex = 0; /* the next one to be handed over */
   for (int64_t cell = 0; status >= 0 && cell < h->cell_count; cell += BATCH) {
-    tetstream_batch batch;
-    memset(&batch, 0, sizeof batch);
-    batch.struct_size = sizeof batch;
-    batch.cell_count = cell + BATCH < h->cell_count ? BATCH : h->cell_count - cell;
-    batch.cells = h->cells + 4 * cell;
-    batch.last_uses = h->last_uses + cell;
-    int64_t end = vertex;
-    for (int64_t i = 0; i < 4 * batch.cell_count; ++i)
-      if (batch.cells[i] >= end) end = batch.cells[i] + 1;
     const void* const fields[] = {h->u + vertex};
-    batch.vertex_count = end - vertex;
-    batch.positions = h->points + 3 * vertex;
-    batch.fields = fields;
-    vertex = end;
+    tetstream_batch batch = {.struct_size = sizeof batch,
+                             .positions = h->points + 3 * vertex,
+                             .fields = fields,
+                             .cell_count = BATCH,
+                             .cells = h->cells + 4 * cell,
+                             .last_uses = h->last_uses + cell};
+    for (int64_t i = 0; i < 4 * BATCH && i < 4 * (h->cell_count - cell); ++i)
+      if (batch.cells[i] >= vertex + batch.vertex_count)
+        batch.vertex_count = batch.cells[i] + 1 - vertex;
+    if (cell + BATCH >= h->cell_count) { /* the last cells, and the vertices that none uses */
+      batch.cell_count = h->cell_count - cell;
+      batch.vertex_count = h->vertex_count - vertex;
+    }
+    vertex += batch.vertex_count;
     status = tetstream_simplifier_push(simplifier, &batch);
   }
   return status >= 0 ? tetstream_simplifier_finish(simplifier) : status;
 }
 
-static void write_step(const struct heat* h, const char* out, int number, double time) {
-  char path[4096];
-  tetstream_writer* writer = NULL;
-  tetstream_simplifier* simplifier = NULL;
-  tetstream_report report;
-  report.struct_size = sizeof report;
-  if (snprintf(path, sizeof path, "%s-%03d.tets", out, number) >= (int)sizeof path)
-    fail(out, "the name is too long");
-  if (tetstream_writer_create_file(path, NULL, &writer) < 0)
-    fail(path, tetstream_writer_message(writer));
-  if (tetstream_simplifier_create(NULL, writer, &simplifier) < 0 || push_mesh(h, simplifier) < 0 ||
-      tetstream_simplifier_get_report(simplifier, &report) < 0)
-    fail(path, tetstream_simplifier_message(simplifier));
-  const double amount = dot(h, h->mass, h->u);
-  /* The part of u that is the cosine without its mean. */
+/* How much of u is the cosine without its mean. */
+static double amplitude(const struct heat* h) {
   double volume = 0, mean = 0, part = 0, whole = 0;
   for (int64_t i = 0; i < h->vertex_count; ++i) {
     volume += h->mass[i];
@@ -292,10 +274,29 @@ static void write_step(const struct heat* h, const char* out, int number, double
     part += h->mass[i] * wave * h->u[i];
     whole += h->mass[i] * wave * wave;
   }
-  printf("%d %.6g %.15g %.9g %lld\n", number, time, amount, part / whole,
-         (long long)report.cells_out);
+  return part / whole;
+}
+
+static void write_step(const struct heat* h, const char* out, int number, double time) {
+  char path[4096];
+  tetstream_writer* writer = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  tetstream_report report = {.struct_size = sizeof report};
+  if (snprintf(path, sizeof path, "%s-%03d.tets", out, number) >= (int)sizeof path)
+    fail(out, "the name is too long");
+  if (tetstream_writer_create_file(path, NULL, &writer) < 0)
+    fail(path, tetstream_writer_message(writer));
+  const int failed = tetstream_simplifier_create(NULL, writer, &simplifier) < 0 ||
+                     push_mesh(h, simplifier) < 0 ||
+                     tetstream_simplifier_get_report(simplifier, &report) < 0;
+  if (failed)
+    fprintf(stderr, "heat: %s: %s\n", path, tetstream_simplifier_message(simplifier));
+  else
+    printf("%d %.6g %.15g %.9g %lld\n", number, time, dot(h, h->mass, h->u), amplitude(h),
+           (long long)report.cells_out);
   tetstream_simplifier_destroy(simplifier);
-  tetstream_writer_destroy(writer);
+  tetstream_writer_destroy(writer); /* what was written before a failure goes with it */
+  if (failed) exit(1);
 }
 
 static void destroy(struct heat* h) {
@@ -305,14 +306,13 @@ static void destroy(struct heat* h) {
 }
 
 int main(int argc, char** argv) {
-  struct heat h;
+  struct heat h = {.front_cells = -1};
   const int steps = argc > 3 ? atoi(argv[3]) : 50, every = argc > 4 ? atoi(argv[4]) : 10;
   const double dt = argc > 5 ? atof(argv[5]) : 0.001;
   if (argc < 3 || argc > 6 || steps < 0 || every < 1 || !(dt > 0)) {
     fprintf(stderr, "usage: heat MESH OUT [STEPS [EVERY [DT]]]\n");
     return 1;
   }
-  memset(&h, 0, sizeof h);
   read_mesh(&h, argv[1]);
   find_last_uses(&h);
   assemble(&h, dt);

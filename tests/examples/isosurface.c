@@ -162,7 +162,8 @@ static void end(void* user) {
 
 int main(int argc, char** argv) {
   static struct surface s;
-  const tetstream_writer_callbacks sink = {sizeof sink, &s, begin, take, NULL, end};
+  const tetstream_writer_callbacks sink = {
+      .struct_size = sizeof sink, .user = &s, .open = begin, .put = take, .close = end};
   tetstream_options* options = NULL;
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;

@@ -77,27 +77,18 @@ int main(void) {
 
   const tetstream_column field = {"temperature", 1, TETSTREAM_TYPE_FLOAT64};
   const void* const fields[] = {in.field};
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  memset(&info, 0, sizeof info);
-  info.struct_size = sizeof info;
-  info.position_type = TETSTREAM_TYPE_FLOAT64;
-  info.field_count = 1;
-  info.fields = &field;
-  memset(&batch, 0, sizeof batch);
-  batch.struct_size = sizeof batch;
-  batch.vertex_count = in.point_count;
-  batch.positions = in.points;
-  batch.fields = fields;
-  batch.cell_count = in.cell_count;
-  batch.cells = in.cells[0];
-
-  tetstream_writer_callbacks callbacks;
-  memset(&callbacks, 0, sizeof callbacks);
-  callbacks.struct_size = sizeof callbacks;
-  callbacks.user = &out;
-  callbacks.put = put;
-
+  const tetstream_stream_info info = {.struct_size = sizeof info,
+                                      .position_type = TETSTREAM_TYPE_FLOAT64,
+                                      .field_count = 1,
+                                      .fields = &field};
+  const tetstream_batch batch = {.struct_size = sizeof batch,
+                                 .vertex_count = in.point_count,
+                                 .positions = in.points,
+                                 .fields = fields,
+                                 .cell_count = in.cell_count,
+                                 .cells = in.cells[0]};
+  const tetstream_writer_callbacks callbacks = {
+      .struct_size = sizeof callbacks, .user = &out, .put = put};
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;
   tetstream_simplifier* simplifier = NULL;

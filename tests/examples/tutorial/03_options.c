@@ -31,8 +31,7 @@ int main(void) {
 
   /* All of them, also those of a library that is newer than this program. */
   for (int32_t i = 0; i < tetstream_option_count(); ++i) {
-    tetstream_option_info row;
-    row.struct_size = sizeof row;
+    tetstream_option_info row = {.struct_size = sizeof row};
     if (tetstream_option_at(i, &row) < 0) break;
     printf("  %d %s (%s): %s\n", (int)row.id, row.name, row.default_text, row.text);
   }

@@ -6,7 +6,6 @@
  * and so the library can simplify and write it while the bar goes on. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <tetstream/tetstream.h>
 
 enum { SIDE = 9, LAYER = SIDE * SIDE, BOXES = (SIDE - 1) * (SIDE - 1) };
@@ -48,8 +47,9 @@ static int32_t next_layer(void* user, tetstream_batch* batch) {
   struct bar* b = user;
   if (b->layer > b->length) return 0;
   for (int i = 0; i < LAYER; ++i) {
-    b->points[i][0] = (float)(i % SIDE) / (SIDE - 1);
-    b->points[i][1] = (float)(i / SIDE) / (SIDE - 1);
+    const int x = i % SIDE, y = i / SIDE;
+    b->points[i][0] = (float)x / (SIDE - 1);
+    b->points[i][1] = (float)y / (SIDE - 1);
     b->points[i][2] = (float)b->layer / (SIDE - 1);
     b->heat[i] = b->points[i][0] * b->points[i][0];
     b->done[i] = (b->layer - 1) * LAYER + i;
@@ -70,21 +70,15 @@ static int32_t next_layer(void* user, tetstream_batch* batch) {
 
 int main(int argc, char** argv) {
   static struct bar bar;
-  tetstream_reader_callbacks callbacks;
+  const tetstream_reader_callbacks callbacks = {
+      .struct_size = sizeof callbacks, .user = &bar, .open = open_bar, .next = next_layer};
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;
   tetstream_simplifier* simplifier = NULL;
-  tetstream_report report;
+  tetstream_report report = {.struct_size = sizeof report};
   if (argc != 3 || (bar.length = atoll(argv[1])) < 1)
     return fprintf(stderr, "usage: 04_reader LENGTH OUT\n"), 1;
-  memset(&callbacks, 0, sizeof callbacks);
-  callbacks.struct_size = sizeof callbacks;
-  callbacks.user = &bar;
-  callbacks.open = open_bar;
-  callbacks.next = next_layer;
-
   const char* problem = NULL;
-  report.struct_size = sizeof report;
   if (tetstream_writer_create_file(argv[2], NULL, &writer) < 0)
     problem = tetstream_writer_message(writer);
   else if (tetstream_reader_create(&callbacks, &reader) < 0 ||

@@ -84,16 +84,12 @@ static int32_t put(void* user, const tetstream_batch* batch) {
 
 int main(int argc, char** argv) {
   static struct sums sums;
-  tetstream_writer_callbacks callbacks;
+  const tetstream_writer_callbacks callbacks = {
+      .struct_size = sizeof callbacks, .user = &sums, .open = begin, .put = put};
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;
   const char* problem = NULL;
   if (argc != 2) return fprintf(stderr, "usage: 05_writer MESH\n"), 1;
-  memset(&callbacks, 0, sizeof callbacks);
-  callbacks.struct_size = sizeof callbacks;
-  callbacks.user = &sums;
-  callbacks.open = begin;
-  callbacks.put = put;
 
   if (tetstream_reader_open_file(argv[1], NULL, &reader) < 0)
     problem = tetstream_reader_message(reader);

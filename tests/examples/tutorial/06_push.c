@@ -7,7 +7,6 @@
  * count. (Far larger batches than a box are quicker.) */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <tetstream/tetstream.h>
 
 enum { SIDE = 9, LAYER = SIDE * SIDE };
@@ -16,15 +15,12 @@ enum { SIDE = 9, LAYER = SIDE * SIDE };
 static tetstream_status push_points(tetstream_simplifier* simplifier, int64_t layer) {
   float points[LAYER][3], heat[LAYER];
   const void* const fields[] = {heat};
-  tetstream_batch batch;
-  memset(&batch, 0, sizeof batch);
-  batch.struct_size = sizeof batch;
-  batch.vertex_count = LAYER;
-  batch.positions = points;
-  batch.fields = fields;
+  const tetstream_batch batch = {
+      .struct_size = sizeof batch, .vertex_count = LAYER, .positions = points, .fields = fields};
   for (int i = 0; i < LAYER; ++i) {
-    points[i][0] = (float)(i % SIDE) / (SIDE - 1);
-    points[i][1] = (float)(i / SIDE) / (SIDE - 1);
+    const int x = i % SIDE, y = i / SIDE;
+    points[i][0] = (float)x / (SIDE - 1);
+    points[i][1] = (float)y / (SIDE - 1);
     points[i][2] = (float)layer / (SIDE - 1);
     heat[i] = points[i][0] * points[i][0];
   }
@@ -36,11 +32,7 @@ static tetstream_status push_box(tetstream_simplifier* simplifier, int64_t low) 
   static const int along[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
   static const int step[3] = {1, SIDE, LAYER};
   int64_t cells[6][4];
-  tetstream_batch batch;
-  memset(&batch, 0, sizeof batch);
-  batch.struct_size = sizeof batch;
-  batch.cell_count = 6;
-  batch.cells = cells[0];
+  const tetstream_batch batch = {.struct_size = sizeof batch, .cell_count = 6, .cells = cells[0]};
   for (int c = 0; c < 6; ++c) {
     cells[c][0] = low;
     for (int k = 0; k < 3; ++k) cells[c][k + 1] = cells[c][k] + step[along[c][k]];
@@ -51,25 +43,20 @@ static tetstream_status push_box(tetstream_simplifier* simplifier, int64_t low) 
 /* No later cell uses the points of this layer. */
 static tetstream_status push_end_of(tetstream_simplifier* simplifier, int64_t layer) {
   int64_t done[LAYER];
-  tetstream_batch batch;
-  memset(&batch, 0, sizeof batch);
-  batch.struct_size = sizeof batch;
-  batch.finalized_count = LAYER;
-  batch.finalized = done;
+  const tetstream_batch batch = {
+      .struct_size = sizeof batch, .finalized_count = LAYER, .finalized = done};
   for (int i = 0; i < LAYER; ++i) done[i] = layer * LAYER + i;
   return tetstream_simplifier_push(simplifier, &batch);
 }
 
 static tetstream_status push_bar(tetstream_simplifier* simplifier, int64_t length) {
   const tetstream_column heat = {"heat", 1, TETSTREAM_TYPE_FLOAT32};
-  tetstream_stream_info info;
-  memset(&info, 0, sizeof info);
-  info.struct_size = sizeof info;
-  info.position_type = TETSTREAM_TYPE_FLOAT32;
-  info.field_count = 1;
-  info.fields = &heat;
-  info.vertex_count = (length + 1) * LAYER;
-  info.cell_count = length * 6 * (SIDE - 1) * (SIDE - 1);
+  const tetstream_stream_info info = {.struct_size = sizeof info,
+                                      .position_type = TETSTREAM_TYPE_FLOAT32,
+                                      .field_count = 1,
+                                      .fields = &heat,
+                                      .vertex_count = (length + 1) * LAYER,
+                                      .cell_count = length * 6 * (SIDE - 1) * (SIDE - 1)};
   tetstream_status status = tetstream_simplifier_begin(simplifier, &info);
   for (int64_t layer = 0; status >= 0 && layer <= length; ++layer) {
     status = push_points(simplifier, layer);

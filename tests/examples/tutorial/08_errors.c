@@ -3,7 +3,6 @@
  * Each line of the output is a failure on purpose. Nothing is printed by the library, nothing
  * aborts. */
 #include <stdio.h>
-#include <string.h>
 #include <tetstream/tetstream.h>
 
 /* note: C may evaluate arguments in any order. A message is asked for after the call has returned.
@@ -49,21 +48,11 @@ static int32_t refuse(void* user, const tetstream_batch* batch) {
 static void push_into_refusal(void) {
   static const double points[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
   static const int64_t cells[2][4] = {{0, 1, 2, 3}, {1, 2, 3, 7}}; /* there is no vertex 7 */
-  tetstream_writer_callbacks callbacks;
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  memset(&callbacks, 0, sizeof callbacks);
-  callbacks.struct_size = sizeof callbacks;
-  callbacks.put = refuse;
-  memset(&info, 0, sizeof info);
-  info.struct_size = sizeof info;
-  info.position_type = TETSTREAM_TYPE_FLOAT64;
-  memset(&batch, 0, sizeof batch);
-  batch.struct_size = sizeof batch;
-  batch.vertex_count = 5;
-  batch.positions = points;
-  batch.cells = cells[0];
-
+  const tetstream_writer_callbacks callbacks = {.struct_size = sizeof callbacks, .put = refuse};
+  const tetstream_stream_info info = {.struct_size = sizeof info,
+                                      .position_type = TETSTREAM_TYPE_FLOAT64};
+  tetstream_batch batch = {
+      .struct_size = sizeof batch, .vertex_count = 5, .positions = points, .cells = cells[0]};
   for (batch.cell_count = 1; batch.cell_count <= 2; ++batch.cell_count) {
     tetstream_writer* writer = NULL;
     tetstream_simplifier* simplifier = NULL;

@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
 
   const char* problem = NULL;
   tetstream_status status = TETSTREAM_OK;
-  tetstream_report report;
-  report.struct_size = sizeof report; /* a newer library fills no more than this program knows */
+  /* A newer library fills no more than this program knows. */
+  tetstream_report report = {.struct_size = sizeof report};
   if (tetstream_options_create(&options) < 0 ||
       tetstream_options_parse(options, "error", argv[3]) < 0 ||
       tetstream_options_parse(options, "cells", argv[4]) < 0)

@@ -8,14 +8,10 @@
 #include <tetstream/tetstream.h>
 
 static void print(const tetstream_comparison* comparison) {
-  tetstream_comparison_info info;
-  tetstream_mesh_figures figures;
-  tetstream_field_comparison field;
-  tetstream_region_comparison region;
-  info.struct_size = sizeof info;
-  figures.struct_size = sizeof figures;
-  field.struct_size = sizeof field;
-  region.struct_size = sizeof region;
+  tetstream_comparison_info info = {.struct_size = sizeof info};
+  tetstream_mesh_figures figures = {.struct_size = sizeof figures};
+  tetstream_field_comparison field = {.struct_size = sizeof field};
+  tetstream_region_comparison region = {.struct_size = sizeof region};
   tetstream_comparison_get_info(comparison, &info);
   for (int32_t i = 0; i < info.field_count; ++i) {
     tetstream_comparison_get_field(comparison, i, &field);

@@ -65,11 +65,8 @@ static int32_t put_map(void* user, const tetstream_map_rows* rows) {
 
 static tetstream_writer* writer_to(struct mesh* mesh) {
   tetstream_writer* writer = NULL;
-  tetstream_writer_callbacks callbacks;
-  memset(&callbacks, 0, sizeof callbacks);
-  callbacks.struct_size = sizeof callbacks;
-  callbacks.user = mesh;
-  callbacks.put = put_mesh;
+  const tetstream_writer_callbacks callbacks = {
+      .struct_size = sizeof callbacks, .user = mesh, .put = put_mesh};
   tetstream_writer_create(&callbacks, &writer);
   return writer;
 }
@@ -94,7 +91,8 @@ static double largest_error(const struct mesh* large, const struct mesh* small,
 int main(int argc, char** argv) {
   struct mesh large = {0, 0, NULL, NULL}, small = {0, 0, NULL, NULL};
   struct map map = {0, 0, NULL};
-  const tetstream_map_callbacks callbacks = {sizeof callbacks, &map, NULL, put_map, NULL, NULL};
+  const tetstream_map_callbacks callbacks = {
+      .struct_size = sizeof callbacks, .user = &map, .put = put_map};
   tetstream_reader *once = NULL, *again = NULL;
   tetstream_simplifier* simplifier = NULL;
   const int64_t cells = argc == 2 ? atoll(argv[1]) : 0;

@@ -7,7 +7,6 @@
  * "breadth-first" or another of the option `order`; memory is bounded by the option `memory`,
  * whatever the mesh. */
 #include <stdio.h>
-#include <string.h>
 #include <tetstream/tetstream.h>
 
 /* The front of the cells as they are in a file: what a stream in that order would have in core. */
@@ -15,8 +14,7 @@ static int front_of(const char* path, const char* picture) {
   tetstream_options* options = NULL;
   tetstream_reader* reader = NULL;
   tetstream_diagram* diagram = NULL;
-  tetstream_diagram_info info;
-  info.struct_size = sizeof info;
+  tetstream_diagram_info info = {.struct_size = sizeof info};
   const char* problem = NULL;
   if (tetstream_options_create(&options) < 0 ||
       tetstream_options_set_text(options, TETSTREAM_OPTION_ORDER, "none") < 0)
@@ -43,8 +41,7 @@ static int lay_out(const char* from, const char* to, const char* order) {
   tetstream_options* options = NULL;
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;
-  tetstream_layout_report report;
-  report.struct_size = sizeof report;
+  tetstream_layout_report report = {.struct_size = sizeof report};
   const char* problem = NULL;
   if (tetstream_options_create(&options) < 0 ||
       tetstream_options_set_text(options, TETSTREAM_OPTION_ORDER, order) < 0)
