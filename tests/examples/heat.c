@@ -36,14 +36,14 @@ struct heat {
 
 static const int pairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-static void fail(const char* what, const char* why) {
-  fprintf(stderr, "heat: %s: %s\n", what, why);
-  exit(1);
+static int failed(const char* message) {
+  fprintf(stderr, "heat: %s\n", message);
+  return 1;
 }
 
 static void* allocate(void* old, int64_t count, size_t size) {
   void* memory = realloc(old, (size_t)(count > 0 ? count : 1) * size);
-  if (!memory) fail("out of memory", "the mesh is too large");
+  if (!memory) exit(failed("out of memory"));
   return memory;
 }
 
@@ -79,19 +79,22 @@ static int32_t take_batch(void* user, const tetstream_batch* batch) {
 }
 
 /* Reads the mesh in an order that streams well: a file that is no stream is ordered on the way. */
-static void read_mesh(struct heat* h, const char* path) {
+static int read_mesh(struct heat* h, const char* path) {
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;
   const tetstream_writer_callbacks callbacks = {
       .struct_size = sizeof callbacks, .user = h, .open = begin_mesh, .put = take_batch};
+  int bad = 0;
   if (tetstream_reader_open_file(path, NULL, &reader) < 0)
-    fail(path, tetstream_reader_message(reader));
-  if (tetstream_writer_create(&callbacks, &writer) < 0 ||
-      tetstream_convert(reader, writer, NULL, NULL, NULL) < 0)
-    fail(path, tetstream_writer_message(writer));
+    bad = failed(tetstream_reader_message(reader));
+  else if (tetstream_writer_create(&callbacks, &writer) < 0 ||
+           tetstream_convert(reader, writer, NULL, NULL, NULL) < 0)
+    bad = failed(tetstream_writer_message(writer));
+  else if (h->cell_count == 0)
+    bad = failed("the mesh has no cells");
   tetstream_writer_destroy(writer);
   tetstream_reader_destroy(reader);
-  if (h->cell_count == 0) fail(path, "there are no cells");
+  return bad;
 }
 
 /* The stream ends a vertex with the last cell that uses it: seen from the end, the first. */
@@ -114,7 +117,7 @@ static void find_last_uses(struct heat* h) {
 
 /* Volume and stiffness of a cell: with the normal n_i, as long as twice the area, of the face
  * across from corner i, integral grad_i . grad_j = n_i . n_j / (36 volume). */
-static void add_cell(struct heat* h, int64_t c) {
+static int add_cell(struct heat* h, int64_t c) {
   const int64_t* corner = h->cells + 4 * c;
   double edge[4][3], normal[4][3];
   for (int i = 0; i < 4; ++i)
@@ -132,16 +135,17 @@ static void add_cell(struct heat* h, int64_t c) {
   if (!(volume > 0)) {
     const double* at = h->points + 3 * corner[0];
     fprintf(stderr, "heat: the cell at (%g, %g, %g) is flat\n", at[0], at[1], at[2]);
-    exit(1);
+    return 1;
   }
   for (int j = 0; j < 4; ++j) h->mass[corner[j]] += volume / 4;
   for (int e = 0; e < 6; ++e) {
     const double *a = normal[pairs[e][0]], *b = normal[pairs[e][1]];
     h->stiffness[6 * c + e] = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / (36 * volume);
   }
+  return 0;
 }
 
-static void assemble(struct heat* h, double dt_over_square) {
+static int assemble(struct heat* h, double dt_over_square) {
   const int64_t n = h->vertex_count;
   double** const arrays[] = {&h->mass, &h->u, &h->cosine, &h->diagonal, &h->r, &h->p, &h->q};
   for (int i = 0; i < 7; ++i) {
@@ -155,7 +159,8 @@ static void assemble(struct heat* h, double dt_over_square) {
     high = fmax(high, h->points[3 * i]);
   }
   h->dt = dt_over_square * (high - low) * (high - low);
-  for (int64_t c = 0; c < h->cell_count; ++c) add_cell(h, c);
+  for (int64_t c = 0; c < h->cell_count; ++c)
+    if (add_cell(h, c)) return 1;
   /* The rows of the stiffness sum to 0: what is on the diagonal is minus the rest. */
   memcpy(h->diagonal, h->mass, (size_t)n * sizeof(double));
   for (int64_t c = 0; c < h->cell_count; ++c)
@@ -167,6 +172,7 @@ static void assemble(struct heat* h, double dt_over_square) {
     h->u[i] = 1 + h->cosine[i];
     if (h->diagonal[i] == 0) h->diagonal[i] = 1; /* a vertex in no cell stays as it is */
   }
+  return 0;
 }
 
 /* out = (mass + dt stiffness) in */
@@ -189,7 +195,7 @@ static double dot(const struct heat* h, const double* a, const double* b) {
 
 /* One step: (mass + dt stiffness) u_new = mass u, down to 1e-10 of the right-hand side, by
  * conjugate gradients that begin at u and divide by the diagonal. */
-static void step(struct heat* h) {
+static int step(struct heat* h) {
   const int64_t n = h->vertex_count;
   double right = 0, before = 0;
   apply(h, h->u, h->q);
@@ -201,7 +207,7 @@ static void step(struct heat* h) {
     before += h->r[i] * h->p[i];
   }
   for (int iteration = 0; dot(h, h->r, h->r) > 1e-20 * right; ++iteration) {
-    if (iteration == 10000) fail("conjugate gradients", "no convergence in 10000 iterations");
+    if (iteration == 10000) return failed("no convergence in 10000 iterations");
     apply(h, h->p, h->q);
     const double length = before / dot(h, h->p, h->q);
     double after = 0;
@@ -213,6 +219,7 @@ static void step(struct heat* h) {
     for (int64_t i = 0; i < n; ++i) h->p[i] = h->r[i] / h->diagonal[i] + after / before * h->p[i];
     before = after;
   }
+  return 0;
 }
 
 /* --------------------------------------------------------------------- handing over a step */
@@ -277,26 +284,25 @@ static double amplitude(const struct heat* h) {
   return part / whole;
 }
 
-static void write_step(const struct heat* h, const char* out, int number, double time) {
+static int write_step(const struct heat* h, const char* out, int number, double time) {
   char path[4096];
   tetstream_writer* writer = NULL;
   tetstream_simplifier* simplifier = NULL;
   tetstream_report report = {.struct_size = sizeof report};
+  int bad = 0;
   if (snprintf(path, sizeof path, "%s-%03d.tets", out, number) >= (int)sizeof path)
-    fail(out, "the name is too long");
-  if (tetstream_writer_create_file(path, NULL, &writer) < 0)
-    fail(path, tetstream_writer_message(writer));
-  const int failed = tetstream_simplifier_create(NULL, writer, &simplifier) < 0 ||
-                     push_mesh(h, simplifier) < 0 ||
-                     tetstream_simplifier_get_report(simplifier, &report) < 0;
-  if (failed)
-    fprintf(stderr, "heat: %s: %s\n", path, tetstream_simplifier_message(simplifier));
+    bad = failed("the name of the output is too long");
+  else if (tetstream_writer_create_file(path, NULL, &writer) < 0)
+    bad = failed(tetstream_writer_message(writer));
+  else if (tetstream_simplifier_create(NULL, writer, &simplifier) < 0 ||
+           push_mesh(h, simplifier) < 0 || tetstream_simplifier_get_report(simplifier, &report) < 0)
+    bad = failed(tetstream_simplifier_message(simplifier));
   else
     printf("%d %.6g %.15g %.9g %lld\n", number, time, dot(h, h->mass, h->u), amplitude(h),
            (long long)report.cells_out);
   tetstream_simplifier_destroy(simplifier);
   tetstream_writer_destroy(writer); /* what was written before a failure goes with it */
-  if (failed) exit(1);
+  return bad;
 }
 
 static void destroy(struct heat* h) {
@@ -313,14 +319,13 @@ int main(int argc, char** argv) {
     fprintf(stderr, "usage: heat MESH OUT [STEPS [EVERY [DT]]]\n");
     return 1;
   }
-  read_mesh(&h, argv[1]);
-  find_last_uses(&h);
-  assemble(&h, dt);
-  printf("# step time content amplitude cells\n");
-  for (int done = 0; done <= steps; ++done) {
-    if (done > 0) step(&h);
-    if (done % every == 0) write_step(&h, argv[2], done, done * dt);
+  int bad = read_mesh(&h, argv[1]) || assemble(&h, dt);
+  if (!bad) {
+    find_last_uses(&h);
+    printf("# step time content amplitude cells\n");
   }
+  for (int done = 0; !bad && done <= steps; ++done)
+    bad = (done > 0 && step(&h)) || (done % every == 0 && write_step(&h, argv[2], done, done * dt));
   destroy(&h);
-  return 0;
+  return bad;
 }
