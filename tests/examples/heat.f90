@@ -32,8 +32,6 @@ module heat_equation
 
 contains
 
-  ! ----------------------------------------------------------------------------------- reading
-
   ! Reads the mesh in an order that streams well: a file that is no stream is ordered on the way.
   subroutine read_mesh(h, path)
     type(heat), intent(inout) :: h
@@ -58,8 +56,6 @@ contains
       end do
     end do
   end subroutine
-
-  ! ----------------------------------------------------------------------------------- solving
 
   function cross(a, b)
     real(real64), intent(in) :: a(3), b(3)
@@ -168,8 +164,6 @@ contains
     end do
     error stop "heat: conjugate gradients: no convergence in 10000 iterations"
   end subroutine
-
-  ! ------------------------------------------------------------------------- handing over a step
 
   ! The mesh and its box once more, with the field as it is now, in pieces: each has the points that its
   ! cells are the first to use.

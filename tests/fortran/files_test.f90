@@ -1,10 +1,31 @@
 ! Files, memory, layouts, inspections, diagrams, comparisons, each in the folder where the test runs.
 module files_cases
+  use, intrinsic :: iso_c_binding, only: c_char, c_int, c_null_char, c_ptr
   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real32, real64
   use boxes
   use checks
   use tetstream
   implicit none
+
+  interface
+    type(c_ptr) function fopen(path, mode) bind(c)
+      import
+      character(kind=c_char), intent(in) :: path(*), mode(*)
+    end function
+    integer(c_int) function fileno(file) bind(c)
+      import
+      type(c_ptr), value :: file
+    end function
+    integer(c_int) function fclose(file) bind(c)
+      import
+      type(c_ptr), value :: file
+    end function
+    integer(c_int) function creat(path, mode) bind(c)
+      import
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int), value :: mode
+    end function
+  end interface
 
 contains
 
@@ -104,6 +125,31 @@ contains
     call check(stat < 0, "a descriptor that is none")
     call writer%create_fd(-1, "nothing", stat, errmsg)
     call check(stat < 0, "for a writer, too")
+  end subroutine
+
+  ! Descriptors of the system, which stay the caller's.
+  subroutine descriptors_are_read_and_written
+    type(tetstream_reader) :: reader
+    type(tetstream_writer), target :: writer
+    type(tetstream_simplifier) :: simplifier
+    type(tetstream_mesh) :: mesh
+    type(c_ptr) :: file
+    integer :: log, size_of_map, size_of_log
+
+    file = fopen("box.vtu"//c_null_char, "r"//c_null_char)
+    call reader%open_fd(fileno(file), "vtu")
+    log = creat("box.log"//c_null_char, int(o"644"))
+    call writer%create_fd(creat("fd.tets"//c_null_char, int(o"644")), "tets")
+    call simplifier%create(writer)
+    call simplifier%set_map_fd(creat("fd.map"//c_null_char, int(o"644")), "tetmap")
+    call simplifier%set_log_fd(log, "tetlog")
+    call simplifier%run(reader)
+    call check_equal(fclose(file), 0, "it was not closed")
+    call tetstream_read("fd.tets", mesh)
+    call check(size(mesh%cells, 2) <= 129 .and. size(mesh%cells, 2) > 115, "a tenth was written")
+    inquire (file="fd.map", size=size_of_map)
+    inquire (file="box.log", size=size_of_log)
+    call check(size_of_map > 1000 .and. size_of_log > 1000, "so were map and log")
   end subroutine
 
   subroutine streams_are_inspected_and_ordered
@@ -242,6 +288,7 @@ program files_test
   call files_are_written_and_read
   call a_file_goes_into_a_file
   call memory_is_read_and_written
+  call descriptors_are_read_and_written
   call streams_are_inspected_and_ordered
   call orders_are_drawn
   call meshes_are_compared

@@ -1,6 +1,20 @@
 # Takes the programs after "Sh EXAMPLES" out of tetstream-fortran(3), compiles and runs each; and compares
-# the page with the module: every public name stands in it.
+# the page with the module: every public name stands in it; and the module with the library: it calls every
+# function.
 cmake_minimum_required(VERSION 3.25)
+
+file(STRINGS ${SOURCE}/lib/abi/symbols.txt symbols)
+file(GLOB sources ${SOURCE}/bindings/fortran/src/*.f90)
+foreach(source IN LISTS sources)
+  file(READ ${source} text)
+  string(APPEND calls "${text}")
+endforeach()
+foreach(symbol IN LISTS symbols)
+  string(REGEX REPLACE "^tetstream" "c" call ${symbol})
+  if(NOT calls MATCHES "[^a-z_]${call}(_with)?[^a-z_]")
+    message(SEND_ERROR "the module does not call ${symbol}")
+  endif()
+endforeach()
 
 file(READ ${SOURCE}/man/man3/tetstream-fortran.3 text)
 file(READ ${SOURCE}/bindings/fortran/src/tetstream.f90 module)
