@@ -48,7 +48,7 @@ while(rest MATCHES "\n\\.Bd -literal")
   string(SUBSTRING "${rest}" ${end} -1 rest)
   math(EXPR count "${count} + 1")
   file(WRITE ${WORK}/example_${count}.f90 "${program}")
-  execute_process(COMMAND ${FC} ${FLAGS} example_${count}.f90 -I${MODULES} ${LIBRARY} ${SHARED}
+  execute_process(COMMAND ${FC} example_${count}.f90 -I${MODULES} ${LIBRARY} ${SHARED}
     -Wl,-rpath,${SHARED_FOLDER} -o example_${count} WORKING_DIRECTORY ${WORK}
     COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ./example_${count} WORKING_DIRECTORY ${WORK} OUTPUT_VARIABLE told
