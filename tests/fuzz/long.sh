@@ -7,7 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 build=$(realpath "$1") corpus=$(realpath "$2") minutes=$3
 shift 3
 targets=("$@")
-(($#)) || targets=(tets vtu pvtu vtk vtkhdf sva svb msh mesh meshb tetgen su2 wrapped push)
+(($#)) || targets=(tets vtu pvtu pvd vtk vtkhdf exodus xdmf sva svb msh mesh meshb tetgen su2 wrapped push)
 export LSAN_OPTIONS=suppressions=$here/../support/leaks.supp,print_suppressions=0
 cd "$corpus" || exit 1
 
@@ -15,7 +15,7 @@ printf '%-8s %12s %8s %9s %6s %9s  %s\n' target executions edges features files 
 for target in "${targets[@]}"; do
   dictionaries=()
   [[ -e $here/$target.dict ]] && dictionaries=(-dict="$here/$target.dict")
-  [[ $target == *vtu ]] && dictionaries=(-dict="$here/xml.dict")
+  [[ $target == *vtu || $target == pvd ]] && dictionaries=(-dict="$here/xml.dict")
   known=()
   [[ -d $here/found/$target ]] && known=("$here/found/$target")
   mkdir -p "$target"
