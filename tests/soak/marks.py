@@ -6,34 +6,43 @@ from facts import FACES, components
 
 def choose(mesh, random):
     """Labels faces of the boundary and inside, locks vertices; says what it did."""
-    faces, first, uses = numpy.unique(numpy.sort(mesh.cells[:, FACES].reshape(-1, 3), 1), axis=0,
-                                      return_index=True, return_counts=True)
-    faces, first, uses = faces[uses <= 2], first[uses <= 2], uses[uses <= 2]
-    middle = mesh.points[faces].mean(1)
-    middle = middle - numpy.median(middle, axis=0)
+    faces, uses = numpy.unique(numpy.sort(mesh.cells[:, FACES].reshape(-1, 3), 1), axis=0,
+                               return_counts=True)
+    faces, uses = faces[uses <= 2], uses[uses <= 2]
     labels = numpy.zeros(len(faces), int)
-    outside = uses == 1
-    of_boundary = str(random.choice(["none", "one", "halves", "sides", "patch", "random"]))
-    chosen = {"none": labels, "one": labels + 7, "halves": 1 + (middle[:, 0] > 0),
-              "sides": 1 + numpy.argmax(numpy.abs(normals(mesh, faces)), 1),
-              "patch": 3 * (middle[:, 0] + middle[:, 1] > 0),
-              "random": random.integers(0, 3, len(faces))}[of_boundary]
+    outside, inside = uses == 1, uses == 2
+    of_boundary, chosen = boundary_labels(mesh, faces, random)
     labels[outside] = chosen[outside]
-    inside = str(random.choice(["none", "none", "plane", "random"]))
-    if inside == "plane":  # between the cells on either side of one
-        axis = int(random.integers(3))
-        centres = mesh.points[mesh.cells].mean(1)[:, axis]
-        above = (centres > numpy.median(centres))[first_and_other(mesh, faces)]
-        labels[(uses == 2) & (above[:, 0] != above[:, 1])] = 20
-    elif inside == "random":
-        labels[(uses == 2) & (random.random(len(faces)) < 0.02)] = 21
+    of_interior, chosen = interior_labels(mesh, faces, random)
+    labels[inside] = chosen[inside]
     mesh.faces, mesh.face_labels = faces[labels > 0], labels[labels > 0]
     turned = random.random(len(mesh.faces)) < 0.5
     mesh.faces[turned] = mesh.faces[turned][:, [1, 0, 2]]
-    share = random.choice([0, 0, 0.01, 0.1, 1])
     used = numpy.unique(mesh.cells)
-    mesh.locked = used[random.random(len(used)) < share]
-    return f"faces {of_boundary}, inside {inside}, {len(mesh.locked)} locked"
+    mesh.locked = used[random.random(len(used)) < random.choice([0, 0, 0.01, 0.1, 1])]
+    return f"faces {of_boundary}, inside {of_interior}, {len(mesh.locked)} locked"
+
+
+def boundary_labels(mesh, faces, random):
+    middle = mesh.points[faces].mean(1)
+    middle = middle - numpy.median(middle, axis=0)
+    ways = {"none": numpy.zeros(len(faces), int), "one": numpy.full(len(faces), 7),
+            "halves": 1 + (middle[:, 0] > 0),
+            "sides": 1 + numpy.argmax(numpy.abs(normals(mesh, faces)), 1),
+            "patch": 3 * (middle[:, 0] + middle[:, 1] > 0),
+            "random": random.integers(0, 3, len(faces))}
+    way = str(random.choice(list(ways)))
+    return way, ways[way]
+
+
+def interior_labels(mesh, faces, random):
+    axis = int(random.integers(3))
+    centres = mesh.points[mesh.cells].mean(1)[:, axis]
+    above = (centres > numpy.median(centres))[cells_beside(mesh, faces)]
+    ways = {"none": numpy.zeros(len(faces), int), "plane": 20 * (above[:, 0] != above[:, 1]),
+            "random": 21 * (random.random(len(faces)) < 0.02)}
+    way = str(random.choice(["none", *ways]))
+    return way, ways[way]
 
 
 def normals(mesh, faces):
@@ -41,7 +50,7 @@ def normals(mesh, faces):
     return numpy.cross(b - a, c - a)
 
 
-def first_and_other(mesh, faces):
+def cells_beside(mesh, faces):
     """The two cells of each face; of a face of one cell that one twice."""
     sides = numpy.sort(mesh.cells[:, FACES].reshape(-1, 3), 1)
     _, where = numpy.unique(numpy.concatenate([faces, sides]), axis=0, return_inverse=True)
@@ -100,6 +109,7 @@ def lock_complaint(before, after):
         return ""
     stay = {tuple(point) for point in before.points[before.locked]}
     there = {tuple(point) for point in after.points[after.locked]}
-    if stay - there:
-        return f"{len(stay - there)} of {len(stay)} locked vertices have moved, or are not marked"
+    if stay != there:
+        return f"{len(stay - there)} of {len(stay)} locked vertices have moved or lost their mark, " \
+            f"{len(there - stay)} others have one"
     return ""
