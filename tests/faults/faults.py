@@ -83,6 +83,7 @@ class Group:
         limits.system_limits(self, sanitized="TETSTREAM_SANITIZED" in os.environ)
         limits.strange_places(self)
         limits.stalled_inputs(self)
+        limits.early_signals(self)
         limits.recovery(self)
 
     # ---------------------------------------------------------------------------- one by one

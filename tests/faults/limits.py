@@ -1,9 +1,11 @@
 """What a system may deny, and streams that stall or end: groups of faults.py that need no library."""
+import contextlib
 import os
 import resource
 import signal
 import subprocess
 import threading
+import time
 
 import runs
 from runs import BAD_DATA, CANCELLED, IO, MEMORY, OK, UNSUPPORTED
@@ -24,11 +26,11 @@ def system_limits(group, sanitized):
     """Files of a kilobyte, few descriptors, little address space, no folder for temporary files."""
     bench = group.bench
     for command, digest, _ in group.each(lambda command: command.outputs):
-        rows = [("limit: the size of files", resource.RLIMIT_FSIZE, [1, 1000], [IO]),
-                ("limit: descriptors", resource.RLIMIT_NOFILE, [4, 5, 6, 8], [IO])]
-        if not sanitized:
-            rows.append(("limit: address space", resource.RLIMIT_AS, [15 << 20, 25 << 20, 60 << 20],
-                         [MEMORY, IO]))
+        rows = [("limit: the size of files", resource.RLIMIT_FSIZE, [1, 1000], [IO])]
+        if not sanitized:  # which take of both themselves
+            rows += [("limit: descriptors", resource.RLIMIT_NOFILE, [4, 5, 6, 8], [IO]),
+                     ("limit: address space", resource.RLIMIT_AS, [15 << 20, 25 << 20, 60 << 20],
+                      [MEMORY, IO])]
         for name, kind, values, allowed in rows:
             for value in values:
                 bench.fill()
@@ -95,7 +97,8 @@ def stalled_inputs(group):
             for number in (signal.SIGTERM, None):
                 bench.fill()
                 process = bench.start(words, stdin=subprocess.PIPE)
-                err = feed(process, data[:int(share * len(data))], number)
+                delay = group.random.choice([0.002, 0.005, 0.01, 0.05])
+                err = feed(process, data[:int(share * len(data))], number, delay)
                 code = process.returncode
                 if number and code == -number:  # before it has begun to listen
                     complaint = bench.written() and f"files {bench.written()}"
@@ -107,33 +110,42 @@ def stalled_inputs(group):
                                   complaint)
 
 
-def feed(process, data, number):
+def early_signals(group):
+    """A signal while the run begins, whose input never comes."""
+    bench = group.bench
+    words = "convert - out.tets --format-in mesh".split()
+    begin = time.monotonic()
+    bench.run(["--version"])
+    took = time.monotonic() - begin
+    for _ in range(20 * group.wanted):
+        bench.fill()
+        process = bench.start(words, stdin=subprocess.PIPE)
+        err = feed(process, b"", signal.SIGTERM, group.random.random() * 2 * took)
+        complaint = bench.written() and f"files {bench.written()}"
+        if process.returncode != -signal.SIGTERM:  # it had begun to listen
+            complaint = bench.complaint(runs.Command("convert", "", ["out.tets"]), None,
+                                        process.returncode, err, [CANCELLED])
+        group.tally.count("pipe: no input, and a signal as it begins", "convert", "", complaint)
+
+
+def feed(process, data, number, delay):
     """Gives the process the data; then it is told to end, or the input ends."""
     watch = threading.Timer(runs.PATIENCE, process.kill)
     watch.start()
-    try:
+    with contextlib.suppress(BrokenPipeError):  # what is wrong at once has been said
         process.stdin.write(data)
         process.stdin.flush()
-    except BrokenPipeError:
-        pass
     if number:
-        try:
-            process.wait(0.05)  # what is wrong at once has been said
-        except subprocess.TimeoutExpired:
-            process.send_signal(number)
-            process.wait()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            process.wait(delay)
+        process.send_signal(number)
     else:
-        try:
+        with contextlib.suppress(BrokenPipeError):
             process.stdin.close()
-        except BrokenPipeError:
-            pass
     err = process.stderr.read().decode(errors="replace")
     process.wait()
-    if not process.stdin.closed:
-        try:
-            process.stdin.close()
-        except BrokenPipeError:
-            pass
+    with contextlib.suppress(BrokenPipeError):
+        process.stdin.close()
     watch.cancel()
     return err
 
