@@ -1,4 +1,4 @@
-"""What a system may deny, and streams that stall or end: groups of faults.py that need no library."""
+"""What a system may deny, inputs that stall or end, streams that were cut: parts of faults.py."""
 import contextlib
 import os
 import resource

@@ -19,11 +19,12 @@ for target in "${targets[@]}"; do
   known=()
   [[ -d $here/found/$target ]] && known=("$here/found/$target")
   # libhdf5 believes some sizes that a file claims: they are denied.
-  limit=80 denied=
-  [[ $target =~ ^(vtkhdf|exodus|xdmf)$ ]] && limit=500 denied=:max_allocation_size_mb=400
+  limit=80 of_hdf5=
+  [[ $target =~ ^(vtkhdf|exodus|xdmf)$ ]] &&
+    limit=500 of_hdf5=:max_allocation_size_mb=400:suppressions=$here/libhdf5.supp
   mkdir -p "$target"
   begin=$SECONDS
-  ASAN_OPTIONS=allocator_may_return_null=1$denied nice -n 10 "$build/tests/fuzz/fuzz.$target" \
+  ASAN_OPTIONS=allocator_may_return_null=1$of_hdf5 nice -n 10 "$build/tests/fuzz/fuzz.$target" \
     -max_total_time=$((minutes * 60)) -timeout=20 -malloc_limit_mb=$limit -rss_limit_mb=2000 -artifact_prefix="$corpus/$target-" \
     -print_final_stats=1 "${dictionaries[@]}" "$target" "seeds/$target" "${known[@]}" 2>"$target.log"
   code=$?
