@@ -93,21 +93,17 @@ def stalled_inputs(group):
             data = file.read()
         words = f"convert - out.tets --format-in {name}".split()
         command = runs.Command(f"convert from a pipe, {name}", " ".join(words), ["out.tets"])
-        for share in (0, 0.5, 0.99):
-            for number in (signal.SIGTERM, None):
-                bench.fill()
-                process = bench.start(words, stdin=subprocess.PIPE)
-                delay = group.random.choice([0.002, 0.005, 0.01, 0.05])
-                err = feed(process, data[:int(share * len(data))], number, delay)
-                code = process.returncode
-                if number and code == -number:  # before it has begun to listen
-                    complaint = bench.written() and f"files {bench.written()}"
-                else:
-                    complaint = bench.complaint(command, None, code, err,
-                                                [CANCELLED] if number else [BAD_DATA, IO])
-                group.tally.count("pipe: the input stalls, and a signal" if number else
-                                  "pipe: the input ends too early", command.name, str(share),
-                                  complaint)
+        ways = [(share, number) for share in (0, 0.5, 0.99) for number in (signal.SIGTERM, None)]
+        for share, number in group.random.sample(ways, min(len(ways), 1 if group.wanted == 1 else 6)):
+            bench.fill()
+            process = bench.start(words, stdin=subprocess.PIPE)
+            delay = group.random.choice([0.002, 0.005, 0.01, 0.05])
+            err = feed(process, data[:int(share * len(data))], number, delay)
+            group.tally.count("pipe: the input stalls, and a signal" if number else
+                              "pipe: the input ends too early", command.name, str(share),
+                              signal_complaint(group, command, process.returncode, err)
+                              if number else bench.complaint(command, None, process.returncode, err,
+                                                             [BAD_DATA, IO]))
 
 
 def early_signals(group):
@@ -117,15 +113,19 @@ def early_signals(group):
     begin = time.monotonic()
     bench.run(["--version"])
     took = time.monotonic() - begin
-    for _ in range(20 * group.wanted):
+    command = runs.Command("convert", " ".join(words), ["out.tets"])
+    for _ in range(10 * group.wanted):
         bench.fill()
         process = bench.start(words, stdin=subprocess.PIPE)
         err = feed(process, b"", signal.SIGTERM, group.random.random() * 2 * took)
-        complaint = bench.written() and f"files {bench.written()}"
-        if process.returncode != -signal.SIGTERM:  # it had begun to listen
-            complaint = bench.complaint(runs.Command("convert", "", ["out.tets"]), None,
-                                        process.returncode, err, [CANCELLED])
-        group.tally.count("pipe: no input, and a signal as it begins", "convert", "", complaint)
+        group.tally.count("pipe: no input, and a signal as it begins", command.name, "",
+                          signal_complaint(group, command, process.returncode, err))
+
+
+def signal_complaint(group, command, code, err):
+    if code == -signal.SIGTERM:  # before it had begun to listen
+        return group.bench.written() and f"files {group.bench.written()}"
+    return group.bench.complaint(command, None, code, err, [CANCELLED])
 
 
 def feed(process, data, number, delay):
@@ -153,13 +153,13 @@ def feed(process, data, number, delay):
 def recovery(group):
     """What was whole of a .tets stream that was cut, or whose writer was killed, is read again."""
     bench = group.bench
-    words = "generate ball --cells 200000 out.tets".split()
+    words = f"generate ball --cells {70000 + 65000 * group.wanted} out.tets".split()
     command = runs.Command("generate", " ".join(words), ["out.tets"])
     _, calls = bench.reference(command)
     with open(os.path.join(bench.work, "out.tets"), "rb") as file:
         whole = file.read()
     before = vertices_of(bench, whole, [])
-    count = 3 * group.wanted
+    count = 2 * group.wanted
     for place in range(1, count + 1):
         part = whole[:len(whole) * place // (count + 1)]
         group.tally.count("a stream that was cut, recovered", command.name,
