@@ -79,7 +79,7 @@ class Parser {
   void addReport(CLI::App* command);
   void addProgress(CLI::App* command);
   void addTraces(CLI::App* command);
-  void addTableOption(CLI::App* command, const tetstream_option_info& info);
+  CLI::Option* addTableOption(CLI::App* command, const tetstream_option_info& info);
   void addStreamOptions(CLI::App* command);
   std::string textOfCommand() const;
   std::string helpOf(const std::string& command) const;
@@ -179,15 +179,14 @@ void Parser::addTraces(CLI::App* command) {
           "Tell every collapse, in order: FILE.tetlog, FILE.csv, - (csv)");
 }
 
-void Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
+CLI::Option* Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
   const std::string name = info.name;
   if (info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER) {
-    command->add_flag_callback(
+    return command->add_flag_callback(
         "--" + name, [this, name] { arguments_.options.values.emplace_back(name, "yes"); },
         info.text);
-    return;
   }
-  command
+  return command
       ->add_option_function<std::string>(
           "--" + name,
           [this, name](const std::string& word) {
@@ -276,8 +275,8 @@ void Parser::addGenerate() {
       info.text = "how many cells, about: 20000, 3M, 2e7";
       info.default_text = nullptr;
       info.minimum = 1;
-      addTableOption(command, info);
-      command->get_option("--cells")->required();
+      // note: CLI11 finds an option by its name in functions that may not throw, memory or not.
+      addTableOption(command, info)->required();
     } else if (info.id == TETSTREAM_OPTION_SEED) {
       info.text = "another seed gives another mesh of the same kind";
       addTableOption(command, info);

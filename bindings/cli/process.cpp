@@ -62,6 +62,8 @@ bool interrupted() {
 
 void interruptTransfersOf(int standard_fd) {
   g_refusing[standard_fd] = openRefusing(standard_fd);
+  // A signal that came before did not find it.
+  if (interrupted() && g_refusing[standard_fd] >= 0) ::dup2(g_refusing[standard_fd], standard_fd);
 }
 
 }  // namespace tetstream::cli

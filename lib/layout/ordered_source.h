@@ -47,6 +47,7 @@ class OrderedSource : public Source {
   int64_t unusedVertices() const { return unused_; }
   const std::string& chosen() const { return chosen_; }  // "spatial, along z"
   uint64_t diskBytes() const { return disk_; }
+  size_t peakBytes() const { return account_.peak(); }  // of memory, while it was ordered
 
  private:
   class Reading;

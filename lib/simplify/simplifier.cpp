@@ -185,16 +185,22 @@ class WindowedEngine final : public Simplifier::Engine {
            static_cast<long long>(announced), what, static_cast<unsigned long long>(came));
   }
 
+  // Than `times` as many as the others: of any numbers that a stream may announce.
+  static bool isMoreThan(int64_t cells, int64_t times, int64_t others) {
+    return others <= std::numeric_limits<int64_t>::max() / times && cells > times * others;
+  }
+
   // Cells at the first turn. Where nothing is known of the bound, many passes find it; for a strong
   // reduction a part of the window will do for that, with enough behind the front. All of it stays
   // for the next turn.
   int64_t firstTurn() const {
     const int64_t front = plan_.schema.front_cells, all = plan_.schema.cell_count;
-    const bool is_strong = all > kStrongReduction * targetOf(plan_.schema, options_).cellsOf(all);
+    const int64_t wanted = targetOf(plan_.schema, options_).cellsOf(all);
+    const bool is_strong = isMoreThan(all, kStrongReduction, wanted);
     if (followsPaper(options_.mode) || knows_pilot_ || front < 0 || all <= capacity_ ||
         options_.error > 0 || !is_strong)
       return capacity_;
-    return std::min(capacity_, std::max(capacity_ / 4, 5 * front / 2));
+    return std::min(capacity_, std::max(capacity_ / 4, 5 * std::min(front, capacity_) / 2));
   }
 
   // The window is full: simplify it and make room.
@@ -251,7 +257,8 @@ class WindowedEngine final : public Simplifier::Engine {
   int64_t keptCells() const {
     const int64_t cells = plan_.schema.cell_count;
     const bool is_long = knows_pilot_ || cells >= kLongStream * capacity_;
-    const bool is_mild = cells <= kMildReduction * targetOf(plan_.schema, options_).cellsOf(cells);
+    const int64_t wanted = targetOf(plan_.schema, options_).cellsOf(cells);
+    const bool is_mild = !isMoreThan(cells, kMildReduction, wanted);
     if (followsPaper(options_.mode) || options_.error > 0 || !is_long || !is_mild)
       return capacity_ / 2;
     return std::min(capacity_ / 2, front_cells_ + std::max(front_cells_, capacity_ / 8));

@@ -70,13 +70,16 @@ void MeshSpool::appendFace(const int64_t corners[3], int64_t label) {
 }
 
 void MeshSpool::lock(uint64_t point) {
+  growLocks();
+  locked_[static_cast<size_t>(point)] = 1;
+}
+
+void MeshSpool::growLocks() {
   const size_t known = locked_.size();
   const auto points = static_cast<size_t>(positions_.rows());
-  if (known < points) {
-    locked_.resize(points);
-    std::fill(locked_.data() + known, locked_.data() + points, uint8_t{0});
-  }
-  locked_[static_cast<size_t>(point)] = 1;
+  if (known >= points) return;
+  locked_.resize(points);
+  std::fill(locked_.data() + known, locked_.data() + points, uint8_t{0});
 }
 
 void MeshSpool::checkRows(const std::vector<Column>& columns, const Spools& spools,
@@ -94,6 +97,7 @@ void MeshSpool::finish() {
   checkRows(schema_.cell_data, cell_data_, cellCount());
   schema_.vertex_count = static_cast<int64_t>(positions_.rows());
   schema_.cell_count = static_cast<int64_t>(cellCount());
+  if (locked_.size() > 0) growLocks();
   for (RowSpool* spool : {&positions_, &cells_, &wide_cells_}) spool->finish();
   for (Spools* spools : {&fields_, &cell_data_})
     for (auto& spool : *spools) spool->finish();

@@ -51,6 +51,7 @@ class MeshSpool : public IndexedSource {
  private:
   using Spools = std::vector<std::unique_ptr<RowSpool>>;
   void checkRows(const std::vector<Column>& columns, const Spools& spools, uint64_t rows) const;
+  void growLocks();
 
   Schema schema_;
   std::string temp_dir_;

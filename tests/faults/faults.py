@@ -1,6 +1,6 @@
 """faults.py COMMAND LIBRARY GROUP [POINTS [CELLS]]: commands whose calls fail, whose inputs change
 while they are read, who are signalled, share an output, or have no place to write. Prints what was
-tried and what was survived. GROUP is calls, transfers, memory or surroundings."""
+tried and what was survived. GROUP is calls, transfers, memory, surroundings or limits."""
 import errno
 import os
 import random
@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 
+import limits
 import runs
 from runs import BAD_DATA, CANCELLED, IO, MEMORY, OK
 
@@ -77,6 +78,13 @@ class Group:
         self.same_output()
         self.unwritable_places()
         self.pipes()
+
+    def limits(self):
+        limits.system_limits(self, sanitized="TETSTREAM_SANITIZED" in os.environ)
+        limits.strange_places(self)
+        limits.stalled_inputs(self)
+        limits.early_signals(self)
+        limits.recovery(self)
 
     # ---------------------------------------------------------------------------- one by one
 

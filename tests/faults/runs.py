@@ -8,7 +8,9 @@ import signal
 import subprocess
 import tempfile
 
-OK, BAD_DATA, IO, MEMORY, CANCELLED = 0, 2, 3, 4, 7
+import read_only
+
+OK, BAD_DATA, IO, MEMORY, UNSUPPORTED, CANCELLED = 0, 2, 3, 4, 6, 7
 PATIENCE = 120  # seconds; a run takes a fraction of one
 
 
@@ -41,6 +43,8 @@ def table(tool):
         if name != "tets":
             rows.append(Command(f"convert from {name}", f"convert in.{name} out.tets",
                                 ["out.tets"]))
+    for source in read_only.WRITERS:
+        rows.append(Command(f"convert from {source}", f"convert {source} out.tets", ["out.tets"]))
     return rows
 
 
@@ -68,6 +72,7 @@ class Bench:
         for name in formats_written(self.tool):
             if name != "tets":
                 run("convert", "in.tets", f"in.{name}")
+        read_only.make(self.inputs)
 
     def environment(self, fault=None, counts=None):
         env = dict(os.environ, TMPDIR=self.spool)

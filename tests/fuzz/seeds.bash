@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# bash seeds.bash COMMAND FOLDER: makes the seeds of the fuzz targets, small files of every format,
-# with the tetstream command. The formats that it does not write are written here.
+# bash seeds.bash COMMAND EXODUS_SEEDS FOLDER: makes the seeds of the fuzz targets, small files of
+# every format, with the tetstream command. The formats that it does not write are written here, or
+# by the program exodus_seeds.
 set -eu
-command=$(realpath "$1") folder=$2
+command=$(realpath "$1") exodus_seeds=$(realpath "$2") folder=$3
 rm -rf "$folder"
-mkdir -p "$folder"/{tets,vtu,pvtu,vtk,vtkhdf,sva,svb,msh,mesh,meshb,tetgen,su2,wrapped,push,work}
+mkdir -p "$folder"/{tets,vtu,pvtu,pvd,vtk,vtkhdf,exodus,xdmf,sva,svb,msh,mesh,meshb,tetgen,su2}
+mkdir -p "$folder"/{wrapped,push,work}
 cd "$folder/work"
 
 convert() { "$command" convert --quiet "$@"; }
@@ -96,6 +98,77 @@ END
 sed 's/0 0 0 1 0 0 0 1 0 0 0 1 1 1 1/1 0 0 0 1 0 0 0 1 1 1 1 2 2 2/' ../vtu/text.vtu >1.vtu
 join ../pvtu/two p.pvtu ../vtu/text.vtu 1.vtu
 join ../pvtu/packed p.pvtu ../vtu/small.vtu ../vtu/plain.vtu
+cat >steps.pvd <<'END'
+<?xml version="1.0"?>
+<VTKFile type="Collection" version="0.1" byte_order="LittleEndian"><Collection>
+<DataSet timestep="0" group="" part="0" file="0.vtu"/>
+<DataSet timestep="0.5" group="" part="0" file="0.vtu"/>
+<DataSet timestep="0.5" group="" part="1" file="1.vtu"/>
+</Collection></VTKFile>
+END
+join ../pvd/steps steps.pvd ../vtu/text.vtu 1.vtu
+join ../pvd/packed steps.pvd ../vtu/small.vtu ../vtu/plain.vtu
+sed 's/0.5\(.*\)file="0.vtu"/1\1file="a.pvtu"/' steps.pvd >pieces.pvd
+join ../pvd/pieces pieces.pvd ../vtu/text.vtu 1.vtu p.pvtu
+
+"$exodus_seeds" ../exodus
+
+# XDMF: values in its text, in an HDF5 file, of which VTKHDF is one, and steps that share a mesh.
+cat >mesh.xdmf <<'END'
+<?xml version="1.0"?>
+<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" []>
+<Xdmf Version="3.0" xmlns:xi="http://www.w3.org/2001/XInclude"><Domain>
+<Grid Name="mesh" GridType="Uniform">
+<Topology TopologyType="Tetrahedron" NumberOfElements="2"><DataItem Dimensions="2 4"
+ NumberType="Int" Format="XML">0 1 2 3 1 2 3 4</DataItem></Topology>
+<Geometry GeometryType="XYZ"><DataItem Dimensions="5 3" NumberType="Float" Precision="8"
+ Format="XML">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataItem></Geometry>
+<Attribute Name="rho" AttributeType="Scalar" Center="Cell"><DataItem Dimensions="2 1"
+ Format="XML">7 8</DataItem></Attribute>
+<Attribute Name="u" AttributeType="Vector" Center="Node"><DataItem Dimensions="5 3" Format="XML">
+0 1 2 3 4 5 6 7 8 9 10 11 12 13 14</DataItem></Attribute></Grid>
+END
+{ cat mesh.xdmf; printf '</Domain></Xdmf>\n'; } >../xdmf/text
+step() {
+  cat <<END
+<Grid Name="$1" GridType="Uniform"><xi:include
+ xpointer="xpointer(//Grid[@Name=&quot;mesh&quot;]/*[self::Topology or self::Geometry])"/>
+<Time Value="$2"/><Attribute Name="$1" AttributeType="Scalar" Center="Node"><DataItem
+ Dimensions="5 1" Format="XML">$3</DataItem></Attribute></Grid>
+END
+}
+{
+  cat mesh.xdmf
+  for name in p q; do
+    printf '<Grid Name="%s" GridType="Collection" CollectionType="Temporal">\n' $name
+    step $name 0 '1 2 3 4 5'
+    step $name 0.5 '6 7 8 9 10'
+    printf '</Grid>\n'
+  done
+  printf '</Domain></Xdmf>\n'
+} >../xdmf/steps
+cat >../xdmf/mixed <<'END'
+<Xdmf Version="2.0"><Domain><Grid Name="all" GridType="Collection" CollectionType="Spatial">
+<Grid Name="a"><Topology TopologyType="Mixed"><DataItem Dimensions="22" NumberType="Int"
+ Format="XML">6 0 1 2 3  4 0 1 2  7 0 1 2 3 4  2 2 0 1  1 1 0</DataItem></Topology>
+<Geometry Type="X_Y_Z"><DataItem Dimensions="5" Format="XML">0 1 0 0 1</DataItem><DataItem
+ Dimensions="5" Format="XML">0 0 1 0 1</DataItem><DataItem Dimensions="5" Format="XML">0 0 0 1 1
+</DataItem></Geometry></Grid>
+<Grid Name="b"><Topology Type="Tet_10"><DataItem Dimensions="1 10" NumberType="UInt" Precision="8"
+ Format="XML">0 1 2 3 4 4 4 4 4 4</DataItem></Topology>
+<Geometry><DataItem Dimensions="5 3" Format="XML">1 0 0 2 0 0 1 1 0 1 0 1 1 1 1</DataItem>
+</Geometry></Grid></Grid></Domain></Xdmf>
+END
+if has vtkhdf; then
+  cat >hdf.xdmf <<'END'
+<Xdmf Version="3.0"><Domain><Grid Name="mesh"><Topology TopologyType="Tetrahedron"><DataItem
+ Dimensions="24 4" NumberType="Int" Format="HDF">a.h5:/VTKHDF/Connectivity</DataItem></Topology>
+<Geometry GeometryType="XYZ"><DataItem Dimensions="20 3" Format="HDF">a.h5:/VTKHDF/Points</DataItem>
+</Geometry><Attribute Name="density" Center="Node"><DataItem Dimensions="20" Format="HDF">
+a.h5:/VTKHDF/PointData/density</DataItem></Attribute></Grid></Domain></Xdmf>
+END
+  join ../xdmf/hdf hdf.xdmf ../vtkhdf/small.vtkhdf
+fi
 
 cat >t.node <<'END'
 5 3 1 1

@@ -23,7 +23,9 @@ const std::vector<FileNames>& table() {
   static const std::vector<FileNames> rows = {{"mesh", {"a.mesh", "a.sol"}},
                                               {"meshb", {"a.meshb", "a.solb"}},
                                               {"tetgen", {"a.node", "a.ele", "a.face"}},
-                                              {"pvtu", {"a.pvtu", "0.vtu", "1.vtu"}}};
+                                              {"pvtu", {"a.pvtu", "0.vtu", "1.vtu"}},
+                                              {"pvd", {"a.pvd", "0.vtu", "1.vtu", "a.pvtu"}},
+                                              {"xdmf", {"a.xdmf", "a.h5"}}};
   return rows;
 }
 

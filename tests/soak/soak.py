@@ -6,7 +6,10 @@ options, and what has to hold of every result:
   told        the report has the numbers of the file
   regions     every label is still there
   constant    a field that was constant is
-  same        the same bytes once more
+  marks       labelled faces are faces, their labels and what surfaces they make are as before,
+              locked vertices have not moved
+  traced      the map has a row for each vertex that was used, the log one for each collapse
+  same        the same bytes once more, on another number of threads
   goes on     the output is read, and simplified once more
 --case runs one case again; --keep keeps the files of those that fail."""
 import argparse
@@ -22,10 +25,16 @@ import time
 import numpy
 
 import facts
+import marks
+import medit_files
 import shapes
 import vtk_files
 
 OK, TARGET_MISSED = 0, 5
+FORMATS = ["tets", "vtu", "vtk", "sva", "svb", "msh", "mesh", "meshb"]
+FLOAT32 = ["sva", "svb"]  # rounding is the format's
+HOLD_FACES = ["tets", "vtu", "msh", "mesh", "meshb"]
+HOLD_LOCKS = ["tets", "mesh", "meshb"]
 
 
 class Wrong(Exception):
@@ -43,7 +52,11 @@ class Case:
         self.random = numpy.random.default_rng([seed, 1])
         self.mesh = shapes.make(seed)
         self.stream = bool(self.random.integers(2))
+        self.marked = bool(self.random.integers(2))
+        if self.marked:
+            self.mesh.story.append(marks.choose(self.mesh, self.random))
         self.options, self.format = self.choose_options()
+        self.traced = bool(self.random.integers(4) == 0)
 
     def story(self):
         return f"{'; '.join(self.mesh.story)}; {'stream' if self.stream else 'mesh'}; " + \
@@ -65,6 +78,10 @@ class Case:
                 words.extend(choices[random.integers(len(choices))])
         if "--error" not in words:
             perhaps(0.3, ["--mode", "paper"], ["--mode", "queue"])
+        fields = [name for name, v in self.mesh.fields.items() if v.dtype.kind == "f"]
+        if fields and not self.marked:  # MEDIT has no names of fields
+            perhaps(0.3, *(["--field", name + weight] for name in fields
+                           for weight in ("", ":0.1", ":100")))
         perhaps(0.5, *(["--window", str(n)] for n in (64, 100, 300, 1000, 5000)))
         perhaps(0.2, ["--quadric", "garland-zhou"])
         if "--mode" not in words:
@@ -73,13 +90,14 @@ class Case:
         perhaps(0.3, *(["--feature-angle", str(n)] for n in (5, 30, 90, 180)))
         perhaps(0.3, *(["--boundary-weight", n] for n in ("0", "0.01", "1000", "1e9")))
         perhaps(0.2, ["--regions", "none"])
-        perhaps(0.2, ["--memory", "64M"])
+        perhaps(0.3, *(["--memory", n] for n in ("4M", "16M", "64M")))
+        perhaps(0.2, ["--seed", str(random.integers(1000))])
         perhaps(0.2, ["--pilot", "none"])
         perhaps(0.2, ["--candidates", "1"], ["--candidates", "64"])
         if not self.stream:
             perhaps(0.4, *(["--order", n] for n in ("brick", "z-order", "hilbert", "breadth-first",
                                                     "spectral", "none")))
-        return words, str(random.choice(["tets", "vtu", "vtk", "sva", "svb", "msh"]))
+        return words, str(random.choice(FORMATS))
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -91,24 +109,50 @@ class Case:
         expect(done.returncode in codes, f"{words[0]}: exit code {done.returncode}: {err[-400:]}")
         return done.returncode, done.stdout
 
-    def check(self):
-        vtk_files.write(self.path("in.vtk"), self.mesh)
-        source = "in.vtk"
+    def make_input(self):
+        """The file to simplify."""
+        if self.marked:
+            source, write = "in.mesh", medit_files.write
+        else:
+            source, write = "in.vtk", vtk_files.write
+        write(self.path(source), self.mesh)
         if self.stream:
+            self.run("convert", source, "in.tets")
             source = "in.tets"
-            self.run("convert", "in.vtk", source)
+        return source
+
+    def check(self):
         out = "out." + self.format
-        words = ["simplify", source, out, "--report", "json", *self.options]
-        code, text = self.run(*words, codes=(OK, TARGET_MISSED))
+        words = ["simplify", self.make_input(), out, "--report", "json", *self.options]
+        traces = ["--map", "map.csv", "--collapse-log", "log.csv"] if self.traced else []
+        code, text = self.run(*words, *traces, "--threads", "1", codes=(OK, TARGET_MISSED))
         report = json.loads(text)
         with open(self.path(out), "rb") as file:
             first = file.read()
         self.check_result(out, report, code)
-        self.run(*words, codes=(code,))
+        if self.traced:
+            self.check_traces(report)
+        # note: what is traced takes of the memory, where it has a bound.
+        traces = traces if "--memory" in words else []
+        self.run(*words, *traces, "--threads", str(self.random.integers(1, 5)), codes=(code,))
         with open(self.path(out), "rb") as file:
             expect(file.read() == first, "the same run gives other bytes")
         if report["cells_out"] > 0:
             self.run("simplify", out, "again.tets", "--ratio", "0.5", codes=(OK, TARGET_MISSED))
+
+    def check_traces(self, report):
+        with open(self.path("map.csv")) as file:
+            rows = numpy.array([line.split(",") for line in file][1:], float)
+        expect(sorted(rows[:, 0]) == list(numpy.unique(self.mesh.cells))
+               if not self.stream else len(rows) == len(numpy.unique(self.mesh.cells)),
+               f"the map has {len(rows)} rows, which are not those of the vertices used")
+        expect((rows[:, 1] >= 0).all() and (rows[:, 1] < report["cells_out"]).all(),
+               "the map names a cell that is not there")
+        expect((abs(rows[:, 2:].sum(1) - 1) < 1e-6).all(), "the weights of a vertex are not 1")
+        with open(self.path("log.csv")) as file:
+            collapses = len(file.readlines()) - 1
+        expect(collapses == report["collapses"],
+               f"the log has {collapses} collapses of {report['collapses']}")
 
     def check_result(self, out, report, code):
         self.run("convert", out, "out-read.vtk")
@@ -124,6 +168,16 @@ class Case:
         self.check_target(report, after, code)
         self.check_shape(before, after)
         self.check_values(result)
+        if self.marked and self.format in HOLD_FACES:
+            self.check_marks(out)
+
+    def check_marks(self, out):
+        self.run("convert", out, "out-read.mesh")
+        result = medit_files.Read(self.path("out-read.mesh"))
+        if self.format not in HOLD_LOCKS:
+            result.locked = None
+        wrong = marks.complaint(marks.Marks(self.mesh), marks.Marks(result))
+        expect(not wrong, wrong)
 
     def check_target(self, report, after, code):
         target = report.get("target_cells", 0)
@@ -142,7 +196,7 @@ class Case:
         for name in ("crowded_faces", "branching_edges", "folds", "flat"):
             was, now = getattr(before, name), getattr(after, name)
             # Rounding to float32 is the format's: what it flattens is known beforehand.
-            if self.format in ("sva", "svb") and name in ("folds", "flat"):
+            if self.format in FLOAT32 and name in ("folds", "flat"):
                 continue
             expect(now <= was, f"{name}: {was} before, {now} now")
 

@@ -178,10 +178,14 @@ class ChunkedBytes final : public ValueBytes {
   // One that was never written.
   void fillChunk(Hdf5Chunk& out) {
     const Hdf5Functions& h = hdf5();
-    std::vector<unsigned char> fill(dataset_.shape.element);
+    std::vector<unsigned char> fill(dataset_.shape.element);  // zeros, where the file has no value
     const Hdf5Id type(dataset_.file.check(h.Dget_type(dataset_.id), dataset_.what), h.Tclose);
-    if (h.Pget_fill_value(dataset_.plan, type, fill.data()) < 0)  // none: zeros
-      h.Eclear2(H5E_DEFAULT);
+    // note: that it is asked for first is a check: of a damaged value libhdf5 follows a null
+    // pointer.
+    H5D_fill_value_t defined = H5D_FILL_VALUE_UNDEFINED;
+    dataset_.file.check(h.Pfill_value_defined(dataset_.plan, &defined), dataset_.what);
+    if (defined == H5D_FILL_VALUE_USER_DEFINED)
+      dataset_.file.check(h.Pget_fill_value(dataset_.plan, type, fill.data()), dataset_.what);
     out.resize(chunk_bytes_);
     for (size_t at = 0; at < chunk_bytes_; at += fill.size())
       std::memcpy(out.data() + at, fill.data(), fill.size());

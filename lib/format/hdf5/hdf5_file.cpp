@@ -150,7 +150,9 @@ void Hdf5File::checkStorage(hid_t dataset, const Hdf5Shape& shape, const std::st
   if (hdf5().Pget_external_count(plan) > 0)
     fail(Status::kUnsupported, "%s: dataset \"%s\" lies in other files", name_.c_str(),
          path.c_str());
-  const uint64_t stored = std::min<uint64_t>(hdf5().Dget_storage_size(dataset), storage_->size());
+  const hsize_t held = hdf5().Dget_storage_size(dataset);
+  check(0, path);  // note: where that could not be read it is 0, too
+  const uint64_t stored = std::min<uint64_t>(held, storage_->size());
   // Only chunks are compressed. note: of data in the dataset's own head libhdf5 believes the
   // extent.
   const uint64_t ratio = hdf5().Pget_layout(plan) == H5D_CHUNKED ? kMaxHdf5Ratio : 1;

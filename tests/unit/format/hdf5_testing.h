@@ -15,6 +15,7 @@ class MemoryStorage final : public Hdf5Storage {
  public:
   explicit MemoryStorage(std::string& bytes) : bytes_(bytes) {}
   size_t readAt(uint64_t offset, void* out, size_t size) override {
+    if (fail_read_at_ >= 0 && fail_read_at_-- == 0) fail(Status::kIo, "the disk is gone");
     return offset < bytes_.size() ? bytes_.copy(static_cast<char*>(out), size, offset) : 0;
   }
   void writeAt(uint64_t offset, const void* data, size_t size) override {
@@ -24,7 +25,7 @@ class MemoryStorage final : public Hdf5Storage {
   }
   void resize(uint64_t size) override { bytes_.resize(size); }
   uint64_t size() const override { return bytes_.size(); }
-  int fail_at_ = -1;
+  int fail_at_ = -1, fail_read_at_ = -1;
 
  private:
   std::string& bytes_;

@@ -249,5 +249,25 @@ TEST(VtkHdf, TellsWhatTheStorageSays) {
   }
 }
 
+TEST(VtkHdf, TellsWhatTheStorageSaysWhereTheSizeOfADatasetIsRead) {
+  std::string bytes = makeFile({});
+  for (int at = 0;; ++at) {
+    auto storage = std::make_unique<MemoryStorage>(bytes);
+    MemoryStorage& failing = *storage;
+    failing.fail_read_at_ = at;
+    try {
+      Hdf5File file(std::move(storage), "made", false);
+      const Hdf5Turn turn;
+      for (const std::string& name : file.datasetsOf("VTKHDF")) file.shapeOf("VTKHDF/" + name);
+      EXPECT_GT(at, 5);
+      EXPECT_GE(failing.fail_read_at_, 0) << "read " << at << " failed, and nobody told";
+      return;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), Status::kIo) << "read " << at << ": " << error.text();
+      EXPECT_EQ(error.text(), "the disk is gone");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetstream

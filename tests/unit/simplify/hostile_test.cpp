@@ -114,7 +114,8 @@ TEST(HostileStream, OfTheLargestNumbersStaysFinite) {
 }
 
 TEST(HostileStream, WithAWrongNumberOfCellsIsRefused) {
-  for (int64_t claimed : {int64_t{0}, int64_t{1}, int64_t{70}, int64_t{1} << 20}) {
+  for (int64_t claimed : {int64_t{0}, int64_t{1}, int64_t{70}, int64_t{1} << 20,
+                          std::numeric_limits<int64_t>::max()}) {
     TestMesh lying = fullGrid(4, 4, 8);
     lying.schema.cell_count = claimed;
     Cut cut;
@@ -129,7 +130,8 @@ TEST(HostileStream, WithAWrongNumberOfCellsIsRefused) {
 
 TEST(HostileStream, WithAWrongFrontIsStillSimplified) {
   const TestMesh mesh = fullGrid(4, 4, 8);
-  for (int64_t claimed : {int64_t{0}, int64_t{1}, int64_t{70}, int64_t{1} << 40}) {
+  for (int64_t claimed : {int64_t{0}, int64_t{1}, int64_t{70}, int64_t{1} << 40,
+                          std::numeric_limits<int64_t>::max()}) {
     TestMesh lying = mesh;
     lying.schema.front_cells = claimed;
     lying.schema.front_span = lying.schema.front_width = claimed;
