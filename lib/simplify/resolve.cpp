@@ -149,12 +149,12 @@ template <class S>
 void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
   Topology& mesh = core_.window.mesh;
   for (const StarCell& s : star_)
-    if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell()) & kFlat)) return;
+    if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell) & kFlat)) return;
   for (const StarCell& s : star_) {
     if (!s.has(a) || !s.has(b)) continue;
-    if (!(mesh.cellFlags(s.cell()) & kFolded)) ++core_.report.locked_cells;
-    mesh.flagCell(s.cell(), kFolded);
-    for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell())[j], kLocked);
+    if (!(mesh.cellFlags(s.cell) & kFolded)) ++core_.report.locked_cells;
+    mesh.flagCell(s.cell, kFolded);
+    for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell)[j], kLocked);
     ++core_.locked.bad_cells;
   }
 }
@@ -198,7 +198,7 @@ void Resolver<S>::resolveFaces(uint32_t v) {
   for (const StarCell& s : star_)
     for (int i = 0; i < 3; ++i) {
       const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
-      edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell()};
+      edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell};
     }
   std::sort(edges_.data(), edges_.data() + count,
             [](const LinkEdge& a, const LinkEdge& b) { return a.key < b.key; });
