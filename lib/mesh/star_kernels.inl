@@ -54,10 +54,10 @@ inline LanesOf<float> pointsAt(const float* p, const float* q) {
   __builtin_memcpy(&b, q, sizeof b);
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-inline Corner<LanesOf<double>> corner(const double* values, size_t stride, const StarCell* const* c,
-                                      int k, const double x[3]) {
-  const auto p0 = pointAt(values + c[0]->t[k] * stride), p1 = pointAt(values + c[1]->t[k] * stride),
-             p2 = pointAt(values + c[2]->t[k] * stride), p3 = pointAt(values + c[3]->t[k] * stride);
+inline Corner<LanesOf<double>> corner(const double* values, size_t stride, const StarCell* c, int k,
+                                      const double x[3]) {
+  const auto p0 = pointAt(values + c[0].t[k] * stride), p1 = pointAt(values + c[1].t[k] * stride),
+             p2 = pointAt(values + c[2].t[k] * stride), p3 = pointAt(values + c[3].t[k] * stride);
   const auto low01 = __builtin_shufflevector(p0, p1, 0, 4, 2, 6);   // x0 x1 z0 z1
   const auto low23 = __builtin_shufflevector(p2, p3, 0, 4, 2, 6);   // x2 x3 z2 z3
   const auto high01 = __builtin_shufflevector(p0, p1, 1, 5, 3, 7);  // y0 y1 . .
@@ -66,9 +66,9 @@ inline Corner<LanesOf<double>> corner(const double* values, size_t stride, const
           __builtin_shufflevector(high01, high23, 0, 1, 4, 5) - x[1],
           __builtin_shufflevector(low01, low23, 2, 3, 6, 7) - x[2]};
 }
-inline Corner<LanesOf<float>> corner(const float* values, size_t stride, const StarCell* const* c,
-                                     int k, const double x[3]) {
-  const auto at = [&](int i) { return values + c[i]->t[k] * stride; };
+inline Corner<LanesOf<float>> corner(const float* values, size_t stride, const StarCell* c, int k,
+                                     const double x[3]) {
+  const auto at = [&](int i) { return values + c[i].t[k] * stride; };
   const auto p0 = pointsAt(at(0), at(4)), p1 = pointsAt(at(1), at(5)), p2 = pointsAt(at(2), at(6)),
              p3 = pointsAt(at(3), at(7));
   const auto xy01 = __builtin_shufflevector(p0, p1, 0, 8, 1, 9, 4, 12, 5, 13);  // x0 x1 y0 y1 x4 ..
@@ -173,12 +173,24 @@ inline bool carefully(const double x[3], const S* values, size_t stride, const S
   return true;
 }
 
-// The lanes left over repeat the last cell.
+// As many cells as a vector has lanes, and the bits of those that were not met before.
+struct CellLanes {
+  const StarCell* cells;
+  size_t begin;  // place of the first
+  unsigned fresh;
+};
+// From `first` on; where too few are left some before them once more, or in a small star the last
+// one repeated, in `room`.
 template <size_t kLanes>
-inline size_t fillLanes(const StarCell* cells, size_t count, const StarCell** lanes) {
-  const size_t filled = count < kLanes ? count : kLanes;
-  for (size_t k = 0; k < kLanes; ++k) lanes[k] = cells + (k < filled ? k : filled - 1);
-  return filled;
+inline CellLanes lanesFrom(const StarCell* cells, size_t first, size_t count, StarCell* room) {
+  constexpr unsigned kAll = (1u << kLanes) - 1;
+  if (count - first >= kLanes) return {cells + first, first, kAll};
+  if (count >= kLanes) {
+    const size_t begin = count - kLanes;
+    return {cells + begin, begin, kAll << (first - begin) & kAll};
+  }
+  for (size_t k = 0; k < kLanes; ++k) room[k] = cells[k < count ? k : count - 1];
+  return {room, 0, (1u << count) - 1};
 }
 
 template <class S>
@@ -190,8 +202,8 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
   const S unit = static_cast<S>(scale), shape = static_cast<S>(kRounding * thin.shape);
   size_t thin_cells = 0;
   for (size_t first = 0; first < count; first += W::kLanes) {
-    const StarCell* c[W::kLanes];
-    const size_t filled = fillLanes<W::kLanes>(cells + first, count - first, c);
+    StarCell room[W::kLanes];
+    const auto [c, begin, fresh] = lanesFrom<W::kLanes>(cells, first, count, room);
     const Corner<L> p = scaledBy(unit, corner(values, stride, c, 0, x)),
                     q = scaledBy(unit, corner(values, stride, c, 1, x)),
                     r = scaledBy(unit, corner(values, stride, c, 2, x));
@@ -202,16 +214,15 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
     const L det2 = det * det, sum3 = sum * sum * sum;
     const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum) & (det2 > W::kSure * sum3);
     if (const unsigned turned = bitsOf((det < 0) & held))
-      return {false, 0, first + static_cast<size_t>(__builtin_ctz(turned))};
+      return {false, 0, begin + static_cast<size_t>(__builtin_ctz(turned))};
     const auto sure = (det > 0) & held;
     const auto suspect = sure & (S(kRegular) * det2 < shape * sum3);
-    const unsigned lanes = (1u << filled) - 1;
-    if (const unsigned which = bitsOf(suspect) & lanes)
+    if (const unsigned which = bitsOf(suspect) & fresh)
       thin_cells += countThin(p, q, r, thin, which);
-    const unsigned unsure = ~bitsOf(sure) & lanes;
+    const unsigned unsure = ~bitsOf(sure) & fresh;
     for (size_t k = 0; unsure >> k; ++k)
-      if ((unsure >> k & 1) && !carefully(x, values, stride, *c[k], thin, &thin_cells))
-        return {false, 0, first + k};
+      if ((unsure >> k & 1) && !carefully(x, values, stride, c[k], thin, &thin_cells))
+        return {false, 0, begin + k};
   }
   return {true, thin_cells, 0};
 }
@@ -232,8 +243,8 @@ inline NearestCell nearestCellOf(const double x[3], const S* values, int stride_
                        none + (at[2] - static_cast<S>(x[2])) * unit};
   NearestCell nearest = {0, -1e301};
   for (size_t first = 0; first < count; first += W::kLanes) {
-    const StarCell* c[W::kLanes];
-    const size_t filled = fillLanes<W::kLanes>(cells + first, count - first, c);
+    StarCell room[W::kLanes];
+    const auto [c, begin, fresh] = lanesFrom<W::kLanes>(cells, first, count, room);
     const Corner<L> p = scaledBy(unit, corner(values, stride, c, 0, x)),
                     q = scaledBy(unit, corner(values, stride, c, 1, x)),
                     r = scaledBy(unit, corner(values, stride, c, 2, x));
@@ -244,9 +255,9 @@ inline NearestCell nearestCellOf(const double x[3], const S* values, int stride_
     least = least < part[2] ? least : part[2];
     least = least < part[3] ? least : part[3];
     least = whole > none ? least / whole : none - S(1e30);
-    for (size_t k = 0; k < filled; ++k)
-      if (static_cast<double>(least[k]) > nearest.least)
-        nearest = {first + k, static_cast<double>(least[k])};
+    for (size_t k = 0; fresh >> k; ++k)
+      if ((fresh >> k & 1) && static_cast<double>(least[k]) > nearest.least)
+        nearest = {begin + k, static_cast<double>(least[k])};
   }
   return nearest;
 }
