@@ -213,7 +213,8 @@ inline void replaceEdgesOf(const ChoiceTable& table, uint32_t u, uint32_t v,
         const Ends end = __builtin_bit_cast(Ends, c.best) & kEndMask;
         c.best = without(c.best, __builtin_bit_cast(Ends, (end == u) | (end == v)));
         const uint32_t refused_end = otherOf(c.row.refused);
-        c.row.refused = (refused_end == u) | (refused_end == v) ? kNothing : c.row.refused;
+        const bool is_void = (refused_end == u) | (refused_end == v);
+        c.row.refused = is_void ? kNothing : c.row.refused;
         table.woken[x] = 1;
         c.row.tried = c.tried = least(c.tried, key);  // this one was not
         c.offer(key);
