@@ -1,6 +1,7 @@
 #include "patch.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "star_kernels.h"
 
@@ -158,7 +159,8 @@ void Patch<S>::gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
   ring.clear();
   const StarCounts counts =
       lookRound(corner_.data(), lists_.data() + list.begin, list.size, static_cast<uint16_t>(v),
-                static_cast<uint16_t>(other), star.room(list.size), ring.room(list.size));
+                static_cast<uint16_t>(other), star.room(list.size + kStarSlack),
+                ring.room(list.size + kStarSlack));
   star.grow(counts.star);
   ring.grow(counts.ring);
   list.size = counts.star + counts.ring;
@@ -184,16 +186,25 @@ uint16_t* Patch<S>::roomFor(size_t count) {
   return lists_.data() + lists_end_;
 }
 
+// Of the four corners of a cell those that are v become u.
+static void renumber(uint16_t* cell, uint16_t v, uint16_t u) {
+  typedef uint16_t Corners __attribute__((vector_size(8)));
+  Corners corners;
+  std::memcpy(&corners, cell, sizeof corners);
+  corners = corners == (Corners{} + v) ? Corners{} + u : corners;
+  std::memcpy(cell, &corners, sizeof corners);
+}
+
 template <class S>
 void Patch<S>::merge(uint32_t u, uint32_t v, const Stars& stars) {
   star_of_[u].size = star_of_[v].size = 0;
   uint16_t* cells = roomFor(stars.u.size() + stars.v.size());
   uint32_t count = 0;
-  for (const StarCell& s : stars.ring) std::fill_n(&corner_[s.corner & ~3u], 4, kGoneCorner);
-  for (const StarCell& s : stars.u) cells[count++] = static_cast<uint16_t>(s.cell());
+  for (const StarCell& s : stars.ring) std::fill_n(&corner_[4 * size_t{s.cell}], 4, kGoneCorner);
+  for (const StarCell& s : stars.u) cells[count++] = static_cast<uint16_t>(s.cell);
   for (const StarCell& s : stars.v) {
-    corner_[s.corner] = static_cast<uint16_t>(u);
-    cells[count++] = static_cast<uint16_t>(s.cell());
+    renumber(&corner_[4 * size_t{s.cell}], static_cast<uint16_t>(v), static_cast<uint16_t>(u));
+    cells[count++] = static_cast<uint16_t>(s.cell);
   }
   live_ -= static_cast<int64_t>(stars.ring.size());
   star_of_[u] = {static_cast<uint32_t>(lists_end_), count};

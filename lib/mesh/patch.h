@@ -39,7 +39,7 @@ class Patch {
   StarCell starCell(uint32_t corner) const {
     const uint8_t* t = kOpposite[corner % 4];
     const uint32_t c = corner / 4;
-    return {corner, {vertexOf(c, t[0]), vertexOf(c, t[1]), vertexOf(c, t[2])}};
+    return {c, {vertexOf(c, t[0]), vertexOf(c, t[1]), vertexOf(c, t[2])}};
   }
   int64_t liveCells() const { return live_; }  // of the whole window
 

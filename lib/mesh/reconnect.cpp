@@ -57,8 +57,8 @@ bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out) {
   patch_.gather(t[owned], t[(owned + 1) % 3], star_, ring_);
   uint32_t beyond = kNone, e = kNone;
   for (const StarCell& s : ring_)
-    if (s.cell() != c && s.has(t[(owned + 2) % 3])) {
-      beyond = s.cell();
+    if (s.cell != c && s.has(t[(owned + 2) % 3])) {
+      beyond = s.cell;
       for (uint32_t x : s.t)
         if (x != t[(owned + 1) % 3] && x != t[(owned + 2) % 3]) e = x;
     }
@@ -154,7 +154,7 @@ bool Reconnector<S>::removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection
   uint32_t ring[Reconnection::kMostRing];
   if (ring_.size() < 3 || ring_.size() > Reconnection::kMostRing || !orderRing(v, ring))
     return false;
-  for (const StarCell& s : ring_) addGone(s.cell(), out);
+  for (const StarCell& s : ring_) addGone(s.cell, out);
   triangulate(u, v, ring, out);
   return true;
 }

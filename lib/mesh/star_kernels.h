@@ -50,7 +50,8 @@ struct StarCounts {
 };
 
 // Looks from v at `count` cells that hold it: those that hold `other` go to `ring`, the rest to
-// `star`, each with room for all; dead ones are passed over, in `cells` too.
+// `star`, each with room for all and kStarSlack more; dead ones are passed over, in `cells` too.
+constexpr uint32_t kStarSlack = 4;
 StarCounts lookRound(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
                      uint16_t other, StarCell* star, StarCell* ring);
 

@@ -54,10 +54,10 @@ inline LanesOf<float> pointsAt(const float* p, const float* q) {
   __builtin_memcpy(&b, q, sizeof b);
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-inline Corner<LanesOf<double>> corner(const double* values, size_t stride, const StarCell* const* c,
-                                      int k, const double x[3]) {
-  const auto p0 = pointAt(values + c[0]->t[k] * stride), p1 = pointAt(values + c[1]->t[k] * stride),
-             p2 = pointAt(values + c[2]->t[k] * stride), p3 = pointAt(values + c[3]->t[k] * stride);
+inline Corner<LanesOf<double>> corner(const double* values, size_t stride, const StarCell* c, int k,
+                                      const double x[3]) {
+  const auto p0 = pointAt(values + c[0].t[k] * stride), p1 = pointAt(values + c[1].t[k] * stride),
+             p2 = pointAt(values + c[2].t[k] * stride), p3 = pointAt(values + c[3].t[k] * stride);
   const auto low01 = __builtin_shufflevector(p0, p1, 0, 4, 2, 6);   // x0 x1 z0 z1
   const auto low23 = __builtin_shufflevector(p2, p3, 0, 4, 2, 6);   // x2 x3 z2 z3
   const auto high01 = __builtin_shufflevector(p0, p1, 1, 5, 3, 7);  // y0 y1 . .
@@ -66,9 +66,9 @@ inline Corner<LanesOf<double>> corner(const double* values, size_t stride, const
           __builtin_shufflevector(high01, high23, 0, 1, 4, 5) - x[1],
           __builtin_shufflevector(low01, low23, 2, 3, 6, 7) - x[2]};
 }
-inline Corner<LanesOf<float>> corner(const float* values, size_t stride, const StarCell* const* c,
-                                     int k, const double x[3]) {
-  const auto at = [&](int i) { return values + c[i]->t[k] * stride; };
+inline Corner<LanesOf<float>> corner(const float* values, size_t stride, const StarCell* c, int k,
+                                     const double x[3]) {
+  const auto at = [&](int i) { return values + c[i].t[k] * stride; };
   const auto p0 = pointsAt(at(0), at(4)), p1 = pointsAt(at(1), at(5)), p2 = pointsAt(at(2), at(6)),
              p3 = pointsAt(at(3), at(7));
   const auto xy01 = __builtin_shufflevector(p0, p1, 0, 8, 1, 9, 4, 12, 5, 13);  // x0 x1 y0 y1 x4 ..
@@ -173,12 +173,24 @@ inline bool carefully(const double x[3], const S* values, size_t stride, const S
   return true;
 }
 
-// The lanes left over repeat the last cell.
+// As many cells as a vector has lanes, and the bits of those that were not met before.
+struct CellLanes {
+  const StarCell* cells;
+  size_t begin;  // place of the first
+  unsigned fresh;
+};
+// From `first` on; where too few are left some before them once more, or in a small star the last
+// one repeated, in `room`.
 template <size_t kLanes>
-inline size_t fillLanes(const StarCell* cells, size_t count, const StarCell** lanes) {
-  const size_t filled = count < kLanes ? count : kLanes;
-  for (size_t k = 0; k < kLanes; ++k) lanes[k] = cells + (k < filled ? k : filled - 1);
-  return filled;
+inline CellLanes lanesFrom(const StarCell* cells, size_t first, size_t count, StarCell* room) {
+  constexpr unsigned kAll = (1u << kLanes) - 1;
+  if (count - first >= kLanes) return {cells + first, first, kAll};
+  if (count >= kLanes) {
+    const size_t begin = count - kLanes;
+    return {cells + begin, begin, kAll << (first - begin) & kAll};
+  }
+  for (size_t k = 0; k < kLanes; ++k) room[k] = cells[k < count ? k : count - 1];
+  return {room, 0, (1u << count) - 1};
 }
 
 template <class S>
@@ -190,8 +202,8 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
   const S unit = static_cast<S>(scale), shape = static_cast<S>(kRounding * thin.shape);
   size_t thin_cells = 0;
   for (size_t first = 0; first < count; first += W::kLanes) {
-    const StarCell* c[W::kLanes];
-    const size_t filled = fillLanes<W::kLanes>(cells + first, count - first, c);
+    StarCell room[W::kLanes];
+    const auto [c, begin, fresh] = lanesFrom<W::kLanes>(cells, first, count, room);
     const Corner<L> p = scaledBy(unit, corner(values, stride, c, 0, x)),
                     q = scaledBy(unit, corner(values, stride, c, 1, x)),
                     r = scaledBy(unit, corner(values, stride, c, 2, x));
@@ -202,16 +214,15 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
     const L det2 = det * det, sum3 = sum * sum * sum;
     const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum) & (det2 > W::kSure * sum3);
     if (const unsigned turned = bitsOf((det < 0) & held))
-      return {false, 0, first + static_cast<size_t>(__builtin_ctz(turned))};
+      return {false, 0, begin + static_cast<size_t>(__builtin_ctz(turned))};
     const auto sure = (det > 0) & held;
     const auto suspect = sure & (S(kRegular) * det2 < shape * sum3);
-    const unsigned lanes = (1u << filled) - 1;
-    if (const unsigned which = bitsOf(suspect) & lanes)
+    if (const unsigned which = bitsOf(suspect) & fresh)
       thin_cells += countThin(p, q, r, thin, which);
-    const unsigned unsure = ~bitsOf(sure) & lanes;
+    const unsigned unsure = ~bitsOf(sure) & fresh;
     for (size_t k = 0; unsure >> k; ++k)
-      if ((unsure >> k & 1) && !carefully(x, values, stride, *c[k], thin, &thin_cells))
-        return {false, 0, first + k};
+      if ((unsure >> k & 1) && !carefully(x, values, stride, c[k], thin, &thin_cells))
+        return {false, 0, begin + k};
   }
   return {true, thin_cells, 0};
 }
@@ -232,8 +243,8 @@ inline NearestCell nearestCellOf(const double x[3], const S* values, int stride_
                        none + (at[2] - static_cast<S>(x[2])) * unit};
   NearestCell nearest = {0, -1e301};
   for (size_t first = 0; first < count; first += W::kLanes) {
-    const StarCell* c[W::kLanes];
-    const size_t filled = fillLanes<W::kLanes>(cells + first, count - first, c);
+    StarCell room[W::kLanes];
+    const auto [c, begin, fresh] = lanesFrom<W::kLanes>(cells, first, count, room);
     const Corner<L> p = scaledBy(unit, corner(values, stride, c, 0, x)),
                     q = scaledBy(unit, corner(values, stride, c, 1, x)),
                     r = scaledBy(unit, corner(values, stride, c, 2, x));
@@ -244,9 +255,9 @@ inline NearestCell nearestCellOf(const double x[3], const S* values, int stride_
     least = least < part[2] ? least : part[2];
     least = least < part[3] ? least : part[3];
     least = whole > none ? least / whole : none - S(1e30);
-    for (size_t k = 0; k < filled; ++k)
-      if (static_cast<double>(least[k]) > nearest.least)
-        nearest = {first + k, static_cast<double>(least[k])};
+    for (size_t k = 0; fresh >> k; ++k)
+      if ((fresh >> k & 1) && static_cast<double>(least[k]) > nearest.least)
+        nearest = {begin + k, static_cast<double>(least[k])};
   }
   return nearest;
 }
@@ -254,39 +265,124 @@ inline NearestCell nearestCellOf(const double x[3], const S* values, int stride_
 // ---------------------------------------------------------------------------------- gathering
 
 #ifdef __AVX2__
-// Byte places of t0, t1, t2 as 32-bit numbers after the corner, seen from corner j; j = 4: nothing.
-alignas(16) constexpr int8_t kLook[5][16] = {
-    {-1, -1, -1, -1, 2, 3, -1, -1, 4, 5, -1, -1, 6, 7, -1, -1},
-    {-1, -1, -1, -1, 0, 1, -1, -1, 6, 7, -1, -1, 4, 5, -1, -1},
-    {-1, -1, -1, -1, 0, 1, -1, -1, 2, 3, -1, -1, 6, 7, -1, -1},
-    {-1, -1, -1, -1, 0, 1, -1, -1, 4, 5, -1, -1, 2, 3, -1, -1},
-    {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1}};
-static_assert(sizeof(StarCell) == 16 && offsetof(StarCell, t) == 4);
+// Of two cells of 8 bytes the places of t0, t1, t2, from byte 2 of each on, seen from a corner of
+// each: one of four bits each, none for a cell that is dead.
+struct LookTable {
+  alignas(16) uint8_t places[0x89][16];
+};
+constexpr LookTable makeLookTable() {
+  LookTable table{};
+  for (unsigned bits = 0; bits < 0x89; ++bits)
+    for (unsigned k = 0; k < 2; ++k) {
+      uint8_t* const out = table.places[bits] + 8 * k;
+      for (unsigned byte = 0; byte < 8; ++byte) out[byte] = 0x80;  // gives 0
+      for (unsigned j = 0; j < 4; ++j)
+        for (unsigned i = 0; (bits >> (4 * k + j) & 1) && i < 6; ++i)
+          out[2 + i] = static_cast<uint8_t>(8 * k + 2u * kOpposite[j][i / 2] + i % 2);
+    }
+  return table;
+}
+constexpr LookTable kLook = makeLookTable();
+
+// The places of the bits that are set, as pairs of 32-bit numbers of a vector and as pairs of
+// bytes.
+struct PickTable {
+  alignas(32) uint32_t pairs[16][8];
+  uint8_t bytes[16][8];
+};
+constexpr PickTable makePickTable() {
+  PickTable table{};
+  for (unsigned bits = 0; bits < 16; ++bits)
+    for (unsigned k = 0, picked = 0; k < 4; ++k)
+      for (unsigned i = 0; (bits >> k & 1) && i < 2; ++i, ++picked) {
+        table.pairs[bits][picked] = 2 * k + i;
+        table.bytes[bits][picked] = static_cast<uint8_t>(2 * k + i);
+      }
+  return table;
+}
+constexpr PickTable kPick = makePickTable();
+
+inline uint64_t eightBytesAt(const uint16_t* p) {
+  uint64_t bytes;
+  __builtin_memcpy(&bytes, p, sizeof bytes);
+  return bytes;
+}
+inline __m128i loadTwoCells(const uint16_t* corners, uint64_t two) {
+  return _mm_set_epi64x(static_cast<int64_t>(eightBytesAt(corners + 4 * (two >> 16 & 0xffff))),
+                        static_cast<int64_t>(eightBytesAt(corners + 4 * (two & 0xffff))));
+}
+inline __m128i eightBytes(const uint8_t* p) {
+  return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
+}
+
+// Of four cells, a number and three corners of 16 bits each, those whose bits are set.
+inline void putCells(__m256i cells, unsigned bits, StarCell* out) {
+  static_assert(sizeof(StarCell) == 16 && offsetof(StarCell, t) == 4);
+  const __m256i places = _mm256_load_si256(reinterpret_cast<const __m256i*>(kPick.pairs[bits]));
+  const __m256i picked = _mm256_permutevar8x32_epi32(cells, places);
+  __m256i* const to = reinterpret_cast<__m256i*>(out);
+  _mm256_storeu_si256(to, _mm256_cvtepu16_epi32(_mm256_castsi256_si128(picked)));
+  _mm256_storeu_si256(to + 1, _mm256_cvtepu16_epi32(_mm256_extracti128_si256(picked, 1)));
+}
+
+inline unsigned zerosOf(__m256i masks) {
+  const __m256i zeros = _mm256_cmpeq_epi64(masks, _mm256_setzero_si256());
+  return static_cast<unsigned>(_mm256_movemask_pd(_mm256_castsi256_pd(zeros)));
+}
+
+// Four at a time, without branches, since there is no pattern in which of them are dead or have the
+// other vertex: all are written, and what does not belong is overwritten by the next.
+struct RoundLook {
+  const uint16_t* corners;
+  __m256i v, other;
+  StarCell *star, *ring;
+
+  // Of those whose bits are set in `there`. Returns the bits of those that live.
+  unsigned lookAt(uint64_t four, unsigned there) {
+    const __m256i corner =
+        _mm256_set_m128i(loadTwoCells(corners, four >> 32), loadTwoCells(corners, four));
+    const __m256i is_v = _mm256_cmpeq_epi16(corner, v),
+                  is_other = _mm256_cmpeq_epi16(corner, other);
+    const auto at = static_cast<unsigned>(  // four bits of a cell, two cells, each twice
+        _mm256_movemask_epi8(_mm256_packs_epi16(is_v, is_v)));
+    const __m256i look =
+        _mm256_set_m128i(_mm_load_si128(reinterpret_cast<const __m128i*>(kLook.places[at >> 24])),
+                         _mm_load_si128(reinterpret_cast<const __m128i*>(kLook.places[at & 0xff])));
+    const __m128i numbers = _mm_cvtsi64_si128(static_cast<int64_t>(four));
+    const __m256i seen =
+        _mm256_or_si256(_mm256_shuffle_epi8(corner, look), _mm256_cvtepu16_epi64(numbers));
+    const unsigned live = ~zerosOf(is_v) & there, alone = live & zerosOf(is_other);
+    putCells(seen, alone, star);
+    putCells(seen, live ^ alone, ring);
+    star += __builtin_popcount(alone);
+    ring += __builtin_popcount(live ^ alone);
+    return live;
+  }
+};
 
 inline StarCounts lookRoundOf(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
                               uint16_t other, StarCell* star, StarCell* ring) {
-  const __m128i all_v = _mm_set1_epi16(static_cast<short>(v)),
-                all_other = _mm_set1_epi16(static_cast<short>(other));
-  uint32_t kept = 0, in_ring = 0;
-  for (uint32_t i = 0; i < count; ++i) {
-    const uint16_t cell = cells[i];
-    const __m128i corner =
-        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(corners + 4 * size_t{cell}));
-    const unsigned at = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi16(corner, all_v)));
-    const uint32_t j = static_cast<uint32_t>(__builtin_ctz(at | 0x100)) / 2;
-    const bool both = _mm_movemask_epi8(_mm_cmpeq_epi16(corner, all_other)) & 0xff;
-    const bool live = at & 0xff;
-    const __m128i look = _mm_load_si128(reinterpret_cast<const __m128i*>(kLook[j]));
-    const __m128i seen = _mm_or_si128(_mm_shuffle_epi8(corner, look),
-                                      _mm_cvtsi32_si128(static_cast<int>(4 * cell + j)));
-    cells[kept + in_ring] = cell;
-    // To both, since there is no pattern for a branch; the next overwrites what does not belong.
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(star + kept), seen);
-    _mm_storeu_si128(reinterpret_cast<__m128i*>(ring + in_ring), seen);
-    kept += live & !both;
-    in_ring += live & both;
+  RoundLook look = {corners, _mm256_set1_epi16(static_cast<short>(v)),
+                    _mm256_set1_epi16(static_cast<short>(other)), star, ring};
+  uint16_t* kept = cells;
+  const uint16_t* const end = cells + count;
+  for (; end - cells >= 4; cells += 4) {
+    const uint64_t four = eightBytesAt(cells);
+    const unsigned live = look.lookAt(four, 15);
+    const __m128i numbers = _mm_cvtsi64_si128(static_cast<int64_t>(four));
+    const __m128i first = _mm_shuffle_epi8(numbers, eightBytes(kPick.bytes[live]));
+    _mm_storel_epi64(reinterpret_cast<__m128i*>(kept), first);
+    kept += __builtin_popcount(live);
   }
-  return {kept, in_ring};
+  if (const auto left = static_cast<unsigned>(end - cells)) {
+    uint64_t four = 0;
+    for (unsigned k = 0; k < left; ++k) four |= uint64_t{cells[k]} << 16 * k;
+    for (unsigned k = 0, live = look.lookAt(four, (1u << left) - 1); k < left; ++k) {
+      *kept = cells[k];
+      kept += live >> k & 1;
+    }
+  }
+  return {static_cast<uint32_t>(look.star - star), static_cast<uint32_t>(look.ring - ring)};
 }
 #else
 inline StarCounts lookRoundOf(const uint16_t* corners, uint16_t* cells, uint32_t count, uint16_t v,
@@ -302,7 +398,7 @@ inline StarCounts lookRoundOf(const uint16_t* corners, uint16_t* cells, uint32_t
         (corner[0] == other) | (corner[1] == other) | (corner[2] == other) | (corner[3] == other);
     cells[kept + in_ring] = cell;
     StarCell& out = both ? ring[in_ring++] : star[kept++];
-    out.corner = 4 * uint32_t{cell} + j;
+    out.cell = cell;
     for (int k = 0; k < 3; ++k) out.t[k] = corner[kOpposite[j][k]];
   }
   return {kept, in_ring};

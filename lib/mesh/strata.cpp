@@ -26,7 +26,7 @@ bool StrataCondition::mayHold(End u, End v, const Star& ring, const Embedded& em
     case Within::kSheet:
       if (u.outside && v.outside) return true;
       for (const StarCell& s : ring)
-        if (embedded.labels.differ(ring[0].cell(), s.cell())) return true;
+        if (embedded.labels.differ(ring[0].cell, s.cell)) return true;
       return false;
   }
   return false;
@@ -41,7 +41,7 @@ void StrataCondition::listSheets(const Star& star, const Star& ring, const uint8
       for (int i = 0; i < 3; ++i) {
         const uint32_t a = s.t[i], b = s.t[(i + 1) % 3];
         if ((flags[a] & kOnSheet) && (flags[b] & kOnSheet))
-          edges_.push_back({pairOf(a, b), s.cell()});
+          edges_.push_back({pairOf(a, b), s.cell});
       }
   std::sort(edges_.begin(), edges_.end(),
             [](const Edge& a, const Edge& b) { return a.ends < b.ends; });

@@ -48,6 +48,12 @@ void Topology::link(uint32_t corner, uint32_t v) {
   }
 }
 
+uint32_t Topology::cornerOf(uint32_t cell, uint32_t v) const {
+  uint32_t corner = 4 * cell;
+  while (vertex_of_[corner] != v) ++corner;
+  return corner;
+}
+
 uint32_t Topology::addCell(const uint32_t corners[4], uint8_t flags) {
   const uint32_t cell = cell_end_++;
   cell_flags_[cell] = flags;
@@ -63,7 +69,7 @@ StarCell Topology::starCell(uint32_t corner) const {
   const uint32_t cell = corner / 4, j = corner % 4;
   const uint32_t* v_of = corners(cell);
   const bool negative = cell_flags_[cell] & kNegative;
-  return {corner,
+  return {cell,
           {v_of[kOpposite[j][0]], v_of[kOpposite[j][negative ? 2 : 1]],
            v_of[kOpposite[j][negative ? 1 : 2]]}};
 }
@@ -96,11 +102,12 @@ void Topology::kill(uint32_t cell) {
 
 void Topology::merge(uint32_t u, uint32_t v, const Stars& stars) {
   first_corner_[u] = first_corner_[v] = kNone;
-  for (const StarCell& s : stars.ring) kill(s.cell());
-  for (const StarCell& s : stars.u) link(s.corner, u);
+  for (const StarCell& s : stars.ring) kill(s.cell);
+  for (const StarCell& s : stars.u) link(cornerOf(s.cell, u), u);
   for (const StarCell& s : stars.v) {
-    vertex_of_[s.corner] = u;
-    link(s.corner, u);
+    const uint32_t corner = cornerOf(s.cell, v);
+    vertex_of_[corner] = u;
+    link(corner, u);
   }
   vertex_flags_[v] |= kCollapsed;
   vertex_flags_[u] |= vertex_flags_[v] & kOnSheet;

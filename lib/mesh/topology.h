@@ -42,9 +42,8 @@ enum CellFlag : uint8_t {
 // One cell round a centre: the triangle opposite, ordered so that det(t0 - x, t1 - x, t2 - x) > 0
 // for a centre x that keeps the cell's orientation.
 struct StarCell {
-  uint32_t corner;  // the centre's, 4 * cell + j
+  uint32_t cell;
   uint32_t t[3];
-  uint32_t cell() const { return corner / 4; }
   bool has(uint32_t v) const { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
 };
 
@@ -132,6 +131,7 @@ class Topology {
 
  private:
   void link(uint32_t corner, uint32_t v);
+  uint32_t cornerOf(uint32_t cell, uint32_t v) const;
 
   bool linked_;
   Array<uint32_t> vertex_of_, next_;  // per corner: V and L

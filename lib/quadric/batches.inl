@@ -72,7 +72,8 @@ void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others,
       edges.solve(n);
       Float8 error;
       edges.measure(n, &error);
-      for (int k = 0; k < filled; ++k) errors[first + k] = static_cast<S>(error[k]);
+      const auto written = __builtin_convertvector(error, typename Lanes<S>::Eight);
+      __builtin_memcpy(errors + first, &written, sizeof written);
     }
   }
 }

@@ -95,7 +95,8 @@ struct QuadricKernels {
   void (*solveEdges)(const VertexTable<S>& table, const uint32_t* ends, int count, const S* scale,
                      int n, S* z, S* errors);
   // The errors of solveEdge from vertex u to each of `count` others, which rank them: computed in
-  // float32 from differences in S, so that those of S = float are the same numbers.
+  // float32 from differences in S, so that those of S = float are the same numbers. `errors` has
+  // room for a multiple of kEdgeLanes.
   void (*edgeErrors)(const VertexTable<S>& table, uint32_t u, const uint32_t* others, int count,
                      const S* scale, int n, S* errors);
   // The error of Q1 + Q2 at a given z.

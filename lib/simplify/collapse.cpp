@@ -100,7 +100,7 @@ Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turne
     refusals_.resize(kRefusals);
     forget();
   }
-  refusals_[placeOf(u, v)] = {u, v, turned.cell()};
+  refusals_[placeOf(u, v)] = {u, v, turned.cell};
   return Outcome::kOrientation;
 }
 
@@ -348,12 +348,12 @@ void Collapser<Mesh>::trace(uint32_t u, uint32_t v, double error) {
     for (const Star* star : {&stars_.u, &stars_.v})
       for (const StarCell& s : *star) {
         PlacedCell& cell = traced_after_.emplace_back();
-        cell.cell = mesh_.cellSlotOf(s.cell());
+        cell.cell = mesh_.cellSlotOf(s.cell);
         put(merged_.data(), cell.corner[0]);
         for (int k = 0; k < 3; ++k) put(mesh_.values(s.t[k]), cell.corner[k + 1]);
         traced_before_.push_back(cell.cell);
       }
-    for (const StarCell& s : stars_.ring) traced_before_.push_back(mesh_.cellSlotOf(s.cell()));
+    for (const StarCell& s : stars_.ring) traced_before_.push_back(mesh_.cellSlotOf(s.cell));
   }
   core_.tracer->collapsed({mesh_.slotOf(u), mesh_.slotOf(v), mesh_.values(u), mesh_.values(v),
                            merged_.data(), error, traced_before_, traced_after_});
@@ -444,13 +444,13 @@ void Collapser<Mesh>::findHeirs(uint32_t v) {
     // Its corners beside u and v.
     const bool is_first = dying.t[0] == v;
     const uint32_t a = dying.t[is_first ? 1 : 0], b = dying.t[is_first || dying.t[1] == v ? 2 : 1];
-    Heirs& h = heirs_.emplace_back(Heirs{dying.cell(), {}, 0});
+    Heirs& h = heirs_.emplace_back(Heirs{dying.cell, {}, 0});
     __builtin_prefetch(mesh_.cellMeans(h.dying));
     for (const Star* star : {&stars_.u, &stars_.v})
       for (const StarCell& s : *star)
         if (s.has(a) & s.has(b) && h.count < 2) {
-          __builtin_prefetch(mesh_.cellMeans(s.cell()));
-          h.cell[h.count++] = s.cell();
+          __builtin_prefetch(mesh_.cellMeans(s.cell));
+          h.cell[h.count++] = s.cell;
         }
   }
 }
@@ -470,15 +470,15 @@ void Collapser<Mesh>::handOverFaces(uint32_t u, uint32_t v) {
   for (const StarCell& dying : stars_.ring) {
     for (const Star* star : {&stars_.u, &stars_.v}) {
       // Across the face at u lies a cell of u's star; the face at v is opposite u.
-      const uint32_t from = mesh_.cornerSlot(cornerOf(dying.cell(), star == &stars_.u ? u : v));
+      const uint32_t from = mesh_.cornerSlot(cornerOf(dying.cell, star == &stars_.u ? u : v));
       if (!faces.labelOf(from)) continue;
       for (const StarCell& s : *star) {
         uint32_t beyond = kNone, shared = 0;
         for (uint32_t t : s.t) dying.has(t) ? void(++shared) : void(beyond = t);
-        if (shared == 2) faces.hand(from, mesh_.cornerSlot(cornerOf(s.cell(), beyond)));
+        if (shared == 2) faces.hand(from, mesh_.cornerSlot(cornerOf(s.cell, beyond)));
       }
     }
-    faces.forgetCell(mesh_.cornerSlot(dying.corner) / 4);
+    faces.forgetCell(mesh_.cellSlotOf(dying.cell));
   }
 }
 

@@ -140,8 +140,18 @@ void Intake<S>::introduceUpTo(uint64_t vertex) {
     takeVertex(static_cast<size_t>(core_.front.introduced() - batch_.first_vertex));
 }
 
+// Most are known and active: that they are was checked then.
 template <class S>
-uint32_t Intake<S>::slotOf(int64_t vertex) {
+inline uint32_t Intake<S>::slotOf(int64_t vertex) {
+  if (static_cast<uint64_t>(vertex) < core_.front.introduced()) {
+    const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
+    if (slot != kNoSlot) return slot;
+  }
+  return newSlotOf(vertex);
+}
+
+template <class S>
+[[gnu::noinline]] uint32_t Intake<S>::newSlotOf(int64_t vertex) {
   if (vertex < 0 || static_cast<uint64_t>(vertex) >= declared_)
     fail(Status::kBadData, "cell %llu: vertex %lld is not declared before it",
          static_cast<unsigned long long>(cells_read_), static_cast<long long>(vertex));
@@ -173,21 +183,26 @@ void Intake<S>::takeCellData(size_t row, uint32_t cell) {
 }
 
 template <class S>
-void Intake<S>::takeCell(size_t row) {
-  const int64_t* ids = batch_.cells + 4 * row;
-  uint32_t slots[4];
-  for (int j = 0; j < 4; ++j) {
-    slots[j] = slotOf(ids[j]);
+[[gnu::noinline]] void Intake<S>::failTwice(const int64_t ids[4]) {
+  for (int j = 0; j < 4; ++j)
     for (int i = 0; i < j; ++i)
-      if (slots[i] == slots[j])
+      if (ids[i] == ids[j])
         fail(Status::kBadData, "cell %llu: vertex %lld is there twice",
              static_cast<unsigned long long>(cells_read_), static_cast<long long>(ids[j]));
-  }
-  const uint32_t cell = core_.window.mesh.addCell(slots, 0);
-  takeCellData(row, cell);
+}
+
+template <class S>
+void Intake<S>::takeCell(size_t row) {
+  const int64_t* ids = batch_.cells + 4 * row;
+  const uint32_t v[4] = {slotOf(ids[0]), slotOf(ids[1]), slotOf(ids[2]), slotOf(ids[3])};
+  if ((v[0] == v[1]) | (v[0] == v[2]) | (v[0] == v[3]) | (v[1] == v[2]) | (v[1] == v[3]) |
+      (v[2] == v[3]))
+    failTwice(ids);
+  const uint32_t cell = core_.window.mesh.addCell(v, 0);
+  if (!core_.plan.cell_data.empty()) takeCellData(row, cell);
   if (core_.window.shape().points) core_.window.firstPoints()[cell] = kNone;
-  const unsigned last = batch_.last_uses ? batch_.last_uses[row] : 0;
-  for (int j = 0; j < 4; ++j)
+  const unsigned last = batch_.last_uses ? batch_.last_uses[row] & 15u : 0;
+  for (unsigned j = 0; last >> j; ++j)
     if (last >> j & 1) finalize(ids[j]);
   ++cells_read_;
 }

@@ -36,6 +36,8 @@ class Intake {
   void readColumn(size_t column, size_t row, uint32_t slot);
   void takeCellData(size_t row, uint32_t cell);
   uint32_t slotOf(int64_t vertex);
+  uint32_t newSlotOf(int64_t vertex);
+  void failTwice(const int64_t ids[4]);
   void finalize(int64_t vertex);
   void queueFinal(uint32_t slot);
 

@@ -40,7 +40,7 @@ bool PatchSweep<S>::load(const uint32_t* owned, size_t owned_count, const uint32
 
 template <class S>
 void PatchSweep<S>::startList(uint32_t v, size_t cells) {
-  if (neighbours_.size() < 4 * cells + 1) neighbours_.resize(8 * cells + 1);
+  if (neighbours_.size() < 4 * cells + kBestEdges) neighbours_.resize(8 * cells + kBestEdges);
   seen_[v] = ++mark_;
 }
 // v's neighbours that may be merged with it, each once.
@@ -72,10 +72,9 @@ void PatchSweep<S>::measureNeighbours(uint32_t u) {
 }
 template <class S>
 void PatchSweep<S>::measureIn(const VertexTable<S>& table, uint32_t u) {
-  if (errors_.size() < count_) errors_.resize(neighbours_.size());
+  if (errors_.size() < neighbours_.size()) errors_.resize(neighbours_.size());
   core_.kernels.edgeErrors(table, u, neighbours_.data(), static_cast<int>(count_),
                            core_.scale.data(), core_.plan.dimension, errors_.data());
-  for (size_t i = 0; i < count_; ++i) errors_[i] *= static_cast<S>(unit_);
 }
 
 // v's edges to later vertices, and to those that do not look at theirs, for both ends.
@@ -89,7 +88,7 @@ void PatchSweep<S>::addEdges(uint32_t v) {
   }
   count_ = later;
   measureNeighbours(v);
-  choices_.add(v, errors_.data(), neighbours_.data(), count_);
+  choices_.add(v, edges());
 }
 
 template <class S>
@@ -127,9 +126,8 @@ void PatchSweep<S>::pushAfter(uint32_t u, uint32_t gone) {
   solutions_.moved(u);
   choices_.forget(gone);
   choices_.forget(u);
-  choices_.relist(u, errors_.data(), neighbours_.data(), count_);
-  for (size_t i = 0; i < count_; ++i)
-    choices_.replace(neighbours_[i], u, gone, static_cast<float>(errors_[i]));
+  choices_.relist(u, edges());
+  choices_.replace(u, gone, edges());
 }
 
 // The best edges of v and of the next vertices that have one up to the level.
@@ -164,7 +162,7 @@ void PatchSweep<S>::collapseFrom(uint32_t v, float level, bool spares) {
     if (choices_.mustLookAgain(v)) {
       listNeighbours(v);
       measureNeighbours(v);
-      choices_.relist(v, errors_.data(), neighbours_.data(), count_);
+      choices_.relist(v, edges());
       continue;
     }
     const uint32_t w = choices_.target(v);
@@ -257,7 +255,7 @@ float PatchSweep<S>::leastAcrossSeam(uint32_t v) {
       0);
   S least = std::numeric_limits<S>::infinity();
   for (size_t i = 0; i < count_; ++i) least = errors_[i] < least ? errors_[i] : least;  // no NaN
-  return static_cast<float>(least);
+  return static_cast<float>(least * static_cast<S>(unit_));
 }
 
 // Seen, from now on, are all but the free vertices of other patches; those of this one that share a

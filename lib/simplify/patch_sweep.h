@@ -60,6 +60,9 @@ class PatchSweep {
   void listNeighbours(uint32_t v);
   void listNeighboursOfMerged(uint32_t u);
   void measureNeighbours(uint32_t u);
+  EdgeList<S> edges() const {
+    return {errors_.data(), neighbours_.data(), count_, static_cast<S>(unit_)};
+  }
   void measureIn(const VertexTable<S>& table, uint32_t u);
 
   Core<S>& core_;

@@ -33,7 +33,7 @@ void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S*
         for (size_t k = 0; k < 3; ++k) before[k][i] = t[k][i] - centre[i];
         for (size_t k = 0; k < 2; ++k) e[k][i] = t[k + 1][i] - t[0][i];
       }
-      Change& change = of(s.cell(), labels);
+      Change& change = of(s.cell, labels);
       change.volume -= determinant(before[0], before[1], before[2]) / 6;
       if (star == &stars.ring) continue;
       change.volume += determinant(t[0], t[1], t[2]) / 6;

@@ -147,7 +147,7 @@ float Release<S>::errorOf(uint32_t cell) const {
   int count = 0;
   for (int j = 0; j < 4; ++j)
     if (window.isFree(v[j])) free[count++] = v[j];
-  S dearest = 0, errors[3];
+  S dearest = 0, errors[kEdgeLanes];
   for (int j = 0; j + 1 < count; ++j) {
     const int others = count - j - 1;
     core_.kernels.edgeErrors(table, free[j], free + j + 1, others, core_.scale.data(),

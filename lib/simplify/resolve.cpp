@@ -28,30 +28,45 @@ static unsigned isNew(unsigned flags) {
   return flags & ~(flags / (kResolved / kFinal)) & kFinal;
 }
 
+// The link of each corner gets the opposite face. The four faces make a closed surface: the last
+// sum is what the others lack.
 template <class S>
-void Resolver<S>::addToLinks(uint32_t cell) {
+void Resolver<S>::addToLinks(uint32_t cell, const unsigned flags[4]) {
   const Topology& mesh = core_.window.mesh;
   const uint32_t* v = mesh.corners(cell);
   const Numbers n[4] = {numbersOf(v[0]), numbersOf(v[1]), numbersOf(v[2]), numbersOf(v[3])};
-  const bool negative = mesh.cellFlags(cell) & kNegative;
-  const CellLabels labels = core_.cellLabels();
-  for (int j = 0; j < 4; ++j) {
-    if (!isNew(mesh.vertexFlags(v[j]))) continue;
+  uint64_t sums[4] = {};
+  for (int j = 0; j < 3; ++j) {
     const uint8_t* t = kOpposite[j];
-    const uint64_t sum = area(n[t[0]], n[t[1]], n[t[2]]);
-    core_.window.outRank(v[j]) += negative ? -sum : sum;
-    if (labels.count == 0) continue;
-    uint32_t& first = core_.window.scratch()[v[j]];
+    sums[j] = area(n[t[0]], n[t[1]], n[t[2]]);
+    sums[3] -= sums[j];
+  }
+  const uint64_t negative = mesh.cellFlags(cell) & kNegative ? ~uint64_t{0} : 0;
+  for (int j = 0; j < 4; ++j) {  // no branch: there is no pattern
+    const uint64_t taken = uint64_t{0} - isNew(flags[j]);
+    core_.window.outRank(v[j]) += ((sums[j] ^ negative) - negative) & taken;
+  }
+}
+
+// Whether cells of different regions meet at a corner.
+template <class S>
+void Resolver<S>::addToRegions(uint32_t cell, const unsigned flags[4], const CellLabels& labels) {
+  Topology& mesh = core_.window.mesh;
+  for (int j = 0; j < 4; ++j) {
+    if (!isNew(flags[j])) continue;
+    const uint32_t v = mesh.corners(cell)[j];
+    uint32_t& first = core_.window.scratch()[v];
     if (first == kNone)
       first = cell;
     else if (labels.differ(first, cell))
-      core_.window.mesh.flagVertex(v[j], kInterface);
+      mesh.flagVertex(v, kInterface);
   }
 }
 
 template <class S>
 int64_t Resolver<S>::sumLinks() {
   const Topology& mesh = core_.window.mesh;
+  const CellLabels labels = core_.cellLabels();
   int64_t front = 0;
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
     if (!mesh.isLive(c)) continue;
@@ -60,7 +75,9 @@ int64_t Resolver<S>::sumLinks() {
                            mesh.vertexFlags(v[3])};
     const unsigned all_final = f[0] & f[1] & f[2] & f[3] & kFinal;
     front += !all_final;
-    if (isNew(f[0]) | isNew(f[1]) | isNew(f[2]) | isNew(f[3])) addToLinks(c);
+    if ((isNew(f[0]) | isNew(f[1]) | isNew(f[2]) | isNew(f[3])) == 0) continue;
+    addToLinks(c, f);
+    if (labels.count > 0) addToRegions(c, f, labels);
   }
   return front;
 }
@@ -149,12 +166,12 @@ template <class S>
 void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
   Topology& mesh = core_.window.mesh;
   for (const StarCell& s : star_)
-    if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell()) & kFlat)) return;
+    if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell) & kFlat)) return;
   for (const StarCell& s : star_) {
     if (!s.has(a) || !s.has(b)) continue;
-    if (!(mesh.cellFlags(s.cell()) & kFolded)) ++core_.report.locked_cells;
-    mesh.flagCell(s.cell(), kFolded);
-    for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell())[j], kLocked);
+    if (!(mesh.cellFlags(s.cell) & kFolded)) ++core_.report.locked_cells;
+    mesh.flagCell(s.cell, kFolded);
+    for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell)[j], kLocked);
     ++core_.locked.bad_cells;
   }
 }
@@ -198,7 +215,7 @@ void Resolver<S>::resolveFaces(uint32_t v) {
   for (const StarCell& s : star_)
     for (int i = 0; i < 3; ++i) {
       const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
-      edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell()};
+      edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell};
     }
   std::sort(edges_.data(), edges_.data() + count,
             [](const LinkEdge& a, const LinkEdge& b) { return a.key < b.key; });

@@ -32,7 +32,8 @@ class Resolver {
 
  private:
   int64_t sumLinks();
-  void addToLinks(uint32_t cell);
+  void addToLinks(uint32_t cell, const unsigned flags[4]);
+  void addToRegions(uint32_t cell, const unsigned flags[4], const CellLabels& labels);
   size_t listStars(size_t count);
   void resolveOpen(uint32_t v, const uint32_t* corners, size_t count);
   void resolveFaces(uint32_t v);

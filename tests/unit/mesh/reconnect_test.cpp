@@ -113,7 +113,7 @@ void expectStarsToBeRight(Pieces& pieces) {
   for (uint32_t v = 0; v < patch.ownedEnd(); ++v) {
     std::set<uint32_t> found, wanted;
     patch.gather(v, v, none, star);
-    for (const StarCell& s : star) EXPECT_TRUE(found.insert(s.cell()).second);
+    for (const StarCell& s : star) EXPECT_TRUE(found.insert(s.cell).second);
     for (uint32_t c = 0; c < patch.cellEnd(); ++c)
       for (uint32_t j = 0; patch.isLive(c) && j < 4; ++j)
         if (patch.vertexOf(c, j) == v) wanted.insert(c);

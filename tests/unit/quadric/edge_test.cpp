@@ -384,7 +384,8 @@ void expectErrorsOfSolveEdge() {
       for (int count = 0; count <= 20; ++count) {
         std::vector<uint32_t> others(static_cast<size_t>(count));
         for (uint32_t& other : others) other = 1 + r.below(29);
-        std::vector<S> errors(static_cast<size_t>(count) + 1, S(-7)), z(static_cast<size_t>(n));
+        const int room = (count + kEdgeLanes - 1) / kEdgeLanes * kEdgeLanes;
+        std::vector<S> errors(static_cast<size_t>(room) + 1, S(-7)), z(static_cast<size_t>(n));
         kernels.edgeErrors(view, 0, others.data(), count, table.scale.data(), n, errors.data());
         EXPECT_EQ(errors.back(), S(-7)) << "written beyond the end";
         for (size_t k = 0; k < others.size(); ++k) {
@@ -484,7 +485,7 @@ void expectSameBits(const QuadricKernels<S>& a, const QuadricKernels<S>& b, Quad
   if (n > 20) return;
   const Table<S> table(r, layout, n, 12);
   const uint32_t others[11] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
-  std::vector<S> errors(11), other_errors(11);
+  std::vector<S> errors(16), other_errors(16);
   a.edgeErrors(table.view(), 0, others, 11, table.scale.data(), n, errors.data());
   b.edgeErrors(table.view(), 0, others, 11, table.scale.data(), n, other_errors.data());
   EXPECT_EQ(0, std::memcmp(errors.data(), other_errors.data(), bytes(errors)));

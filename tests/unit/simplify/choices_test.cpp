@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "choice_kernels.inl"
 #include "random.h"
 #include "test_mesh.h"
 
@@ -19,7 +20,19 @@ struct Counted {
 class ChoicesOf : Counted, public Choices {
  public:
   explicit ChoicesOf(size_t vertices) : Choices(account) { reset(vertices); }
-  void add(uint32_t v, uint32_t w, float error) { Choices::add(v, &error, &w, 1); }
+  void add(uint32_t v, uint32_t w, float error) { Choices::add(v, one(w, error)); }
+  void replace(uint32_t x, uint32_t u, uint32_t v, float error) {
+    Choices::replace(u, v, one(x, error));
+  }
+
+ private:
+  EdgeList<float> one(uint32_t other, float error) {
+    others_[0] = other;
+    errors_[0] = error / 2;
+    return {errors_, others_, 1, 2};
+  }
+  float errors_[kBestEdges];
+  uint32_t others_[kBestEdges];
 };
 
 // Vertex 0 with edges to others, all of which it looks at.
@@ -30,7 +43,10 @@ void look(Choices& c, const std::map<uint32_t, float>& edges) {
     others.push_back(v);
     errors.push_back(error);
   }
-  c.relist(0, errors.data(), others.data(), others.size());
+  const size_t count = others.size(), room = (count + kBestEdges) / kBestEdges * kBestEdges;
+  others.resize(room);
+  errors.resize(room);
+  c.relist(0, EdgeList<float>{errors.data(), others.data(), count, 1});
 }
 
 TEST(Choices, KnowTheEightBestAndTheLeastOfTheOthers) {
@@ -253,6 +269,93 @@ TEST(Choices, AreThoseOfAListAfterAnySteps) {
     EXPECT_EQ(m.leastLeft(), kInf);
     EXPECT_EQ(m.choices.least(0), kInf);
   }
+}
+
+// What is known of some vertices, after any steps, by the build for this processor and by the plain
+// one.
+template <class S>
+class Builds {
+ public:
+  static constexpr uint32_t kVertices = 40;
+  explicit Builds(uint64_t seed) : r_(seed) {
+    for (Rows& rows : rows_)
+      for (uint32_t v = 0; v < kVertices; ++v) {
+        std::fill_n(rows.of[v].best, kBestEdges, kNothing);
+        rows.of[v].refused = rows.of[v].passed_over = rows.of[v].also_refused = kNothing;
+        rows.of[v].tried = 0;
+        rows.least[v] = kInf;
+        rows.woken[v] = 0;
+      }
+  }
+  void step() {
+    const uint32_t v = r_.below(kVertices);
+    const auto [best, plain] = std::pair(rows_[0].table(), rows_[1].table());
+    const EdgeList<S> edges = edgesOf(v);
+    switch (r_.below(5)) {
+      case 0:
+        relistEdges(best, v, edges);
+        return relistEdgesOf(plain, v, edges);
+      case 1:
+        addEdges(best, v, edges);
+        return addEdgesOf(plain, v, edges);
+      case 2:
+        replaceEdges(best, v, (v + 1) % kVertices, edges);
+        return replaceEdgesOf(plain, v, (v + 1) % kVertices, edges);
+      case 3:
+        reconsiderEdges(best, v);
+        return reconsiderEdgesOf(plain, v);
+    }
+    if (best.least[v] == kInf || best.of[v].best[0] == kNothing) return;
+    const uint32_t w = otherOf(best.of[v].best[0]);
+    refuseEdge(best, v, w);
+    refuseEdgeOf(plain, v, w);
+  }
+  bool same() const {
+    return std::memcmp(rows_[0].of, rows_[1].of, sizeof rows_[0].of) == 0 &&
+           std::memcmp(rows_[0].least, rows_[1].least, sizeof rows_[0].least) == 0 &&
+           std::memcmp(rows_[0].woken, rows_[1].woken, sizeof rows_[0].woken) == 0;
+  }
+
+ private:
+  struct Rows {
+    Choice of[kVertices];
+    float least[kVertices];
+    uint8_t woken[kVertices];
+    ChoiceTable table() { return {of, least, woken}; }
+  };
+  // To others, each once, at most 20 of them.
+  EdgeList<S> edgesOf(uint32_t v) {
+    const uint32_t first = r_.below(kVertices), most = r_.below(21);
+    size_t count = 0;
+    for (uint32_t k = 0; k < most; ++k) {
+      others_[count] = (first + k) % kVertices;
+      errors_[count] =
+          r_.below(9) ? static_cast<S>(r_.below(1000)) : std::numeric_limits<S>::infinity();
+      count += others_[count] != v;
+    }
+    return {errors_, others_, count, S(0.75)};
+  }
+
+  Random r_;
+  Rows rows_[2];
+  S errors_[24];
+  uint32_t others_[24];
+};
+
+template <class S>
+void expectSameOfBuilds() {
+  for (uint64_t seed = 0; seed < (slowRun() ? 3u : 60u); ++seed) {
+    Builds<S> builds(seed);
+    for (int k = 0; k < 200; ++k) {
+      builds.step();
+      ASSERT_TRUE(builds.same()) << "seed " << seed << ", step " << k;
+    }
+  }
+}
+
+TEST(Choices, AreTheSameFromEveryBuild) {
+  expectSameOfBuilds<float>();
+  expectSameOfBuilds<double>();
 }
 
 }  // namespace
