@@ -28,8 +28,9 @@
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   A handle is used by one thread at a time; different handles may be used at once, also a reader
  *   and a writer of different simplifiers. There is no global state. A simplifier starts threads of
- *   its own (option `threads`); callbacks are called on the caller's thread, and the threads end
- *   with the simplifier.
+ *   its own (option `threads`), which end with it: they simplify, and read and write some batches
+ *   ahead and behind. Callbacks are called on the caller's thread alone, and so are pipes and all
+ *   else that may wait for somebody read and written there; with the option `memory` everything.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
  *
@@ -118,7 +119,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
-#define TETSTREAM_OPTION_THREADS 203         /* int64, that simplify; 0: one for each core */
+#define TETSTREAM_OPTION_THREADS 203         /* int64, at work at once; 0: one for each core */
 #define TETSTREAM_OPTION_AXIS 210            /* text: of order "spatial": "auto", "x", "y", "z" */
 #define TETSTREAM_OPTION_ORDER 211           /* text: of the input: "auto", "none", "spatial", ... */
 #define TETSTREAM_OPTION_SPLIT 220           /* text: other cells into tetrahedra: "no", "yes" */

@@ -75,9 +75,6 @@ namespace tetstream {
 // Throws kBadState if the writer could not be created.
 Output& outputOf(const tetstream_writer& writer);
 
-// Note `index`, or null.
-const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept;
-
 // The caller's reader is opened and what is known of its stream stored. Then and at once for all
 // others, `known` is set.
 void openReader(tetstream_reader& reader);

@@ -1,0 +1,31 @@
+// stream: batches of a source that are read while those before are worked on. Depends on source.h,
+// tasks.h.
+#pragma once
+
+#include <memory>
+
+#include "source.h"
+#include "tasks.h"
+
+namespace tetstream {
+
+// Gives what `in` gives, batch by batch; what `in` throws comes when its turn has come. Borrows
+// both. The source is read by one thread at a time, which may be another one than the caller's; not
+// before the first batch is asked for, and not beyond some batches ahead. Short streams are read by
+// the caller's thread.
+class ReadAhead final : public Source {
+ public:
+  ReadAhead(Source& in, const Tasks& tasks);
+  ~ReadAhead() override;  // waits for the batch that is being read
+  const Schema& schema() const override { return schema_; }
+  bool next(BatchView& batch) override;
+
+ private:
+  class Queue;
+  const Tasks& tasks_;
+  const Schema schema_;
+  size_t asked_ = 0;  // batches
+  std::shared_ptr<Queue> queue_;
+};
+
+}  // namespace tetstream
