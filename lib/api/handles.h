@@ -42,6 +42,7 @@ struct tetstream_writer : tetstream::Handle {
 struct tetstream_simplifier : tetstream::Handle {
   static constexpr const char* kNoun = "simplifier";
   tetstream::RunOptions options;
+  std::shared_ptr<tetstream::Workers> workers;  // of the options
   // Shared with the writer, so that the handles can be destroyed in any order.
   std::shared_ptr<tetstream::Output> output;
   tetstream_progress_callback progress = nullptr;

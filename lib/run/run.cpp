@@ -40,7 +40,8 @@ class Nowhere final : public Sink {
 };
 
 size_t threadsOf(const RunOptions& options) {
-  return options.threads > 0 ? static_cast<size_t>(options.threads) : coresToUse();
+  if (options.threads > 0) return static_cast<size_t>(options.threads);
+  return options.workers ? options.workers->threads() + 1 : coresToUse();
 }
 
 RunOptions withTasks(RunOptions options, const Tasks* tasks) {
@@ -61,7 +62,7 @@ void tellCells(Progress& p, size_t more, double before, const ProgressFunction& 
 
 struct SimplifyRun::State {
   State(const RunOptions& the_options, Sink& out, ProgressFunction the_progress)
-      : tasks(threadsOf(the_options)),
+      : tasks(threadsOf(the_options), the_options.workers),
         options(withTasks(the_options, &tasks)),
         progress(std::move(the_progress)),
         behind(overlaps() && !out.staysWithCaller() ? std::make_unique<WriteBehind>(out, tasks)
