@@ -5,7 +5,8 @@
 #   format     clang-format finds nothing to change
 #   lint       clang-tidy finds nothing to say about the library and the command
 #   sanitize   another build, with AddressSanitizer and UndefinedBehaviorSanitizer, and its tests
-#   memcheck   unit and API tests of the release, and the shared problem, under Valgrind
+#   memcheck   unit and API tests of the release, the shared problem, and streams through Python and
+#              Octave, under Valgrind
 #   tests      the quick layer of the release
 # Not among them without being named:
 #   full       the long layer: real meshes at every ratio
@@ -80,7 +81,7 @@ stage_sanitize() {
 
 # The same programs as those of the release; only how ctest starts them is another.
 stage_memcheck() {
-  configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi|languages)\.'
+  configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi|languages|python|octave)\.'
   local result=$?
   configure build/release -DTETSTREAM_MEMCHECK=OFF && return "$result"
 }

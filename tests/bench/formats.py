@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """How fast the indexed formats are read: `open_file` of this folder, which scans a file and puts
-its points, cells and data into temporary files, beside meshio's reading in turn, where that is
-installed. Processor seconds, medians; MB is 10^6 bytes of the file. Ordering comes later and is
-not in it."""
+its points, cells and data into temporary files, beside the readings of meshio and of gmsh in turn,
+where those are installed. Processor seconds, medians; MB is 10^6 bytes of the file. Ordering comes
+later and is not in it."""
 import contextlib
 import io
 import os
@@ -14,35 +14,57 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import harness  # noqa: E402
 
-HEAD = ("file", "MB", "s", "MB/s", "meshio s", "times meshio", "wall s")
+HEAD = ("file", "MB", "s", "MB/s", "wall s", "meshio s", "times meshio", "gmsh s", "times gmsh")
 WAYS = (("4.1 text.msh", "--encoding", "text"),
         ("2.2 text.msh", "--msh-version", "2.2", "--encoding", "text"),
         ("4.1 binary.msh",), ("2.2 binary.msh", "--msh-version", "2.2"),
         ("text.mesh",), ("binary.meshb",))
 
 
-def meshio_seconds(path):
-    try:
-        import meshio
-    except ImportError:
-        return None
-    before = time.process_time()
+def read_by_meshio(path):
+    import meshio
     with contextlib.redirect_stdout(io.StringIO()):
         meshio.read(path)
+
+
+def read_by_gmsh(path):
+    import gmsh
+    gmsh.initialize(["", "-v", "0"])
+    try:
+        gmsh.open(path)
+        if len(gmsh.model.mesh.getElementTypes()) == 0:
+            raise ValueError("nothing was read")
+    except Exception as error:  # gmsh has no other class for a syntax that it does not know
+        raise ValueError(path) from error
+    finally:
+        gmsh.finalize()
+
+
+OTHERS = (read_by_meshio, read_by_gmsh)
+
+
+def seconds(read, path):
+    """None where that is not installed, or does not read the file."""
+    before = time.process_time()
+    try:
+        read(path)
+    except (ImportError, ValueError):
+        return None
     return time.process_time() - before
 
 
 def measure(program, path, rounds):
-    """Medians of our processor and wall seconds and of meshio's, in turn."""
-    ours, walls, theirs = [], [], []
+    """Medians of our processor and wall seconds and of the others', in turn."""
+    ours, walls, theirs = [], [], [[] for _ in OTHERS]
     for _ in range(rounds):
         words = subprocess.run([program, path], check=True, stdout=subprocess.PIPE,
                                text=True).stdout.split()
         ours.append(float(words[0]))
         walls.append(float(words[1]))
-        theirs.append(meshio_seconds(path))
-    other = statistics.median(theirs) if theirs[0] is not None else None
-    return statistics.median(ours), statistics.median(walls), other
+        for read, taken in zip(OTHERS, theirs):
+            taken.append(seconds(read, path))
+    return (statistics.median(ours), statistics.median(walls),
+            [None if None in taken else statistics.median(taken) for taken in theirs])
 
 
 def main():
@@ -61,10 +83,10 @@ def main():
         tetstream.run("convert", tetstream.path("mesh.tets"), path, "--quiet", *words)
         size = os.path.getsize(path) / 1e6
         ours, wall, theirs = measure(program, path, options.rounds)
-        print(f"| {name} | {size:.1f} | {ours:.2f} | "
-              f"{size / max(ours, 1e-4):.0f} | " +
-              (f"{theirs:.2f} | {theirs / max(ours, 1e-4):.1f}" if theirs else "- | -") +
-              f" | {wall:.2f} |", flush=True)
+        cells = [name, f"{size:.1f}", f"{ours:.2f}", f"{size / max(ours, 1e-4):.0f}", f"{wall:.2f}"]
+        for other in theirs:
+            cells += [f"{other:.2f}", f"{other / max(ours, 1e-4):.1f}"] if other else ["-", "-"]
+        print("| " + " | ".join(cells) + " |", flush=True)
 
 
 if __name__ == "__main__":

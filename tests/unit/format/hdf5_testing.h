@@ -1,6 +1,8 @@
 // tests: HDF5 files in memory that a test looks into.
 #pragma once
 
+#include <dlfcn.h>
+
 #include <string>
 #include <vector>
 
@@ -26,6 +28,26 @@ class MemoryStorage final : public Hdf5Storage {
 
  private:
   std::string& bytes_;
+};
+
+// What of libhdf5 only tests call.
+class Hdf5Library {
+ public:
+  Hdf5Library() {
+    Dl_info info = {};
+    ::dladdr(reinterpret_cast<void*>(hdf5().open), &info);
+    library_ = ::dlopen(info.dli_fname, RTLD_NOW | RTLD_NOLOAD);
+  }
+  template <class Function>
+  Function* call(const char* name) const {
+    return reinterpret_cast<Function*>(::dlsym(library_, name));
+  }
+  hid_t number(const char* name) const {
+    return *static_cast<const hid_t*>(::dlsym(library_, name));
+  }
+
+ private:
+  void* library_;  // loaded by now, and stays so
 };
 
 // A dataset of rows.

@@ -1,0 +1,267 @@
+#include "file_scan.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <limits>
+
+#include "text_number.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kBufferBytes = 1 << 18;
+// What is in the buffer before a number is parsed, so that it is parsed where it lies; and the
+// longest word.
+constexpr size_t kAhead = 1024;
+
+inline bool isSpace(char c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+}
+
+std::string countText(uint64_t count) {
+  return std::to_string(count);
+}
+
+}  // namespace
+
+FileScan::FileScan(std::unique_ptr<ByteSource> bytes, char comment)
+    : bytes_(std::move(bytes)), comment_(comment), buffer_(kBufferBytes + 1) {}
+
+bool FileScan::refill() {
+  if (ended_) return false;
+  std::memmove(buffer_.data(), buffer_.data() + at_, filled_ - at_);
+  filled_ -= at_;
+  origin_ += at_;
+  at_ = 0;
+  if (filled_ == kBufferBytes) return true;
+  const size_t got = bytes_->read(buffer_.data() + filled_, kBufferBytes - filled_);
+  ended_ = got == 0;
+  filled_ += got;
+  buffer_[filled_] = 0;
+  return got > 0;
+}
+
+// To the next word; false at the end of the file.
+bool FileScan::passBlanks() {
+  for (;;) {
+    while (isSpace(buffer_[at_])) line_ += buffer_[at_++] == '\n';
+    if (at_ == filled_) {
+      if (!refill()) return false;
+    } else if (buffer_[at_] == comment_ && comment_) {
+      line();
+    } else {
+      while (filled_ - at_ < kAhead && refill()) {
+      }
+      return true;
+    }
+  }
+}
+
+size_t FileScan::wordSize() {
+  size_t size = 0;
+  const size_t most = std::min(filled_ - at_, kAhead);
+  while (size < most && !isSpace(buffer_[at_ + size])) ++size;
+  if (size == kAhead) failBad("a word of more than " + countText(kAhead) + " characters");
+  return size;
+}
+
+std::string_view FileScan::peekWord() {
+  if (!passBlanks()) return {};
+  return {buffer_.data() + at_, wordSize()};
+}
+
+std::string_view FileScan::word() {
+  const std::string_view found = peekWord();
+  at_ += found.size();
+  return found;
+}
+
+std::string_view FileScan::line() {
+  size_t size = 0;
+  const char* found = nullptr;
+  for (;;) {
+    found = static_cast<const char*>(
+        std::memchr(buffer_.data() + at_ + size, '\n', filled_ - at_ - size));
+    if (found) break;
+    size = filled_ - at_;
+    if (size == kBufferBytes) failBad("a line of more than " + countText(kBufferBytes) + " bytes");
+    if (!refill()) break;
+  }
+  if (found) size = static_cast<size_t>(found - buffer_.data()) - at_;
+  std::string_view text(buffer_.data() + at_, size);
+  at_ += size + (found ? 1 : 0);
+  line_ += found ? 1 : 0;
+  if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+  return text;
+}
+
+bool FileScan::lineEnds() {
+  for (;;) {
+    while (buffer_[at_] == ' ' || buffer_[at_] == '\t' || buffer_[at_] == '\r') ++at_;
+    if (at_ < filled_) break;
+    if (!refill()) return true;
+  }
+  return buffer_[at_] == '\n' || (comment_ && buffer_[at_] == comment_);
+}
+
+std::string FileScan::place() const {
+  return name() + (binary_ ? ": byte " + countText(offset()) : ": line " + countText(line_));
+}
+
+void FileScan::failHere(Status status, const std::string& text) const {
+  throw Error(status, place() + ": " + text);
+}
+
+void FileScan::failWord(std::string_view word, const char* what) const {
+  if (word.empty()) failBad(std::string("the file ends where ") + what + " should be");
+  failBad(quoted(word) + " is no number; " + what + " should be here");
+}
+
+int64_t FileScan::integer(const char* what) {
+  if (!passBlanks()) failWord({}, what);
+  const char* begin = buffer_.data() + at_;
+  const char* end = begin + std::min(filled_ - at_, kAhead);
+  int64_t value = 0;
+  const std::from_chars_result r = std::from_chars(begin, end, value);
+  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isSpace(*r.ptr))) {
+    at_ = static_cast<size_t>(r.ptr - buffer_.data());
+    return value;
+  }
+  const std::string_view found(begin, wordSize());
+  if (!parseInteger(found, &value)) failWord(found, what);
+  at_ += found.size();
+  return value;
+}
+
+// Plain digits are read here, within what is in the buffer; all else takes the longer way.
+void FileScan::integers(int64_t* out, size_t count, const char* what) {
+  constexpr std::ptrdiff_t kMostDigits = 18;
+  for (size_t i = 0; i < count; ++i) {
+    while (isSpace(buffer_[at_])) line_ += buffer_[at_++] == '\n';
+    const char* begin = buffer_.data() + at_;
+    const char* digit = begin;
+    uint64_t value = 0;
+    for (unsigned d; (d = static_cast<unsigned>(*digit - '0')) < 10; ++digit)
+      value = 10 * value + d;
+    if (filled_ - at_ < kAhead || digit == begin || digit - begin > kMostDigits ||
+        !isSpace(*digit)) {
+      out[i] = integer(what);
+      continue;
+    }
+    at_ += static_cast<size_t>(digit - begin);
+    out[i] = static_cast<int64_t>(value);
+  }
+}
+
+int64_t FileScan::integer(const char* what, int64_t least, int64_t most) {
+  const int64_t value = integer(what);
+  if (value < least || value > most)
+    failBad(textOf("%s is %lld, not %lld to %lld", what, static_cast<long long>(value),
+                   static_cast<long long>(least), static_cast<long long>(most)));
+  return value;
+}
+
+double FileScan::real(const char* what) {
+  if (!passBlanks()) failWord({}, what);
+  const char* begin = buffer_.data() + at_;
+  const char* end = begin + std::min(filled_ - at_, kAhead);
+  double value = 0;
+  const std::from_chars_result r = std::from_chars(begin, end, value);
+  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isSpace(*r.ptr))) {
+    at_ = static_cast<size_t>(r.ptr - buffer_.data());
+    return value;
+  }
+  const std::string_view found(begin, wordSize());
+  // A plus sign, a number out of range; and Fortran's exponents, as in 1.5D+03.
+  if (!parseNumber(found, ScalarType::kFloat64, &value)) {
+    std::string usual(found);
+    std::replace_if(
+        usual.begin(), usual.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+    if (!parseNumber(usual, ScalarType::kFloat64, &value)) failWord(found, what);
+  }
+  at_ += found.size();
+  return value;
+}
+
+std::string FileScan::text(const char* what) {
+  if (!passBlanks()) failBad(std::string("the file ends where ") + what + " should be");
+  if (buffer_[at_] != '"') return std::string(word());
+  const char* begin = buffer_.data() + at_ + 1;
+  const size_t most = std::min(filled_ - at_, kAhead) - 1;
+  const char* end = static_cast<const char*>(std::memchr(begin, '"', most));
+  if (!end) failBad(std::string("no closing quote of ") + what);
+  at_ += static_cast<size_t>(end - begin) + 2;
+  return std::string(begin, end);
+}
+
+void FileScan::expect(const char* wanted) {
+  const std::string_view found = word();
+  if (found == wanted) return;
+  if (found.empty()) failBad(std::string("the file ends where ") + wanted + " should be");
+  failBad(quoted(found) + " where " + wanted + " should be");
+}
+
+void FileScan::bytes(void* out, size_t size, const char* what) {
+  binary_ = true;
+  char* to = static_cast<char*>(out);
+  while (size > 0) {
+    if (at_ == filled_ && !refill())
+      failBad(std::string("the file ends where ") + what + " should be");
+    const size_t part = std::min(size, filled_ - at_);
+    std::memcpy(to, buffer_.data() + at_, part);
+    at_ += part;
+    to += part;
+    size -= part;
+  }
+}
+
+std::string_view FileScan::peekBytes(size_t size) {
+  while (filled_ - at_ < size && refill()) {
+  }
+  return {buffer_.data() + at_, std::min(size, filled_ - at_)};
+}
+
+void FileScan::skipPast(std::string_view mark) {
+  for (;;) {
+    const std::string_view held(buffer_.data() + at_, filled_ - at_);
+    const size_t found = held.find(mark);
+    if (found != held.npos) {
+      line_ += static_cast<uint64_t>(
+          std::count(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
+      at_ += found + mark.size();
+      return;
+    }
+    const size_t passed = held.size() < mark.size() ? 0 : held.size() - mark.size() + 1;
+    line_ += static_cast<uint64_t>(
+        std::count(held.begin(), held.begin() + static_cast<std::ptrdiff_t>(passed), '\n'));
+    at_ += passed;
+    if (!refill()) failBad("the file ends without " + quoted(mark));
+  }
+}
+
+void FileScan::skipTo(uint64_t place, const char* what) {
+  while (offset() < place) {
+    if (at_ == filled_ && !refill()) failBad(std::string("the file ends within ") + what);
+    at_ += static_cast<size_t>(std::min<uint64_t>(filled_ - at_, place - offset()));
+  }
+}
+
+uint64_t FileScan::bytesLeft() const {
+  if (!bytes_->seekable()) return std::numeric_limits<uint64_t>::max();
+  return bytes_->size() > offset() ? bytes_->size() - offset() : 0;
+}
+
+void FileScan::checkClaim(uint64_t count, uint64_t least_bytes, const char* what) const {
+  // note: the bytes after the last one may be missing, as the last line's end may.
+  if (count <= (bytesLeft() == std::numeric_limits<uint64_t>::max()
+                    ? bytesLeft()
+                    : (bytesLeft() + 1) / least_bytes))
+    return;
+  failBad(textOf("%llu %s cannot be in the %llu bytes that are left",
+                 static_cast<unsigned long long>(count), what,
+                 static_cast<unsigned long long>(bytesLeft())));
+}
+
+}  // namespace tetstream

@@ -1,0 +1,74 @@
+// file: a file read from front to end: words and numbers of text, and binary numbers between
+// them. Depends on bytes.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bytes.h"
+#include "status.h"
+
+namespace tetstream {
+
+// Memory is one buffer. Errors name the file and the line, or the byte once anything binary was
+// read; what is asked for is said in the words of `what`.
+class FileScan {
+ public:
+  // From `comment` (0: none) to the end of the line is blank.
+  FileScan(std::unique_ptr<ByteSource> bytes, char comment);
+
+  // The next word between blanks; empty at the end of the file. Views live until the next call.
+  std::string_view word();
+  std::string_view peekWord();  // the same, which stays the next one
+  // The rest of the line, without its end; the next call starts on the next line.
+  std::string_view line();
+  bool atEnd() { return at_ == filled_ && !refill(); }
+  // True, with nothing taken, if no word is left before the end of the line.
+  bool lineEnds();
+
+  int64_t integer(const char* what);
+  int64_t integer(const char* what, int64_t least, int64_t most);
+  double real(const char* what);
+  // Many in a row, which is faster.
+  void integers(int64_t* out, size_t count, const char* what);
+  // A text between quotes, or a word.
+  std::string text(const char* what);
+  void expect(const char* word);
+
+  // Binary: exactly `size` bytes.
+  void bytes(void* out, size_t size, const char* what);
+  // Up to `size` bytes, fewer at the end, which stay the next ones.
+  std::string_view peekBytes(size_t size);
+  // Passes everything up to the end of the next `mark`.
+  void skipPast(std::string_view mark);
+  void skipTo(uint64_t offset, const char* what);  // forward
+
+  uint64_t offset() const { return origin_ + at_; }
+  // Bytes from here to the end, as far as that is known: else the largest number.
+  uint64_t bytesLeft() const;
+  const std::string& name() const { return bytes_->name(); }
+  // "NAME: line 12", "NAME: byte 345"
+  std::string place() const;
+  [[noreturn]] void failHere(Status status, const std::string& text) const;
+  [[noreturn]] void failBad(const std::string& text) const { failHere(Status::kBadData, text); }
+  // Throws kBadData if `count` things of at least `least_bytes` each cannot be in the rest.
+  void checkClaim(uint64_t count, uint64_t least_bytes, const char* what) const;
+
+ private:
+  bool refill();  // adds to the buffer; false at the end of the file
+  bool passBlanks();
+  size_t wordSize();
+  [[noreturn]] void failWord(std::string_view word, const char* what) const;
+
+  std::unique_ptr<ByteSource> bytes_;
+  char comment_;
+  bool binary_ = false, ended_ = false;
+  uint64_t origin_ = 0, line_ = 1;  // of buffer_[0] in the file; of at_
+  size_t at_ = 0, filled_ = 0;
+  std::vector<char> buffer_;  // one more than filled_: a zero ends what was read
+};
+
+}  // namespace tetstream

@@ -1,0 +1,80 @@
+// file: what a format of files is: the options of its reader and its writer, and the row that it has
+// in the table of formats. Depends on stream, base.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "bytes.h"
+#include "source.h"
+
+namespace tetstream {
+
+constexpr int64_t kLastStep = -1;
+
+struct ReadOptions {
+  std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
+  std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
+  std::string path;  // of a file; empty: the bytes come from elsewhere, nothing lies beside them
+  bool recover = false;      // .tets: what is whole of a file that is damaged or cut off
+  bool split = false;        // hexahedra, prisms and pyramids into tetrahedra; else they are errors
+  int64_t step = kLastStep;  // which of the time steps, from 0, of a file that has several
+};
+
+struct WriteOptions {
+  std::string temp_dir;
+  std::function<void(const std::string&)> note;
+  std::string path;             // as for reading
+  JointFiles* joint = nullptr;  // gives files beside the output their names together with it; null:
+                                // they get them at once
+  bool compress = true;         // .tets: zstd where built in; .vtu: zlib
+  bool binary = true;           // .msh: else text
+  bool newest = true;           // .msh: 4.1, else 2.2
+  bool post_order = false;      // .sva, .svb
+};
+
+// What a format can hold, so that values are rounded before and not after they were checked.
+struct Capabilities {
+  bool float64;              // else positions and fields are rounded to float32
+  int max_field_components;  // of all fields together; -1: any number
+  bool cell_data;
+};
+
+struct Format {
+  const char* name;        // "tets", the word of --format
+  const char* extensions;  // ".tets", blank-separated
+  const char* text;        // one line
+  Capabilities holds;
+  bool pipes_in, pipes_out;  // can be read from, written to a pipe as it comes
+  // Null where the format is not read or not written.
+  Input (*open)(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+  std::unique_ptr<Sink> (*create)(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+};
+
+// The rows, each defined in its own file.
+Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openVtkHdf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openExodus(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openXdmf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openSu2(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openMedit(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createVtk(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createVtkHdf(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMesh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createMeshb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createTets(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+
+}  // namespace tetstream

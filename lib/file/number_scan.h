@@ -1,0 +1,33 @@
+// file: numbers of a file that may be text or binary. Depends on file_scan.h.
+#pragma once
+
+#include "file_scan.h"
+
+namespace tetstream {
+
+class NumberScan {
+ public:
+  explicit NumberScan(FileScan& file) : file_(file) {}
+  void setBinary(bool swapped) {
+    binary_ = true;
+    swapped_ = swapped;
+  }
+  bool binary() const { return binary_; }
+
+  // `count` numbers, each of `width` bytes, 4 or 8, if they are binary.
+  void integers(int64_t* out, size_t count, size_t width, const char* what);
+  void reals(double* out, size_t count, size_t width, const char* what);
+  int64_t integer(size_t width, const char* what) {
+    int64_t value;
+    integers(&value, 1, width, what);
+    return value;
+  }
+  // The number of things to come, at least `least_bytes` each; checked against the file's size.
+  uint64_t count(size_t width, size_t least_bytes, const char* what);
+
+ private:
+  FileScan& file_;
+  bool binary_ = false, swapped_ = false;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,65 @@
+// file: an XML file read in pieces by expat, of which only tags matter. Depends on bytes.h.
+#pragma once
+
+#include <expat.h>
+
+#include <exception>
+#include <memory>
+#include <string>
+
+#include "bytes.h"
+#include "status.h"
+
+namespace tetstream {
+
+// Memory is bounded: no tag or comment may be longer than 1 MiB, no entities can be declared.
+class XmlFeed {
+ public:
+  using Attributes = const XML_Char**;
+
+  // Document types: refused, or passed over where they declare nothing.
+  enum class Doctype { kRefused, kPassedOver };
+
+  explicit XmlFeed(ByteSource& bytes, Doctype doctype = Doctype::kRefused);
+  virtual ~XmlFeed() = default;
+
+ protected:
+  virtual void start(const char* name, Attributes attributes) = 0;
+  virtual void end() = 0;
+
+  void feed();  // the whole file, or up to stop()
+  void stop();  // called by start or end: the rest need not be XML
+  bool stopped() const { return stopped_; }
+  ByteSource& bytes() const { return bytes_; }
+  // Bytes of the file: of the tag that start or end is called for, and the end of the last one.
+  uint64_t tagBegin() const;
+  uint64_t tagEnd() const;
+  uint64_t lastEvent() const { return last_event_; }
+  [[noreturn]] void failAt(uint64_t byte, const std::string& text,
+                           Status status = Status::kBadData) const;
+  [[noreturn]] void failHere(const std::string& text, Status status = Status::kBadData) const {
+    failAt(tagBegin(), text, status);
+  }
+
+  static const char* find(Attributes attributes, const char* name);  // null: not there
+  static bool parseUnsigned(const char* text, uint64_t* value);
+
+ private:
+  [[noreturn]] void failXml();
+  template <class Function>
+  void guard(Function function) noexcept;
+  static void XMLCALL onStart(void* user, const XML_Char* name, Attributes attributes);
+  static void XMLCALL onEnd(void* user, const XML_Char* name);
+  static void XMLCALL onOther(void* user, const XML_Char* text, int size);
+  static void XMLCALL onEntity(void* user, const XML_Char*, int, const XML_Char*, int,
+                               const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*);
+  static void XMLCALL onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int);
+
+  ByteSource& bytes_;
+  std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> expat_;
+  std::exception_ptr error_;
+  uint64_t last_event_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace tetstream

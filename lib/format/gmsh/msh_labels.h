@@ -1,0 +1,67 @@
+// format/gmsh: how the labels of cells and faces become Gmsh's entities and physical groups.
+// Depends on mesh_spool.h, msh_hints.h.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "mesh_spool.h"
+#include "msh_hints.h"
+
+namespace tetstream {
+
+constexpr size_t kMostGroups = 1 << 16;  // more labels than that are numbers, no groups
+
+// A volume or a surface: its tag, which differs from the others', and its group, 0 for none.
+struct MshEntity {
+  int32_t tag, group;
+};
+
+class MshLabels {
+ public:
+  // Reads the labels once.
+  explicit MshLabels(MeshSpool& mesh);
+
+  // Cell arrays that have become groups and entities; none: there is no such array.
+  const std::optional<size_t>& groups() const { return group_column_; }
+  const std::optional<size_t>& entities() const { return entity_column_; }
+  bool isLabel(size_t column) const { return column == group_column_ || column == entity_column_; }
+  const std::map<std::pair<int64_t, int64_t>, MshEntity>& volumes() const { return volumes_; }
+  const std::set<int32_t>& surfaces() const { return surfaces_; }  // tag and group are the label
+  uint64_t facesLeftOut() const { return faces_left_out_; }
+  uint64_t faces() const { return faces_; }
+  static bool isFaceLabel(int64_t label) { return label > 0 && label <= INT32_MAX; }
+
+  // Visits the entity of each cell, in order: visit(cell, entity).
+  template <class Visit>
+  void forEachCell(Visit visit) {
+    constexpr size_t kAtOnce = 1024;
+    int64_t groups[kAtOnce] = {}, entities[kAtOnce] = {};
+    for (uint64_t first = 0; first < mesh_.cellCount(); first += kAtOnce) {
+      const uint64_t left = mesh_.cellCount() - first;
+      const size_t n = left < kAtOnce ? static_cast<size_t>(left) : kAtOnce;
+      read(group_column_, first, n, groups);
+      read(entity_column_, first, n, entities);
+      for (size_t i = 0; i < n; ++i)
+        visit(first + i, volumes_.find({groups[i], entities[i]})->second);
+    }
+  }
+
+ private:
+  void read(const std::optional<size_t>& column, uint64_t first, size_t count, int64_t* out);
+  bool isUsable(size_t column, int64_t least);
+  void chooseColumns();
+  void findVolumes();
+  void findSurfaces();
+
+  MeshSpool& mesh_;
+  std::optional<size_t> group_column_, entity_column_;
+  std::map<std::pair<int64_t, int64_t>, MshEntity> volumes_;
+  std::set<int32_t> surfaces_;
+  uint64_t faces_ = 0, faces_left_out_ = 0;
+};
+
+}  // namespace tetstream

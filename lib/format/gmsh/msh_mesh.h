@@ -1,0 +1,78 @@
+// format/gmsh: the mesh of a Gmsh file while it is read: what the sections of all versions share.
+// Depends on mesh_intake.h, number_scan.h, tag_table.h.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh_intake.h"
+#include "msh_hints.h"
+#include "msh_kinds.h"
+#include "number_scan.h"
+#include "tag_table.h"
+
+namespace tetstream {
+
+constexpr size_t kMshInt = 4, kMshDouble = 8;  // bytes, in binary
+
+struct MshMesh {
+  MshMesh(FileScan& scan, const ReadOptions& read_options)
+      : file(scan),
+        numbers(scan),
+        options(read_options),
+        points(read_options.temp_dir),
+        cells(read_options.temp_dir) {}
+
+  FileScan& file;
+  NumberScan numbers;
+  const ReadOptions& options;
+  bool version_4 = false;
+  size_t size_bytes = 8;  // of a count in version 4
+  MshHints hints;
+  std::unique_ptr<MeshIntake> intake;                    // from the nodes on
+  TagTable points, cells;                                // by Gmsh's tags, as ranks
+  std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
+  std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
+  uint64_t further_groups = 0;                           // that entities are in beside their first
+  // What labels faces: physical groups, unless the first face has none.
+  enum class FaceLabels { kUndecided, kGroups, kEntities } face_labels = FaceLabels::kUndecided;
+
+  // A cell or a face, by its nodes' tags.
+  void addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group, int64_t entity);
+  void beginNodes();
+  void endNodes();
+
+ private:
+  void addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity);
+};
+
+// msh_2.cpp, msh_4.cpp: the bodies of sections, up to their $End.
+void readNodes2(MshMesh& mesh);
+void readElements2(MshMesh& mesh);
+void readEntities4(MshMesh& mesh, bool partitioned);
+void readNodes4(MshMesh& mesh);
+void readElements4(MshMesh& mesh);
+
+// msh_data.cpp: $NodeData, $ElementData. Blocks of one name and time step are one column.
+class MshData {
+ public:
+  void read(MshMesh& mesh, bool of_cells);
+
+ private:
+  struct Block {
+    std::string name, column;
+    int64_t step;
+    bool of_cells;
+    int components;
+    size_t data;  // of the intake
+  };
+  size_t dataFor(MshMesh& mesh, const std::string& name, int64_t step, bool of_cells,
+                 int components);
+
+  std::vector<Block> blocks_;
+  bool cells_finished_ = false;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,145 @@
+// Reads Gmsh's files, formats 2 and 4.1, text and binary, in one go: sections between $NAME and
+// $EndNAME. Nodes and elements have tags at will; physical groups are the regions of cells and the
+// labels of faces.
+#include <cmath>
+#include <cstring>
+
+#include "msh_mesh.h"
+#include "status.h"
+#include "text_number.h"
+
+namespace tetstream {
+
+namespace {
+
+class MshReader {
+ public:
+  MshReader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
+      : file_(std::move(bytes), 0), mesh_(file_, options) {}
+
+  std::unique_ptr<IndexedSource> read() {
+    readFormat();
+    for (;;) {
+      const std::string name(file_.word());
+      if (name.empty()) break;
+      if (name[0] != '$') file_.failBad(quoted(name) + " where a section should begin");
+      readSection(name.substr(1));
+    }
+    if (!mesh_.intake) file_.failBad("there is no section $Nodes");
+    noteGroups();
+    return mesh_.intake->finish();
+  }
+
+ private:
+  // Version, 0 for text or 1 for binary, the size of a float; if binary, an integer 1.
+  void readFormat() {
+    file_.expect("$MeshFormat");
+    const double version = file_.real("the version of the format");
+    const int64_t binary = file_.integer("the kind of the file", 0, 1);
+    const int64_t size = file_.integer("the size of numbers", 4, 8);
+    mesh_.version_4 = std::fabs(version - 4.1) < 1e-9;
+    if (!mesh_.version_4 && !(version >= 2 && version < 3))
+      file_.failHere(Status::kUnsupported,
+                     textOf("version %g of Gmsh's format; 2 to 2.2 and 4.1 are read", version));
+    mesh_.size_bytes = static_cast<size_t>(size);
+    if (binary) {
+      file_.line();
+      readByteOrder();
+    }
+    file_.expect("$EndMeshFormat");
+  }
+
+  void readByteOrder() {
+    unsigned char one[4];
+    file_.bytes(one, sizeof one, "the integer 1");
+    uint32_t value;
+    std::memcpy(&value, one, sizeof value);
+    if (value != 1 && value != 0x01000000) file_.failBad("no integer 1 after the format");
+    mesh_.numbers.setBinary(value != 1);
+  }
+
+  void readSection(const std::string& name) {
+    const bool v4 = mesh_.version_4;
+    const std::string end = "$End" + name;
+    if (name == "PhysicalNames") {
+      readNames();
+    } else if (name == "Comments") {
+      return readComments();
+    } else if (v4 && (name == "Entities" || name == "PartitionedEntities")) {
+      endLine();
+      readEntities4(mesh_, name[0] == 'P');
+    } else if (name == "Nodes") {
+      endLine();
+      v4 ? readNodes4(mesh_) : readNodes2(mesh_);
+    } else if (name == "Elements") {
+      if (!mesh_.intake) file_.failBad("elements before the nodes that they use");
+      endLine();
+      v4 ? readElements4(mesh_) : readElements2(mesh_);
+    } else if (name == "NodeData" || name == "ElementData") {
+      data_.read(mesh_, name[0] == 'E');
+    } else {
+      if (options().note) options().note(file_.name() + ": the section $" + name + " is left out");
+      return file_.skipPast(end);
+    }
+    file_.expect(end.c_str());
+  }
+
+  // Of binary sections, the numbers begin on the next line.
+  void endLine() {
+    if (mesh_.version_4 && mesh_.numbers.binary()) file_.line();
+  }
+
+  void readNames() {
+    const int64_t count = file_.integer("the number of names", 0, INT64_MAX);
+    file_.checkClaim(static_cast<uint64_t>(count), 6, "names");
+    for (int64_t i = 0; i < count; ++i) {
+      const auto dimension = static_cast<int>(file_.integer("the dimension of a group", 0, 3));
+      const int64_t tag = file_.integer("the number of a group");
+      mesh_.names[{dimension, tag}] = file_.text("the name of a group");
+    }
+  }
+
+  void readComments() {
+    file_.line();
+    for (;;) {
+      const std::string_view text = file_.line();
+      if (text == "$EndComments") return;
+      readMshHint(text, &mesh_.hints);
+      if (file_.atEnd()) file_.failBad("the file ends within comments");
+    }
+  }
+
+  // The numbers of groups are kept, their names have no place.
+  void noteGroups() {
+    if (mesh_.further_groups > 0)
+      mesh_.intake->leaveOut("physical groups of entities that are in another one");
+    std::string text;
+    size_t shown = 0;
+    for (const auto& [key, name] : mesh_.names) {
+      if (key.first < 2) continue;
+      if (++shown > kShownNames) continue;
+      text += std::string(text.empty() ? "" : ", ") + (key.first == 3 ? "cells " : "faces ") +
+              std::to_string(key.second) + " " + quoted(name);
+    }
+    if (shown > kShownNames) text += " and " + std::to_string(shown - kShownNames) + " more";
+    if (shown > 0)
+      mesh_.intake->note("the physical groups' numbers are kept, their names are not: " + text);
+  }
+
+  const ReadOptions& options() const { return mesh_.options; }
+
+  static constexpr size_t kShownNames = 20;
+  FileScan file_;
+  MshMesh mesh_;
+  MshData data_;
+};
+
+}  // namespace
+
+Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
+  Input input;
+  input.indexed = MshReader(std::move(bytes), options).read();
+  return input;
+}
+
+}  // namespace tetstream

@@ -1,0 +1,51 @@
+// format/medit: a MEDIT file as sections, text or binary, of meshes and of solutions. Depends on
+// medit_keywords.h, number_scan.h.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "medit_keywords.h"
+#include "number_scan.h"
+
+namespace tetstream {
+
+struct MeditSection {
+  int number = 0;    // 0: it is not known
+  std::string name;  // "keyword 99" where that is all there is
+};
+
+class MeditScan {
+ public:
+  // Reads the version and the byte order.
+  explicit MeditScan(std::unique_ptr<ByteSource> bytes);
+
+  // The next section, whose contents come next; false at the end.
+  bool next(MeditSection* section);
+  void skip();  // the contents, or what is left of them
+  // The number of rows, each of so many integers and reals.
+  uint64_t rows(size_t integers, size_t reals, const char* what);
+  void integers(int64_t* out, size_t count, const char* what) {
+    numbers_.integers(out, count, integer_bytes_, what);
+  }
+  int64_t small(const char* what) { return numbers_.integer(4, what); }  // 32 bits in any version
+  void reals(double* out, size_t count, const char* what) {
+    numbers_.reals(out, count, real_bytes_, what);
+  }
+
+  bool binary() const { return numbers_.binary(); }
+  int version() const { return version_; }
+  FileScan& file() { return file_; }
+
+ private:
+  bool nextBinary(MeditSection* section);
+  bool nextText(MeditSection* section);
+
+  FileScan file_;
+  NumberScan numbers_;
+  int version_ = 0;
+  size_t integer_bytes_ = 4, real_bytes_ = 8, place_bytes_ = 4;
+  uint64_t next_ = 0;  // binary: where the next section begins; 0: the end
+};
+
+}  // namespace tetstream

@@ -1,0 +1,98 @@
+// Reads .pvd files, which name the .vtu and .pvtu files of each time step: those of one step are
+// pieces. Points that pieces share are one each.
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+
+#include "file_pool.h"
+#include "format_rows.h"
+#include "pieced_mesh.h"
+#include "status.h"
+#include "time_steps.h"
+#include "vtu_pieces.h"
+#include "xml_feed.h"
+
+namespace tetstream {
+
+namespace {
+
+struct StepFile {
+  double time;
+  std::string name;
+};
+
+class StepFiles final : XmlFeed {
+ public:
+  explicit StepFiles(ByteSource& bytes) : XmlFeed(bytes) {}
+
+  std::vector<StepFile> run() {
+    feed();
+    return std::move(files_);
+  }
+
+ private:
+  void start(const char* name, Attributes attributes) override {
+    if (depth_ == 0) checkRoot(name, attributes);
+    if (depth_ == 2 && std::strcmp(name, "DataSet") == 0) add(attributes);
+    ++depth_;
+  }
+  void end() override { --depth_; }
+
+  void checkRoot(const char* name, Attributes attributes) const {
+    const char* type = find(attributes, "type");
+    if (std::strcmp(name, "VTKFile") != 0 || !type || std::strcmp(type, "Collection") != 0)
+      failHere("this is no collection of VTK's files");
+  }
+
+  void add(Attributes attributes) {
+    constexpr size_t kMaxFiles = 1 << 20;
+    const char *file = find(attributes, "file"), *timestep = find(attributes, "timestep");
+    if (!file || !*file) failHere("a DataSet has no file");
+    if (files_.size() == kMaxFiles) failHere("too many files", Status::kUnsupported);
+    StepFile row = {0, file};
+    if (timestep) {
+      const char* end = timestep + std::strlen(timestep);
+      const std::from_chars_result r = std::from_chars(timestep, end, row.time);
+      if (r.ec != std::errc() || r.ptr != end) failHere("a timestep is no number");
+    }
+    files_.push_back(std::move(row));
+  }
+
+  std::vector<StepFile> files_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
+  bytes = makeSeekable(std::move(bytes), options.temp_dir);
+  const std::vector<StepFile> files = StepFiles(*bytes).run();
+  MeshPieces mesh;
+  mesh.name = bytes->name();
+  mesh.join = true;
+  std::vector<double> times;
+  times.reserve(files.size());
+  for (const StepFile& file : files) times.push_back(file.time);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  if (times.empty()) fail(Status::kBadData, "%s: there is no <DataSet>", mesh.name.c_str());
+  const double time =
+      times[static_cast<size_t>(chooseStep(mesh, times.size(), options, [&](uint64_t step) {
+        return times[static_cast<size_t>(step)];
+      }))];
+  const auto pool = std::make_shared<FilePool>();
+  for (const StepFile& file : files) {
+    if (file.time != time) continue;
+    const std::string path = pathBeside(bytes->name(), file.name);
+    if (file.name.ends_with(".pvtu"))
+      addPvtuPieces(mesh, *pool, *openFile(path));
+    else
+      addVtuPieces(mesh, pool->add(path));
+  }
+  mesh.name = bytes->name();
+  Input input;
+  input.indexed = openPiecedMesh(std::move(mesh), options);
+  return input;
+}
+
+}  // namespace tetstream

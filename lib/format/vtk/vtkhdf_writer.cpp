@@ -1,0 +1,213 @@
+// Writes VTKHDF files, one partition, of version 1.0, which VTK 9.1 and later read. HDF5 goes back
+// and forth in its file, so it works in a temporary one.
+#ifdef TETSTREAM_WITH_HDF5
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "dropped_marks.h"
+#include "format_rows.h"
+#include "hdf5_column.h"
+#include "io_error.h"
+#include "status.h"
+#include "vtk_cells.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kKindsAtOnce = 1024;  // cells whose types and offsets are made
+constexpr size_t kCopiedAtOnce = 1 << 16;
+constexpr const char* kSpoolName = "a temporary file";
+
+class SpoolStorage final : public Hdf5Storage {
+ public:
+  explicit SpoolStorage(const std::string& temp_dir) : spool_(temp_dir) {}
+
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    const uint64_t left = size_ - std::min(size_, offset);
+    const size_t n = static_cast<size_t>(std::min<uint64_t>(size, left));
+    size_t done = 0;
+    while (done < n) {
+      const ssize_t got = ::pread(spool_.descriptor(), static_cast<char*>(out) + done, n - done,
+                                  static_cast<off_t>(offset + done));
+      if (got < 0 && errno != EINTR) failIo(kSpoolName, "read");
+      if (got == 0) break;
+      if (got > 0) done += static_cast<size_t>(got);
+    }
+    return done;
+  }
+
+  void writeAt(uint64_t offset, const void* data, size_t size) override {
+    for (size_t done = 0; done < size;) {
+      const ssize_t put = ::pwrite(spool_.descriptor(), static_cast<const char*>(data) + done,
+                                   size - done, static_cast<off_t>(offset + done));
+      if (put < 0 && errno != EINTR) failIo(kSpoolName, "write");
+      if (put > 0) done += static_cast<size_t>(put);
+    }
+    size_ = std::max(size_, offset + size);
+  }
+
+  void resize(uint64_t size) override {
+    if (::ftruncate(spool_.descriptor(), static_cast<off_t>(size)) != 0)
+      failIo(kSpoolName, "set the size");
+    size_ = size;
+  }
+  uint64_t size() const override { return size_; }
+
+ private:
+  SpoolFile spool_;
+  uint64_t size_ = 0;
+};
+
+ValueType valueType(ScalarType type) {
+  switch (type) {
+    case ScalarType::kFloat32:
+      return ValueType::kFloat32;
+    case ScalarType::kFloat64:
+      return ValueType::kFloat64;
+    case ScalarType::kInt32:
+      return ValueType::kInt32;
+    case ScalarType::kInt64:
+      return ValueType::kInt64;
+  }
+  return ValueType::kFloat64;
+}
+
+class VtkHdfWriter final : public Sink {
+ public:
+  VtkHdfWriter(std::unique_ptr<ByteSink> bytes, const WriteOptions& options)
+      : bytes_(std::move(bytes)), options_(options), dropped_(*bytes_, options, ".vtkhdf") {}
+
+  void begin(const Schema& schema) override {
+    checkSchema(schema);
+    schema_ = schema;
+    file_ = std::make_unique<Hdf5File>(std::make_unique<SpoolStorage>(options_.temp_dir),
+                                       bytes_->name(), true);
+    const Hdf5Turn turn;
+    const Hdf5Id group = file_->createGroup("VTKHDF");
+    file_->addAttribute(group, "Version", std::vector<int64_t>{1, 0});
+    file_->addAttribute(group, "Type", "UnstructuredGrid");
+    points_ = makeColumn("Points", valueType(schema.position_type), 3);
+    connectivity_ = makeColumn("Connectivity", ValueType::kInt64, 1);
+    makeColumns("PointData", schema.fields, fields_);
+    makeColumns("CellData", schema.cell_data, cell_data_);
+  }
+
+  void put(const BatchView& batch) override {
+    const Hdf5Turn turn;
+    const size_t vertices = batch.vertex_count, cells = batch.cell_count;
+    points_->append(batch.positions, vertices);
+    for (size_t i = 0; vertices > 0 && i < fields_.size(); ++i)
+      fields_[i]->append(batch.fields[i], vertices);
+    connectivity_->append(batch.cells, 4 * cells);
+    for (size_t i = 0; cells > 0 && i < cell_data_.size(); ++i)
+      cell_data_[i]->append(batch.cell_data[i], cells);
+    vertex_count_ += vertices;
+    cell_count_ += cells;
+    dropped_.look(batch);
+  }
+
+  void finish() override {
+    {
+      const Hdf5Turn turn;
+      points_->finish();
+      connectivity_->finish();
+      for (const Place& column : fields_) column->finish();
+      for (const Place& column : cell_data_) column->finish();
+      makeKinds();
+      makeCount("NumberOfPoints", vertex_count_);
+      makeCount("NumberOfCells", cell_count_);
+      makeCount("NumberOfConnectivityIds", 4 * cell_count_);
+    }
+    file_->close();
+    copyOut();
+    bytes_->commit();
+  }
+
+ private:
+  using Place = std::unique_ptr<Hdf5Column>;
+
+  Place makeColumn(const std::string& name, ValueType type, int components) {
+    return std::make_unique<Hdf5Column>(*file_, "VTKHDF/" + name, type, components,
+                                        options_.compress);
+  }
+
+  void makeColumns(const std::string& group, const std::vector<Column>& columns,
+                   std::vector<Place>& out) {
+    file_->createGroup("VTKHDF/" + group);
+    std::vector<std::string> names;
+    for (const Column& column : columns) {
+      names.push_back(linkName(column.name, names));
+      out.push_back(
+          makeColumn(group + "/" + names.back(), valueType(column.type), column.components));
+    }
+  }
+
+  // In HDF5, a '/' parts the names of groups, and "." is the group itself.
+  std::string linkName(const std::string& name, const std::vector<std::string>& others) const {
+    std::string link = name == "." ? "_" : name;
+    std::replace(link.begin(), link.end(), '/', '_');
+    while (std::find(others.begin(), others.end(), link) != others.end()) link += '_';
+    if (link != name && options_.note)
+      options_.note(bytes_->name() + ": array \"" + name + "\" is called \"" + link + "\"");
+    return link;
+  }
+
+  // Every cell is a tetrahedron: cell i begins at 4 i in the connectivity.
+  void makeKinds() {
+    const Place offsets = makeColumn("Offsets", ValueType::kInt64, 1);
+    const Place types = makeColumn("Types", ValueType::kUInt8, 1);
+    const std::vector<unsigned char> tetrahedra(kKindsAtOnce, kVtkTetra);
+    int64_t made[kKindsAtOnce];
+    for (uint64_t done = 0; done <= cell_count_; done += kKindsAtOnce) {
+      const size_t n =
+          static_cast<size_t>(std::min<uint64_t>(cell_count_ + 1 - done, kKindsAtOnce));
+      for (size_t i = 0; i < n; ++i) made[i] = static_cast<int64_t>(4 * (done + i));
+      offsets->append(made, n);
+      types->append(tetrahedra.data(),
+                    static_cast<size_t>(std::min<uint64_t>(cell_count_ - done, n)));
+    }
+    offsets->finish();
+    types->finish();
+  }
+
+  void makeCount(const char* name, uint64_t count) {
+    const Place column = makeColumn(name, ValueType::kInt64, 1);
+    const int64_t value = static_cast<int64_t>(count);
+    column->append(&value, 1);
+    column->finish();
+  }
+
+  void copyOut() {
+    std::vector<unsigned char> bytes(kCopiedAtOnce);
+    Hdf5Storage& storage = file_->storage();
+    for (uint64_t at = 0; at < storage.size();) {
+      const size_t n = static_cast<size_t>(std::min<uint64_t>(kCopiedAtOnce, storage.size() - at));
+      if (storage.readAt(at, bytes.data(), n) < n)
+        fail(Status::kIo, "%s ends at byte %llu", kSpoolName, static_cast<unsigned long long>(at));
+      bytes_->write(bytes.data(), n);
+      at += n;
+    }
+  }
+
+  std::unique_ptr<ByteSink> bytes_;
+  WriteOptions options_;
+  DroppedMarks dropped_;
+  Schema schema_;
+  std::unique_ptr<Hdf5File> file_;  // before the columns: it outlives them
+  Place points_, connectivity_;
+  std::vector<Place> fields_, cell_data_;
+  uint64_t vertex_count_ = 0, cell_count_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Sink> createVtkHdf(std::unique_ptr<ByteSink> bytes, const WriteOptions& options) {
+  return std::make_unique<VtkHdfWriter>(std::move(bytes), options);
+}
+
+}  // namespace tetstream
+#endif

@@ -1,0 +1,19 @@
+// format/vtk: the pieces of .vtu files as those of a mesh. Depends on file_pool.h,
+// mesh_pieces.h, vtu_file.h.
+#pragma once
+
+#include <memory>
+
+#include "file_pool.h"
+#include "mesh_pieces.h"
+#include "vtu_file.h"
+
+namespace tetstream {
+
+// Adds the pieces of one file, which stays open; the mesh takes its name.
+void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes);
+
+// Adds those of the files that a .pvtu file names.
+void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes);
+
+}  // namespace tetstream

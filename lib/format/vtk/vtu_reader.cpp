@@ -1,0 +1,20 @@
+// Reads .vtu files (VTK XML unstructured grids) by range. Several pieces are read as one mesh, end
+// to end.
+#include <memory>
+
+#include "format_rows.h"
+#include "pieced_mesh.h"
+#include "vtu_file.h"
+#include "vtu_pieces.h"
+
+namespace tetstream {
+
+Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
+  MeshPieces mesh;
+  addVtuPieces(mesh, makeSeekable(std::move(bytes), options.temp_dir));
+  Input input;
+  input.indexed = openPiecedMesh(std::move(mesh), options);
+  return input;
+}
+
+}  // namespace tetstream

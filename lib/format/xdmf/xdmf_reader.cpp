@@ -1,0 +1,294 @@
+// Reads XDMF 2 and 3 as FEniCS and meshio write it: grids in XML, values in its text or in HDF5. Of
+// a collection over time one step is read; grids of a spatial collection are pieces whose shared
+// points are one each.
+#include <algorithm>
+
+#include "format_rows.h"
+#include "made_values.h"
+#include "pieced_mesh.h"
+#include "status.h"
+#include "time_steps.h"
+#include "vtk_cells.h"
+#include "xdmf_cells.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr int kMostIncludes = 8;   // one of another
+constexpr int kMostOthers = 1024;  // functions, each of which looks for its mesh
+
+class Xdmf {
+ public:
+  Xdmf(const std::shared_ptr<ByteSource>& bytes, const ReadOptions& options, MeshPieces& mesh)
+      : options_(options), mesh_(mesh), arrays_(bytes), grids_(readXdmf(*bytes)) {
+    mesh_.name = bytes->name();
+    children_.resize(grids_.size());
+    for (int i = 0; i < gridCount(); ++i)
+      if (at(i).parent >= 0) children_[static_cast<size_t>(at(i).parent)].push_back(i);
+  }
+
+  void read() {
+    const std::vector<int> leaves = chooseLeaves();
+    if (leaves.empty()) failFile(Status::kBadData, "there is no grid with cells");
+    mesh_.join = leaves.size() > 1;
+    std::vector<MeshPiece> pieces;
+    pieces.reserve(leaves.size());
+    for (const int leaf : leaves) pieces.push_back(readPiece(leaf));
+    if (pieces.size() == 1) addOthers(leaves[0], pieces[0]);
+    takeForm(pieces);
+    for (MeshPiece& piece : pieces) mesh_.add(std::move(piece));
+  }
+
+ private:
+  const XdmfGrid& at(int grid) const { return grids_[static_cast<size_t>(grid)]; }
+  int gridCount() const { return static_cast<int>(grids_.size()); }
+  [[noreturn]] void failFile(Status status, const std::string& text) const {
+    fail(status, "%s: %s", mesh_.name.c_str(), text.c_str());
+  }
+  std::string nameOf(int grid) const { return "grid \"" + cutMeshName(at(grid).name) + "\""; }
+
+  // ------------------------------------------------------------------------------- which grids
+
+  const std::vector<int>& childrenOf(int grid) const {
+    return children_[static_cast<size_t>(grid)];
+  }
+
+  // The grids without others in them, of a grid or of a collection in space.
+  std::vector<int> leavesOf(int grid) const {
+    if (at(grid).kind == XdmfGrid::kUniform) return {grid};
+    std::vector<int> leaves;
+    for (const int child : childrenOf(grid))
+      for (const int leaf : leavesOf(child)) leaves.push_back(leaf);
+    return leaves;
+  }
+
+  bool hasCells(int grid) const {
+    const XdmfTopology* topology = topologyOf(grid);
+    if (!topology || topology->items.empty()) return false;
+    const int type = vtkTypeOfXdmf(topology->type);
+    const VtkCell& cell = vtkCell(type);
+    return type == 0 || (cell.fate == VtkCell::kKnown && dimensionOf(cell.kind.shape) == 3);
+  }
+
+  std::vector<int> chooseLeaves() {
+    for (int i = 0; i < gridCount(); ++i)
+      if (at(i).kind == XdmfGrid::kTemporal) return leavesOfStep(i);
+    for (int i = 0; i < gridCount(); ++i) {
+      if (at(i).parent >= 0) continue;
+      std::vector<int> leaves = leavesOf(i);
+      std::erase_if(leaves, [this](int leaf) { return !hasCells(leaf); });
+      if (!leaves.empty()) return leaves;
+    }
+    return {};
+  }
+
+  std::vector<int> leavesOfStep(int collection) {
+    const std::vector<int>& steps = childrenOf(collection);
+    if (steps.empty()) failFile(Status::kBadData, nameOf(collection) + " has no time steps");
+    const bool timed = std::all_of(steps.begin(), steps.end(),
+                                   [this](int step) { return at(step).time.has_value(); });
+    std::function<double(uint64_t)> time;
+    if (timed) time = [&](uint64_t step) { return *at(steps[static_cast<size_t>(step)]).time; };
+    step_count_ = steps.size();
+    step_ = static_cast<size_t>(chooseStep(mesh_, step_count_, options_, time));
+    return leavesOf(steps[step_]);
+  }
+
+  // ---------------------------------------------------------------------------------- includes
+
+  // The grid that an xpointer leads to: one of a name, perhaps one in it; without a name, or if
+  // there is none of it, the first one that has what is wanted. -1: none.
+  template <class Has>
+  int includedBy(const std::string& pointer, Has has) const {
+    const size_t name_at = pointer.find("@Name=");
+    int found = -1;
+    if (name_at != std::string::npos && name_at + 6 < pointer.size()) {
+      const size_t begin = name_at + 7, end = pointer.find(pointer[name_at + 6], begin);
+      const std::string name = pointer.substr(begin, end - begin);
+      for (int i = 0; i < gridCount() && found < 0; ++i)
+        if (at(i).name == name) found = i;
+      const size_t child = end == std::string::npos ? end : pointer.find("/Grid", end);
+      if (found >= 0 && child != std::string::npos) found = childOf(found, pointer.substr(child));
+    }
+    for (int i = 0; i < gridCount() && (found < 0 || !has(at(found))); ++i)
+      if (has(at(i))) found = i;
+    return found >= 0 && has(at(found)) ? found : -1;
+  }
+
+  // "/Grid[2]/..." is the second child.
+  int childOf(int grid, const std::string& path) const {
+    const std::vector<int>& children = childrenOf(grid);
+    const size_t number =
+        path.starts_with("/Grid[") ? std::strtoul(path.c_str() + 6, nullptr, 10) : 1;
+    return number >= 1 && number <= children.size() ? children[number - 1] : -1;
+  }
+
+  template <class Part>
+  const Part* partOf(int grid, std::optional<Part> XdmfGrid::*part, const char* word) const {
+    for (int i = 0; i < kMostIncludes; ++i) {
+      if (at(grid).*part) return &*(at(grid).*part);
+      int from = -1;
+      for (const std::string& pointer : at(grid).includes)
+        if (from < 0 && (pointer.find(word) != std::string::npos ||
+                         pointer.find("self::") == std::string::npos))
+          from = includedBy(pointer, [&](const XdmfGrid& g) {
+            return (g.*part).has_value() || (!g.includes.empty() && &g != &at(grid));
+          });
+      if (from < 0) return nullptr;
+      grid = from;
+    }
+    return nullptr;
+  }
+  const XdmfTopology* topologyOf(int grid) const {
+    return partOf(grid, &XdmfGrid::topology, "Topology");
+  }
+  const XdmfGeometry* geometryOf(int grid) const {
+    return partOf(grid, &XdmfGrid::geometry, "Geometry");
+  }
+
+  // ------------------------------------------------------------------------------------- pieces
+
+  MeshPiece readPiece(int grid) {
+    const XdmfTopology* topology = topologyOf(grid);
+    const XdmfGeometry* geometry = geometryOf(grid);
+    if (!topology || topology->items.empty() || !geometry || geometry->items.empty())
+      failFile(Status::kBadData, nameOf(grid) + " has no topology or no geometry");
+    if (vtkTypeOfXdmf(topology->type) < 0)
+      failFile(Status::kUnsupported, nameOf(grid) + " has a topology of the type \"" +
+                                         cutMeshName(topology->type) + "\", which is not read");
+    MeshPiece piece;
+    addPoints(*geometry, piece);
+    addXdmfCells(*topology, arrays_, options_.temp_dir, piece);
+    addAttributes(grid, piece);
+    return piece;
+  }
+
+  void addPoints(const XdmfGeometry& geometry, MeshPiece& piece) {
+    const bool apart = sameWord(geometry.type, "X_Y_Z") && geometry.items.size() == 3;
+    const uint64_t count = geometry.items[0].count();
+    if (!apart && (!sameWord(geometry.type, "XYZ") || count % 3 != 0))
+      failFile(Status::kUnsupported, "a geometry of the type \"" + cutMeshName(geometry.type) +
+                                         "\" is not read, or it has not three coordinates a point");
+    if (!apart) {
+      piece.point_count = count / 3;
+      piece.points = arrays_.arrayOf(geometry.items[0], "geometry", 3);
+      return;
+    }
+    piece.point_count = count;
+    std::vector<MeshArray> columns;
+    for (const XdmfItem& item : geometry.items)
+      columns.push_back(arrays_.arrayOf(item, "geometry", 1));
+    piece.points = MeshArray{"geometry", columns[0].type, 3, [columns, count](uint64_t) {
+                               std::vector<std::unique_ptr<Values>> opened;
+                               opened.reserve(columns.size());
+                               for (const MeshArray& column : columns)
+                                 opened.push_back(column.open(count));
+                               return openColumns(std::move(opened));
+                             }};
+  }
+
+  void addAttributes(int grid, MeshPiece& piece) {
+    for (const XdmfAttribute& attribute : at(grid).attributes) {
+      const bool of_points = sameWord(attribute.center, "Node");
+      const std::string shown = textOf("array \"%s\"", cutMeshName(attribute.name).c_str());
+      const uint64_t rows = of_points ? piece.point_count : piece.cell_count;
+      auto& list = of_points ? piece.point_data : piece.cell_data;
+      if (!of_points && !sameWord(attribute.center, "Cell")) {
+        mesh_.addNote(shown + " is left out: it is of " + cutMeshName(attribute.center));
+      } else if (attribute.is_function || attribute.items.size() != 1) {
+        mesh_.addNote(shown + " is left out: it is no list of values, but a function");
+      } else if (std::any_of(list.begin(), list.end(), [&](const MeshArray& other) {
+                   return other.name == cutMeshName(attribute.name);
+                 })) {
+        mesh_.addNote(shown + " is left out: there is another one of its name");
+      } else if (rows > 0) {
+        addAttribute(attribute, shown, rows, list);
+      }
+    }
+  }
+
+  void addAttribute(const XdmfAttribute& attribute, const std::string& shown, uint64_t rows,
+                    std::vector<MeshArray>& list) {
+    const uint64_t count = attribute.items[0].count(), components = count / rows;
+    if (count % rows != 0)
+      failFile(Status::kBadData, shown + " has " + std::to_string(count) + " values for " +
+                                     std::to_string(rows) + " rows");
+    if (components < 1 || components > 9)
+      return mesh_.addNote(shown + " is left out: it has " + std::to_string(components) +
+                           " components, 1 to 9 are possible");
+    list.push_back(arrays_.arrayOf(attribute.items[0],
+                                   attribute.name.empty() ? "values" : attribute.name,
+                                   static_cast<int>(components)));
+  }
+
+  // --------------------------------------------------------------------------------- the others
+
+  // What else is on the same mesh: other functions, each in a collection or a grid of its own.
+  void addOthers(int leaf, MeshPiece& piece) {
+    const std::string mesh = placeOf(leaf);
+    int others = 0;
+    for (int i = 0; i < gridCount(); ++i) {
+      std::vector<int> grids;
+      if (at(i).kind == XdmfGrid::kTemporal) {
+        const std::vector<int>& steps = childrenOf(i);
+        if (steps.size() == step_count_) grids = leavesOf(steps[step_]);
+        if (steps.size() != step_count_)
+          mesh_.addNote(nameOf(i) + " is left out: it has other time steps");
+      } else if (at(i).parent < 0) {
+        grids = leavesOf(i);
+      }
+      for (const int grid : grids) {
+        if (grid == leaf) continue;
+        if (++others > kMostOthers)
+          failFile(Status::kUnsupported, "there are too many grids beside " + nameOf(leaf));
+        if (placeOf(grid) == mesh)
+          addAttributes(grid, piece);
+        else
+          mesh_.addNote(nameOf(grid) + " is left out: it has another mesh");
+      }
+    }
+  }
+
+  std::string placeOf(int grid) {
+    const XdmfTopology* topology = topologyOf(grid);
+    const XdmfGeometry* geometry = geometryOf(grid);
+    if (!topology || topology->items.empty() || !geometry || geometry->items.empty()) return "";
+    return arrays_.placeOf(topology->items[0]) + " " + arrays_.placeOf(geometry->items[0]);
+  }
+
+  // Where all are tetrahedra, they need no types and stay where they are.
+  void takeForm(std::vector<MeshPiece>& pieces) {
+    const auto isTetrahedra = [](const MeshPiece& piece) {
+      int64_t type = 0;
+      if (piece.cell_count == 0) return true;
+      if (!piece.types || piece.types->type != ValueType::kInt32) return false;
+      piece.types->open(piece.cell_count)->read(0, 1, &type, ScalarType::kInt64);
+      return type == kVtkTetra;
+    };
+    mesh_.form = CellForm::kOffsets;
+    if (!std::all_of(pieces.begin(), pieces.end(), isTetrahedra)) return;
+    mesh_.form = CellForm::kTetrahedra;
+    for (MeshPiece& piece : pieces) piece.connectivity->components = 4;
+  }
+
+  const ReadOptions& options_;
+  MeshPieces& mesh_;
+  XdmfArrays arrays_;
+  std::vector<XdmfGrid> grids_;
+  std::vector<std::vector<int>> children_;  // of each
+  size_t step_count_ = 0, step_ = 0;
+};
+
+}  // namespace
+
+Input openXdmf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
+  const std::shared_ptr<ByteSource> shared = makeSeekable(std::move(bytes), options.temp_dir);
+  MeshPieces mesh;
+  Xdmf(shared, options, mesh).read();
+  Input input;
+  input.indexed = openPiecedMesh(std::move(mesh), options);
+  return input;
+}
+
+}  // namespace tetstream

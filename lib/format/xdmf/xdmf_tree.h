@@ -1,0 +1,54 @@
+// format/xdmf: what an XDMF file says, before any value of it is read. Depends on xml_feed.h.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "xml_feed.h"
+
+namespace tetstream {
+
+// Values: text of the file itself, or the name of a dataset in another one.
+struct XdmfItem {
+  std::string format = "XML", kind = "Float";  // "HDF"; "Int", "UInt", "Char", "UChar"
+  uint64_t precision = 4;                      // bytes
+  std::vector<uint64_t> sizes;
+  uint64_t begin = 0, end = 0;  // of the text, in bytes of the file
+
+  uint64_t count() const;
+};
+
+struct XdmfAttribute {
+  std::string name, center = "Node";
+  bool is_function = false;  // of a finite element space, with more than values at the nodes
+  std::vector<XdmfItem> items;
+};
+
+struct XdmfTopology {
+  std::string type;  // "Tetrahedron"
+  std::vector<XdmfItem> items;
+};
+
+struct XdmfGeometry {
+  std::string type = "XYZ";
+  std::vector<XdmfItem> items;
+};
+
+struct XdmfGrid {
+  std::string name;
+  enum Kind { kUniform, kTemporal, kSpatial } kind = kUniform;
+  int parent = -1;  // in the list of all
+  std::optional<double> time;
+  std::optional<XdmfTopology> topology;
+  std::optional<XdmfGeometry> geometry;
+  std::vector<XdmfAttribute> attributes;
+  std::vector<std::string> includes;  // xpointers to what the grid takes from others
+};
+
+// All grids in the order of the file, each after the one that it is in.
+std::vector<XdmfGrid> readXdmf(ByteSource& bytes);
+
+bool sameWord(const std::string& a, const char* b);  // but for the case
+
+}  // namespace tetstream

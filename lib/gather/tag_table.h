@@ -1,0 +1,56 @@
+// gather: where the points and cells of a file went that numbers them at will. Depends on
+// row_spool.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "row_spool.h"
+
+namespace tetstream {
+
+// Ranks of tags. Most files count on, so what is kept are runs of tags whose ranks follow each
+// other; when they are many, they are sorted in a temporary file. Memory does not grow with them,
+// but for a number per 256 runs.
+class TagTable {
+ public:
+  explicit TagTable(const std::string& temp_dir) : temp_dir_(temp_dir) {}
+
+  // The tag's ranks are [first, first + count), count possibly 0.
+  void add(int64_t tag, int64_t first, int64_t count = 1);
+  // Before the first look. Returns a tag that was added twice in *twice, or true.
+  bool finish(int64_t* twice);
+
+  // False: there is no such tag. Looks near each other are the fast ones.
+  bool find(int64_t tag, int64_t* first, int64_t* count);
+  bool find(int64_t tag, int64_t* rank) {
+    if (tag >= last_.tag && tag - last_.tag < last_.tags) {
+      *rank = last_.first + (tag - last_.tag) * last_.step;
+      return true;
+    }
+    int64_t count;
+    return find(tag, rank, &count);
+  }
+
+ private:
+  struct Run {
+    int64_t tag = 0, first = 0, tags = 0, step = 0;  // ranks per tag
+  };
+  void spill();
+  void merge();
+  uint64_t runs() const { return spool_ ? spool_->rows() : runs_.size(); }
+  Run runAt(uint64_t index);
+  uint64_t lastNotAbove(int64_t tag);
+
+  std::string temp_dir_;
+  std::vector<Run> runs_;
+  std::unique_ptr<SpoolFile> chunks_;  // sorted, each of kHeldRuns
+  std::unique_ptr<RowSpool> spool_;    // all runs, sorted
+  std::vector<int64_t> samples_;       // the tag of every kSampledRuns-th run in it
+  uint64_t at_ = 0;                    // of the run last found
+  Run last_;
+};
+
+}  // namespace tetstream

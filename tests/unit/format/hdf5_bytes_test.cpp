@@ -1,0 +1,198 @@
+// Datasets of HDF5 in every layout, filter and byte order that we read, made by libhdf5 itself, and
+// some that lie.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <numeric>
+
+#include "hdf5_bytes.h"
+#include "hdf5_testing.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+constexpr hsize_t kRows = 1000, kColumns = 3;
+
+struct Kind {
+  const char* name;
+  std::function<void(const Hdf5Library&, hid_t plan)> plan;
+  const char* type = "H5T_NATIVE_INT_g";  // as it is stored
+};
+
+std::vector<int64_t> numbers() {
+  std::vector<int64_t> all(kRows * kColumns);
+  for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int64_t>(i * i % 7919) - 4000;
+  return all;
+}
+
+void chunks(const Hdf5Library& h, hid_t plan, hsize_t rows, hsize_t columns) {
+  const hsize_t chunk[2] = {rows, columns};
+  ASSERT_GE(h.call<herr_t(hid_t, int, const hsize_t*)>("H5Pset_chunk")(plan, 2, chunk), 0);
+}
+void filter(const Hdf5Library& h, hid_t plan, const char* setter) {
+  ASSERT_GE(h.call<herr_t(hid_t)>(setter)(plan), 0);
+}
+void deflate(const Hdf5Library& h, hid_t plan) {
+  ASSERT_GE(h.call<herr_t(hid_t, unsigned)>("H5Pset_deflate")(plan, 6), 0);
+}
+
+// A file with the dataset "a" of `numbers()`.
+std::string makeFile(const Kind& kind) {
+  std::string bytes;
+  Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
+  {
+    const Hdf5Turn turn;
+    const Hdf5Library h;
+    const Hdf5Id plan(hdf5().Pcreate(hdf5().P_CLS_DATASET_CREATE_ID), hdf5().Pclose);
+    kind.plan(h, plan);
+    const hsize_t sizes[2] = {kRows, kColumns};
+    const Hdf5Id space(hdf5().Screate_simple(2, sizes, nullptr), hdf5().Sclose);
+    const Hdf5Id set = file.create("a", h.number(kind.type), space, plan);
+    EXPECT_GE(
+        hdf5().Dwrite(set, hdf5().T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers().data()),
+        0);
+  }
+  file.close();
+  return bytes;
+}
+
+std::shared_ptr<Hdf5File> open(const std::string& bytes) {
+  return openHdf5(openMemory(bytes.data(), bytes.size(), "made"));
+}
+
+std::vector<int64_t> readWhole(const std::string& bytes) {
+  std::vector<int64_t> all(kRows * kColumns);
+  openHdf5Values(open(bytes), "a", 0)->read(0, all.size(), all.data(), ScalarType::kInt64);
+  return all;
+}
+
+std::string refusal(const std::string& bytes) {
+  try {
+    readWhole(bytes);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+const Kind kKinds[] = {
+    {"contiguous", [](const Hdf5Library&, hid_t) {}},
+    {"contiguous, big-endian", [](const Hdf5Library&, hid_t) {}, "H5T_STD_I64BE_g"},
+    {"compact",
+     [](const Hdf5Library& h, hid_t plan) {
+       h.call<herr_t(hid_t, H5D_layout_t)>("H5Pset_layout")(plan, H5D_COMPACT);
+     },
+     "H5T_STD_I16LE_g"},
+    {"whole rows", [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, 64, kColumns); }},
+    {"some columns", [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, 129, 2); }},
+    {"one chunk", [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, kRows, kColumns); }},
+    {"deflate",
+     [](const Hdf5Library& h, hid_t plan) {
+       chunks(h, plan, 100, 3);
+       deflate(h, plan);
+     }},
+    {"shuffle, deflate, big-endian",
+     [](const Hdf5Library& h, hid_t plan) {
+       chunks(h, plan, 100, 1);
+       filter(h, plan, "H5Pset_shuffle");
+       deflate(h, plan);
+     },
+     "H5T_STD_I32BE_g"},
+    {"fletcher32 of bytes in odd number",
+     [](const Hdf5Library& h, hid_t plan) {
+       chunks(h, plan, 333, 3);
+       filter(h, plan, "H5Pset_fletcher32");
+     },
+     "H5T_STD_I16LE_g"},
+    {"fletcher32, shuffle, deflate",
+     [](const Hdf5Library& h, hid_t plan) {
+       chunks(h, plan, 501, 2);
+       filter(h, plan, "H5Pset_fletcher32");
+       filter(h, plan, "H5Pset_shuffle");
+       deflate(h, plan);
+     }},
+};
+
+TEST(Hdf5Bytes, ReadsWhatTheLibraryWrote) {
+  for (const Kind& kind : kKinds) {
+    const std::string bytes = makeFile(kind);
+    const std::vector<int64_t> expected = numbers();
+    for (const size_t step : {size_t{7}, size_t{1000}, expected.size()}) {
+      const auto values = openHdf5Values(open(bytes), "a", 0);
+      std::vector<int64_t> all(expected.size());
+      for (size_t at = 0; at < all.size(); at += step)
+        values->read(at, std::min(step, all.size() - at), all.data() + at, ScalarType::kInt64);
+      EXPECT_EQ(all, expected) << kind.name << " by " << step;
+    }
+    const auto values = openHdf5Values(open(bytes), "a", 100);
+    int64_t one = 0;
+    values->read(5, 1, &one, ScalarType::kInt64);
+    EXPECT_EQ(one, expected[105]) << kind.name;
+  }
+}
+
+TEST(Hdf5Bytes, FillsChunksThatWereNeverWritten) {
+  std::string bytes;
+  {
+    Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
+    {
+      const Hdf5Turn turn;
+      const Hdf5Library h;
+      const Hdf5Id plan(hdf5().Pcreate(hdf5().P_CLS_DATASET_CREATE_ID), hdf5().Pclose);
+      chunks(h, plan, 10, kColumns);
+      const int32_t fill = -5;
+      h.call<herr_t(hid_t, hid_t, const void*)>("H5Pset_fill_value")(plan, hdf5().T_NATIVE_INT32,
+                                                                     &fill);
+      const hsize_t sizes[2] = {kRows, kColumns}, start[2] = {500, 0}, some[2] = {20, kColumns};
+      const Hdf5Id space(hdf5().Screate_simple(2, sizes, nullptr), hdf5().Sclose);
+      const Hdf5Id part(hdf5().Screate_simple(2, some, nullptr), hdf5().Sclose);
+      hdf5().Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, some, nullptr);
+      const Hdf5Id set = file.create("a", hdf5().T_NATIVE_INT32, space, plan);
+      const std::vector<int64_t> ones(20 * kColumns, 1);
+      hdf5().Dwrite(set, hdf5().T_NATIVE_INT64, part, space, H5P_DEFAULT, ones.data());
+    }
+    file.close();
+  }
+  std::vector<int64_t> expected(kRows * kColumns, -5);
+  std::fill_n(expected.begin() + 500 * kColumns, 20 * kColumns, 1);
+  EXPECT_EQ(readWhole(bytes), expected);
+}
+
+TEST(Hdf5Bytes, NamesTheChunkThatIsDamaged) {
+  for (const size_t kind : {6, 8}) {  // deflate, fletcher32
+    std::string bytes = makeFile(kKinds[kind]);
+    // Most of the file is chunks; in the middle there is nothing else.
+    for (size_t i = 0; i < 16; ++i) bytes[bytes.size() / 2 + i] ^= 0x55;
+    EXPECT_NE(refusal(bytes).find("made: dataset \"a\": the chunk of row "), std::string::npos)
+        << kKinds[kind].name << ": " << refusal(bytes);
+  }
+}
+
+TEST(Hdf5Bytes, RefusesFiltersThatItCannotUndo) {
+  const std::string bytes = makeFile({"scale and offset", [](const Hdf5Library& h, hid_t plan) {
+                                        chunks(h, plan, 100, 3);
+                                        filter(h, plan, "H5Pset_nbit");
+                                      }});
+  EXPECT_EQ(refusal(bytes),
+            "made: dataset \"a\" has HDF5's filter 5 (\"nbit\"); deflate, shuffle and fletcher32 "
+            "are read");
+}
+
+// What the head of the chunks says of the size of an element is not what the type says: libhdf5
+// makes room for the one and copies the other.
+TEST(Hdf5Bytes, DoesNotBelieveTheHeadOfTheChunks) {
+  std::string bytes = makeFile(kKinds[3]);
+  const std::string head("\x40\0\0\0\x03\0\0\0\x04\0\0\0", 12);  // rows, columns, element
+  size_t changed = 0;
+  for (size_t at = bytes.find(head); at != std::string::npos; at = bytes.find(head, at + 1)) {
+    bytes[at + 8] = 1;
+    ++changed;
+  }
+  ASSERT_GE(changed, 1u);
+  EXPECT_EQ(readWhole(bytes), numbers());
+}
+
+}  // namespace
+}  // namespace tetstream
