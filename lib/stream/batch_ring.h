@@ -7,8 +7,7 @@
 
 namespace tetstream {
 
-// Batches that may wait at once, of kBatchCells 1.2 MB, and bytes beyond which no other is taken.
-constexpr size_t kBatchesOnTheWay = 8;
+// Beyond so many bytes no other batch is taken.
 constexpr size_t kBytesOnTheWay = size_t{2} << 20;
 // A stream of fewer batches is worth no other thread.
 constexpr size_t kBatchesOfOneThread = 2;
@@ -17,18 +16,18 @@ constexpr size_t kBatchesOfOneThread = 2;
 // without a lock, and what `first` gives looked at, until they are counted in or dropped.
 class BatchRing {
  public:
-  explicit BatchRing(const Schema& schema) {
-    for (size_t i = 0; i < kBatchesOnTheWay; ++i) batches_.emplace_back(schema, account_);
+  BatchRing(const Schema& schema, size_t most) : most_(most) {
+    for (size_t i = 0; i < most; ++i) batches_.emplace_back(schema, account_);
   }
   bool empty() const { return count_ == 0; }
-  bool full() const { return count_ == kBatchesOnTheWay || bytes_ >= kBytesOnTheWay; }
+  bool full() const { return count_ == most_ || bytes_ >= kBytesOnTheWay; }
   BatchCopy& first() { return batches_[first_]; }
   void dropFirst() {
     bytes_ -= first().bytes();
-    first_ = (first_ + 1) % kBatchesOnTheWay;
+    first_ = (first_ + 1) % most_;
     --count_;
   }
-  BatchCopy& last() { return batches_[(first_ + count_) % kBatchesOnTheWay]; }
+  BatchCopy& last() { return batches_[(first_ + count_) % most_]; }
   void countLast() {
     bytes_ += last().bytes();
     ++count_;
@@ -39,6 +38,7 @@ class BatchRing {
   }
 
  private:
+  const size_t most_;
   Account account_;
   std::deque<BatchCopy> batches_;
   size_t first_ = 0, count_ = 0, bytes_ = 0;

@@ -12,7 +12,7 @@ namespace tetstream {
 // closed.
 class ReadAhead::Queue final : public Work {
  public:
-  explicit Queue(Source& in) : in_(in), ring_(in.schema()) {}
+  explicit Queue(Source& in) : in_(in), ring_(in.schema(), kBatchesAhead) {}
 
   void run() noexcept override {
     std::unique_lock<std::mutex> lock(mutex_);

@@ -11,7 +11,7 @@ namespace tetstream {
 // As a piece of work: writes what waits. One that comes late finds nothing.
 class WriteBehind::Queue final : public Work {
  public:
-  Queue(Sink& out, const Schema& schema) : out_(out), ring_(schema) {}
+  Queue(Sink& out, const Schema& schema) : out_(out), ring_(schema, kBatchesBehind) {}
 
   void run() noexcept override {
     std::unique_lock<std::mutex> lock(mutex_);

@@ -8,6 +8,9 @@
 
 namespace tetstream {
 
+// Batches that may wait at once. Few are enough: the reduced mesh is small.
+constexpr size_t kBatchesBehind = 4;
+
 // Hands on to `out` what it is given, batch by batch; what `out` throws comes with a later call.
 // Borrows both. `out` is called by one thread at a time, which for `put` may be another one than
 // the caller's, some batches later; short streams are written by the caller's thread.

@@ -117,7 +117,7 @@ TEST(ReadAhead, ReadsNothingBeforeItIsAskedAndFewBatchesBeyond) {
   for (size_t asked = 1; asked <= 20; ++asked) {
     EXPECT_TRUE(ahead.next(batch));
     // The one that is handed out counts among those that may wait.
-    EXPECT_EQ(in.given, asked <= kBatchesOfOneThread ? asked : asked + kBatchesOnTheWay - 1);
+    EXPECT_EQ(in.given, asked <= kBatchesOfOneThread ? asked : asked + kBatchesAhead - 1);
   }
 }
 
@@ -137,7 +137,7 @@ TEST(ReadAhead, HoldsFewLargeBatches) {
   Cut cut;
   cut.batch_cells = 40000;
   MeshStream in(mesh, cut);
-  BatchRing ring(in.schema());
+  BatchRing ring(in.schema(), kBatchesAhead);
   BatchView batch;
   EXPECT_TRUE(in.next(batch));
   ring.last().take(batch);

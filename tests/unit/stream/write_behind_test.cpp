@@ -86,7 +86,7 @@ TEST(WriteBehind, TellsAnErrorSoonAndWritesNothingAfterIt) {
         EXPECT_EQ(error.status(), Status::kIo);
         EXPECT_EQ(error.text(), textOf("batch %zu", fails_at));
       }
-      EXPECT_LE(put, fails_at + kBatchesOnTheWay + 1);
+      EXPECT_LE(put, fails_at + kBatchesBehind + 1);
       EXPECT_FALSE(sink.out.finished);
       lazy.workAll();
     }
@@ -103,7 +103,7 @@ TEST(WriteBehind, LetsFewBatchesWait) {
   BatchView batch;
   for (size_t put = 1; in.next(batch); ++put) {
     behind.put(batch);
-    EXPECT_GE(sink.taken + kBatchesOnTheWay, put);
+    EXPECT_GE(sink.taken + kBatchesBehind, put);
     EXPECT_GE(sink.taken, std::min(put, kBatchesOfOneThread));
   }
   EXPECT_EQ(lazy.waiting.size(), 1u);
