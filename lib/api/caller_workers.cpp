@@ -33,7 +33,7 @@ class CallerWorkers final : public Workers {
     } catch (...) {  // it did not take it either
       return false;
     }
-    ticket.release();  // runTicket has it
+    static_cast<void>(ticket.release());  // runTicket has it
     return true;
   }
 
