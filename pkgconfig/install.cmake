@@ -10,6 +10,10 @@ install(TARGETS tetstream_static EXPORT tetstreamStaticTargets
 install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../include/tetstream
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")
 
+install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../tests/examples/
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development
+  FILES_MATCHING PATTERN "*.c" PATTERN "README.md")
+
 # A program in C that links the static library needs the C++ library, too.
 target_link_libraries(tetstream_static INTERFACE $<INSTALL_INTERFACE:stdc++>
                                                  $<INSTALL_INTERFACE:m>)

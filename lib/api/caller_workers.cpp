@@ -1,20 +1,15 @@
 #include "caller_workers.h"
 
-#include <new>
-#include <utility>
-
 #include "guard.h"
 #include "option_values.h"
 
 namespace tetstream {
 
-// A piece of work on its way through the caller's pool.
-using Ticket = std::shared_ptr<Work>;
-
 extern "C" {
-static void runTicket(void* argument) {
-  const std::unique_ptr<Ticket> ticket(static_cast<Ticket*>(argument));
-  (*ticket)->run();
+static void runWork(void* argument) {
+  Work* const work = static_cast<Work*>(argument);
+  work->run();
+  work->drop();
 }
 }
 
@@ -26,15 +21,14 @@ class CallerWorkers final : public Workers {
 
   size_t threads() const override { return static_cast<size_t>(callbacks_.threads); }
 
-  bool submit(std::shared_ptr<Work> work) noexcept override {
-    std::unique_ptr<Ticket> ticket(new (std::nothrow) Ticket(std::move(work)));
+  bool submit(Kept<Work> work) noexcept override {
+    work->keep();  // until runWork was called
     try {
-      if (!ticket || callbacks_.submit(callbacks_.user, runTicket, ticket.get()) != 0) return false;
+      if (callbacks_.submit(callbacks_.user, runWork, work.get()) == 0) return true;
     } catch (...) {  // it did not take it either
-      return false;
     }
-    static_cast<void>(ticket.release());  // runTicket has it
-    return true;
+    work->drop();
+    return false;
   }
 
  private:

@@ -84,7 +84,7 @@ Tasks::Tasks(size_t threads, Workers* brought)
     : threads_(std::max<size_t>(threads, 1)),
       own_(brought ? nullptr : startWorkers(threads_ - 1)),
       workers_(brought ? brought : own_.get()),
-      parts_(std::make_shared<Parts>()) {}
+      parts_(new Parts) {}
 
 Tasks::~Tasks() = default;
 
@@ -92,7 +92,7 @@ void Tasks::forParts(size_t count, const std::function<void(size_t)>& work) cons
   if (count == 0) return;
   const size_t more = parts_->begin(count, work, std::min(threads_, count) - 1);
   for (size_t i = 0; i < more; ++i)
-    if (!submit(parts_)) parts_->countRefused();
+    if (!submit(parts_.get())) parts_->countRefused();
   parts_->finish();
 }
 

@@ -25,14 +25,14 @@ class Tasks {
   // the first of them threw that did. Not from within.
   void forParts(size_t count, const std::function<void(size_t)>& work) const;
   // Has the work run beside what the caller does; false: nobody will.
-  bool submit(std::shared_ptr<Work> work) const { return workers_->submit(std::move(work)); }
+  bool submit(Work* work) const { return workers_->submit(Kept<Work>(work)); }
 
  private:
   class Parts;
   size_t threads_;
   std::unique_ptr<Workers> own_;
   Workers* workers_;
-  std::shared_ptr<Parts> parts_;
+  Kept<Parts> parts_;
 };
 
 }  // namespace tetstream

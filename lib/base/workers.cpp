@@ -40,7 +40,7 @@ class OwnWorkers final : public Workers {
 
   size_t threads() const override { return most_; }
 
-  bool submit(std::shared_ptr<Work> work) noexcept override {
+  bool submit(Kept<Work> work) noexcept override {
     try {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (waiting_ <= queue_.size() && threads_.size() < most_) start();
@@ -70,11 +70,12 @@ class OwnWorkers final : public Workers {
       given_.wait(lock, [this] { return is_over_ || !queue_.empty(); });
       --waiting_;
       if (is_over_) return;
-      std::shared_ptr<Work> work = std::move(queue_.front());
-      queue_.pop_front();
-      lock.unlock();
-      work->run();
-      work.reset();
+      {
+        const Kept<Work> work = std::move(queue_.front());
+        queue_.pop_front();
+        lock.unlock();
+        work->run();
+      }
       lock.lock();
     }
   }
@@ -82,7 +83,7 @@ class OwnWorkers final : public Workers {
   const size_t most_;
   std::mutex mutex_;
   std::condition_variable given_;
-  std::deque<std::shared_ptr<Work>> queue_;
+  std::deque<Kept<Work>> queue_;
   size_t waiting_ = 0;  // threads that have nothing to do
   bool is_over_ = false;
   std::vector<std::thread> threads_;

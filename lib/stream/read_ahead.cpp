@@ -95,7 +95,7 @@ class ReadAhead::Queue final : public Work {
 };
 
 ReadAhead::ReadAhead(Source& in, const Tasks& tasks)
-    : tasks_(tasks), schema_(in.schema()), queue_(std::make_shared<Queue>(in)) {}
+    : tasks_(tasks), schema_(in.schema()), queue_(new Queue(in)) {}
 
 ReadAhead::~ReadAhead() {
   queue_->close();
@@ -103,7 +103,7 @@ ReadAhead::~ReadAhead() {
 
 bool ReadAhead::next(BatchView& batch) {
   if (!queue_->next(batch)) return false;
-  if (++asked_ > kBatchesOfOneThread && queue_->ask() && !tasks_.submit(queue_))
+  if (++asked_ > kBatchesOfOneThread && queue_->ask() && !tasks_.submit(queue_.get()))
     queue_->countRefused();
   return true;
 }

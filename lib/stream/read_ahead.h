@@ -2,8 +2,6 @@
 // tasks.h.
 #pragma once
 
-#include <memory>
-
 #include "source.h"
 #include "tasks.h"
 
@@ -29,7 +27,7 @@ class ReadAhead final : public Source {
   const Tasks& tasks_;
   const Schema schema_;
   size_t asked_ = 0;  // batches
-  std::shared_ptr<Queue> queue_;
+  Kept<Queue> queue_;
 };
 
 }  // namespace tetstream

@@ -96,22 +96,23 @@ class WriteBehind::Queue final : public Work {
 WriteBehind::WriteBehind(Sink& out, const Tasks& tasks) : out_(out), tasks_(tasks) {}
 
 WriteBehind::~WriteBehind() {
-  if (queue_) queue_->close();
+  if (queue_) (*queue_)->close();
 }
 
 void WriteBehind::begin(const Schema& schema) {
   out_.begin(schema);
-  queue_ = std::make_shared<Queue>(out_, schema);
+  queue_.emplace(new Queue(out_, schema));
 }
 
 void WriteBehind::put(const BatchView& batch) {
   if (++put_ <= kBatchesOfOneThread) return out_.put(batch);
-  queue_->put(batch);
-  if (queue_->ask() && !tasks_.submit(queue_)) queue_->countRefused();
+  Queue& queue = *queue_->get();
+  queue.put(batch);
+  if (queue.ask() && !tasks_.submit(&queue)) queue.countRefused();
 }
 
 void WriteBehind::settle() {
-  if (queue_) queue_->settle();
+  if (queue_) (*queue_)->settle();
 }
 
 void WriteBehind::finish() {

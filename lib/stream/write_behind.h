@@ -1,7 +1,7 @@
 // stream: batches that are written while the next ones are made. Depends on source.h, tasks.h.
 #pragma once
 
-#include <memory>
+#include <optional>
 
 #include "source.h"
 #include "tasks.h"
@@ -28,8 +28,8 @@ class WriteBehind final : public Sink {
   class Queue;
   Sink& out_;
   const Tasks& tasks_;
-  size_t put_ = 0;  // batches
-  std::shared_ptr<Queue> queue_;
+  size_t put_ = 0;                    // batches
+  std::optional<Kept<Queue>> queue_;  // once it has begun
 };
 
 }  // namespace tetstream

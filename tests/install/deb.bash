@@ -68,8 +68,9 @@ for package in $PACKAGES; do
   [[ -s $root/usr/share/doc/$package/copyright ]] || fail "$package has no licence"
 done
 for file in share/bash-completion/completions/tetstream share/zsh/site-functions/_tetstream \
-  share/fish/vendor_completions.d/tetstream.fish share/man/man1/tetstream.1.gz \
-  share/man/man3/tetstream_simplifier_run.3.gz "lib/$MULTIARCH/libtetstream.a"; do
+  share/fish/vendor_completions.d/tetstream.fish share/man/man1/tetstream.1.gz share/man/man1/tetstream-simplify.1.gz \
+  share/man/man3/tetstream_simplifier_run.3.gz \
+  share/doc/tetstream/examples/tutorial/01_files.c "lib/$MULTIARCH/libtetstream.a"; do
   [[ -s $root/usr/$file ]] || fail "$file is not there"
 done
 if grep -rlIF -e "$BUILD" -e "$WORK" -- "$root/usr"; then

@@ -10,7 +10,7 @@ namespace tetstream::test {
 class NoWorkers final : public Workers {
  public:
   size_t threads() const override { return 3; }
-  bool submit(std::shared_ptr<Work>) noexcept override {
+  bool submit(Kept<Work>) noexcept override {
     ++refused;
     return false;
   }
@@ -20,7 +20,7 @@ class NoWorkers final : public Workers {
 class HastyWorkers final : public Workers {
  public:
   size_t threads() const override { return 3; }
-  bool submit(std::shared_ptr<Work> work) noexcept override {
+  bool submit(Kept<Work> work) noexcept override {
     work->run();
     return true;
   }
@@ -30,14 +30,14 @@ class HastyWorkers final : public Workers {
 class LazyWorkers final : public Workers {
  public:
   size_t threads() const override { return 3; }
-  bool submit(std::shared_ptr<Work> work) noexcept override {
+  bool submit(Kept<Work> work) noexcept override {
     waiting.push_back(std::move(work));
     return true;
   }
   void workAll() {
-    for (const std::shared_ptr<Work>& work : std::exchange(waiting, {})) work->run();
+    for (const Kept<Work>& work : std::exchange(waiting, {})) work->run();
   }
-  std::vector<std::shared_ptr<Work>> waiting;
+  std::vector<Kept<Work>> waiting;
 };
 
 }  // namespace tetstream::test

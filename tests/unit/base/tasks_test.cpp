@@ -115,9 +115,9 @@ class Counting final : public Work {
 TEST(Tasks, RunWorkBesideTheCaller) {
   std::atomic<int> ran = 0;
   const Tasks tasks(3);
-  for (int i = 0; i < 100; ++i) EXPECT_TRUE(tasks.submit(std::make_shared<Counting>(ran)));
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(tasks.submit(new Counting(ran)));
   while (ran < 100) std::this_thread::yield();
-  EXPECT_FALSE(Tasks(1).submit(std::make_shared<Counting>(ran)));
+  EXPECT_FALSE(Tasks(1).submit(new Counting(ran)));
 }
 
 TEST(Tasks, KnowAtLeastOneCore) {
