@@ -33,8 +33,8 @@ class OwnWorkers final : public Workers {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       is_over_ = true;
+      given_.notify_all();
     }
-    given_.notify_all();
     for (std::thread& thread : threads_) thread.join();
   }
 
@@ -46,10 +46,10 @@ class OwnWorkers final : public Workers {
       if (waiting_ <= queue_.size() && threads_.size() < most_) start();
       if (threads_.empty()) return false;
       queue_.push_back(std::move(work));
+      given_.notify_one();
     } catch (const std::exception&) {  // no memory: the caller does it
       return false;
     }
-    given_.notify_one();
     return true;
   }
 
