@@ -28,8 +28,10 @@
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   A handle is used by one thread at a time; different handles may be used at once, also a reader
  *   and a writer of different simplifiers. There is no global state. A simplifier starts threads of
- *   its own (option `threads`); callbacks are called on the caller's thread, and the threads end
- *   with the simplifier.
+ *   its own (option `threads`), which end with it, or uses the
+ *   caller's (tetstream_options_set_pool): they simplify, and read and write some batches
+ *   ahead and behind. Callbacks are called on the caller's thread alone, and so are pipes and all
+ *   else that may wait for somebody read and written there; with the option `memory` everything.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
  *
@@ -118,7 +120,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
-#define TETSTREAM_OPTION_THREADS 203         /* int64, that simplify; 0: one for each core */
+#define TETSTREAM_OPTION_THREADS 203         /* int64, at work at once; 0: one for each core */
 #define TETSTREAM_OPTION_AXIS 210            /* text: of order "spatial": "auto", "x", "y", "z" */
 #define TETSTREAM_OPTION_ORDER 211           /* text: of the input: "auto", "none", "spatial", ... */
 #define TETSTREAM_OPTION_SPLIT 220           /* text: other cells into tetrahedra: "no", "yes" */
@@ -181,6 +183,30 @@ TETSTREAM_API tetstream_status tetstream_options_get_text(const tetstream_option
  * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_add_field(tetstream_options *options,
                                                            const char *name, double weight);
+/* Threads of the caller's, in place of those that a simplifier would start. Members may be added at
+ * the end in later versions; struct_size says which ones the caller knows. Results do not depend on
+ * the pool. */
+typedef struct tetstream_pool_callbacks {
+  size_t struct_size;
+  void *user;
+  /* Threads that may be at work beside the one that calls the library, 0 to 1024. */
+  int32_t threads;
+  /* Required. Takes a piece of work: `work(argument)` is to be called once, on any thread, at any
+   * time: at once, within `submit`, too. Returns 0; or another value if it does not take it, and
+   * then must not call it. Called on the thread that calls the library, while it does. No work
+   * waits for other work to begin, and no call of the library for work that has not begun: it does
+   * that itself. So a pool may be busy with other things, or with the very calls of the library.
+   * Work that is late, even after its handles were destroyed, finds nothing left to do; what is
+   * never called stays allocated. */
+  int32_t (*submit)(void *user, void (*work)(void *argument), void *argument);
+} tetstream_pool_callbacks;
+
+/* Simplifiers with these options start no thread, but give work to the pool. The option `threads`
+ * then says how many are at work at once, the caller's among them; 0: those of the pool and the
+ * caller's. The table is copied; `user` must stay as long as the options and what was created with
+ * them. NULL: threads of the library again. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_options_set_pool(tetstream_options *options,
+                                                          const tetstream_pool_callbacks *pool);
 /* The sentence for the last failure with this handle, "" if there was none. Lives until the next
  * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_options_message(const tetstream_options *options);

@@ -1,18 +1,11 @@
 #include "handles.h"
 
-#include <iterator>
-
 namespace tetstream {
 
 Output& outputOf(const tetstream_writer& writer) {
   needCreated(writer);
   if (!writer.output) failState(writer.kNoun, writer.state);
   return *writer.output;
-}
-
-const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept {
-  if (index < 0 || static_cast<size_t>(index) >= notes.size()) return nullptr;
-  return std::next(notes.begin(), index)->c_str();
 }
 
 static void closeInput(tetstream_reader& reader) noexcept {
@@ -46,9 +39,11 @@ Input& ReaderUse::input(bool rounded, const std::string& temp_dir) {
   Input* input = &reader_.input;
   if (reader_.callbacks && reader_.callbacks->indexed()) {
     collected_.indexed = spoolStream(*input->stream, temp_dir, [](double) {});
+    collected_.stays_with_caller = false;
     input = &collected_;
   }
   if (!rounded) return *input;
+  rounded_.stays_with_caller = input->stays_with_caller;
   if (input->stream) rounded_.stream = std::make_unique<RoundingSource>(*input->stream);
   if (input->indexed) rounded_.indexed = std::make_unique<RoundingIndexedSource>(*input->indexed);
   return rounded_;

@@ -42,6 +42,7 @@ struct tetstream_writer : tetstream::Handle {
 struct tetstream_simplifier : tetstream::Handle {
   static constexpr const char* kNoun = "simplifier";
   tetstream::RunOptions options;
+  std::shared_ptr<tetstream::Workers> workers;  // of the options
   // Shared with the writer, so that the handles can be destroyed in any order.
   std::shared_ptr<tetstream::Output> output;
   tetstream_progress_callback progress = nullptr;
@@ -74,9 +75,6 @@ namespace tetstream {
 
 // Throws kBadState if the writer could not be created.
 Output& outputOf(const tetstream_writer& writer);
-
-// Note `index`, or null.
-const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept;
 
 // The caller's reader is opened and what is known of its stream stored. Then and at once for all
 // others, `known` is set.

@@ -247,6 +247,7 @@ static void assign(Enumeration& out, const std::string& value, const OptionRow& 
 RunOptions OptionValues::runOptions() const {
   RunOptions run;
   run.simplify.fields = fields_;
+  run.workers = workers_.get();
   int i = 0;
 #define OPTION_DOUBLE(ID, name, minimum, maximum, standard, member, text) \
   assign(run.member, std::get<double>(values_[i]), kRows[i]);             \

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -10,6 +11,8 @@
 #include "run.h"
 
 namespace tetstream {
+
+constexpr int32_t kMostThreads = 1024;
 
 struct OptionRow {
   int32_t id, type;  // TETSTREAM_OPTION_...
@@ -35,8 +38,10 @@ class OptionValues {
   double getDouble(int32_t id) const;
   const char* getText(int32_t id) const;
   void addField(const char* name, double weight);
+  void setWorkers(std::shared_ptr<Workers> workers) { workers_ = std::move(workers); }
+  const std::shared_ptr<Workers>& workers() const { return workers_; }
 
-  RunOptions runOptions() const;
+  RunOptions runOptions() const;  // borrows the workers
 
  private:
   static constexpr int kCount = 0
@@ -50,6 +55,7 @@ class OptionValues {
       ;
   std::array<std::variant<int64_t, double, std::string>, kCount> values_;
   std::vector<std::pair<std::string, double>> fields_;
+  std::shared_ptr<Workers> workers_;
 };
 
 }  // namespace tetstream

@@ -1,4 +1,5 @@
 // api: options of the public header.
+#include "caller_workers.h"
 #include "handles.h"
 
 using namespace tetstream;
@@ -100,6 +101,14 @@ tetstream_status tetstream_options_add_field(tetstream_options* options, const c
     needState(o, State::kReady);
     needPlace(name, "name");
     o.values->addField(name, weight);
+  });
+}
+
+tetstream_status tetstream_options_set_pool(tetstream_options* options,
+                                            const tetstream_pool_callbacks* pool) {
+  return guard(__func__, options, [&](tetstream_options& o) {
+    needState(o, State::kReady);
+    o.values->setWorkers(pool ? callerWorkers(readStruct(pool, "pool")) : nullptr);
   });
 }
 

@@ -1,9 +1,16 @@
 #include "output.h"
 
+#include <iterator>
+
 #include "compressed_bytes.h"
 #include "rounding_source.h"
 
 namespace tetstream {
+
+const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept {
+  if (index < 0 || static_cast<size_t>(index) >= notes.size()) return nullptr;
+  return std::next(notes.begin(), index)->c_str();
+}
 
 const Format& writtenFormat(const std::string& name, const std::string& path) {
   const Format& format = needFormat(name, path);
@@ -88,16 +95,27 @@ static std::string roundedNames(const Schema& schema) {
 
 bool Output::mustRound(const Schema& schema) {
   if (!format_ || format_->holds.float64 || !Rounding::needed(schema)) return false;
-  notes_.push_back("rounded to float32, which is all that ." + std::string(format_->name) +
-                   " holds: " + roundedNames(schema));
+  addNote("rounded to float32, which is all that ." + std::string(format_->name) +
+          " holds: " + roundedNames(schema));
   return true;
+}
+
+void Output::addNote(const std::string& note) {
+  const std::lock_guard<std::mutex> lock(noting_);
+  notes_.push_back(note);
+}
+
+const char* Output::note(int32_t index) const noexcept {
+  const std::lock_guard<std::mutex> lock(noting_);
+  return noteOf(notes_, index);
 }
 
 void Output::start(const std::string& temp_dir) {
   needReady();
   if (format_) {
     options_.temp_dir = temp_dir;
-    options_.note = [this](const std::string& note) { notes_.push_back(note); };
+    options_.note = [this](const std::string& note) { addNote(note); };
+    stays_with_caller_ = bytes_->waits();
     sink_ = format_->create(std::move(bytes_), options_);
   } else {
     sink_ = std::make_unique<CallbackSink>(callbacks_);

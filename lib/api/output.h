@@ -4,6 +4,7 @@
 
 #include <list>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,9 @@
 #include "registry.h"
 
 namespace tetstream {
+
+// Note `index`, or null.
+const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept;
 
 // The row of a format, by its name or the path's extension; throws kUnsupported if it is not
 // written.
@@ -35,7 +39,8 @@ class Output final : public Sink {
   void needRunning() const;
   void set(const std::string& property, const std::string& value);
   const std::vector<unsigned char>& memory() const;  // throws kBadState
-  const std::list<std::string>& notes() const { return notes_; }
+  // Note `index`, or null; it lives as long as the output.
+  const char* note(int32_t index) const noexcept;
   // The schema cannot be held as it is: its floats must be rounded before anything is decided on
   // them. If so, that is noted.
   bool mustRound(const Schema& schema);
@@ -44,6 +49,7 @@ class Output final : public Sink {
   void begin(const Schema& schema) override { sink().begin(schema); }
   void put(const BatchView& batch) override { sink().put(batch); }
   void finish() override { sink().finish(); }
+  bool staysWithCaller() const override { return stays_with_caller_; }
   // The files that get their names when the output is complete: its own, and its run's others.
   JointFiles& files() { return files_; }
   void complete();                  // throws kIo
@@ -51,6 +57,7 @@ class Output final : public Sink {
 
  private:
   Sink& sink();
+  void addNote(const std::string& note);
 
   State state_ = State::kReady;
   const Format* format_ = nullptr;  // null: callbacks
@@ -60,6 +67,8 @@ class Output final : public Sink {
   JointFiles files_;
   std::unique_ptr<ByteSink> bytes_;
   WriteOptions options_;
+  bool stays_with_caller_ = true;
+  mutable std::mutex noting_;  // notes may come while the caller looks at them
   std::list<std::string> notes_;
   std::unique_ptr<Sink> sink_;
 };

@@ -31,7 +31,9 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   wrappingOf(path, &options.path);
   bytes = unwrapped(std::move(bytes));
   if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), options.temp_dir);
+  const bool waits = bytes->waits();
   reader.input = format.open(std::move(bytes), options);
+  reader.input.stays_with_caller = waits;
   openReader(reader);
 }
 
@@ -107,6 +109,7 @@ tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,
     batch.finalized_count = 0;
     const BatchView view = BatchChecker(schema).view(batch);
     r.input.indexed = std::make_unique<MemorySource>(schema, view, ids);
+    r.input.stays_with_caller = false;
     openReader(r);
   });
 }
@@ -116,6 +119,7 @@ tetstream_status tetstream_reader_generate(const char* kind, int64_t cells, int6
   return guardCreate(__func__, reader, [&](tetstream_reader& r) {
     needPlace(kind, "kind");
     r.input.stream = generate(kind, cells, seed);
+    r.input.stays_with_caller = false;
     openReader(r);
   });
 }

@@ -81,6 +81,7 @@ tetstream_status tetstream_simplifier_create(const tetstream_options* options,
     needPlace(writer, "writer");
     outputOf(*writer).needReady();
     s.options = runOptionsOf(options);
+    if (options) s.workers = options->values->workers();
     s.output = writer->output;
   });
 }

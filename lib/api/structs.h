@@ -19,6 +19,7 @@ constexpr size_t kFirstSize = 0;
   template <>                                \
   inline constexpr size_t kFirstSize<T> = offsetof(T, last_member) + sizeof(T::last_member)
 TETSTREAM_FIRST_SIZE(tetstream_option_info, choices);
+TETSTREAM_FIRST_SIZE(tetstream_pool_callbacks, submit);
 TETSTREAM_FIRST_SIZE(tetstream_stream_info, box_max);
 TETSTREAM_FIRST_SIZE(tetstream_batch, finalized);
 TETSTREAM_FIRST_SIZE(tetstream_reader_callbacks, close);

@@ -62,7 +62,7 @@ void tetstream_writer_destroy(tetstream_writer* writer) {
 }
 
 const char* tetstream_writer_note(const tetstream_writer* writer, int32_t index) {
-  return writer && writer->output ? noteOf(writer->output->notes(), index) : nullptr;
+  return writer && writer->output ? writer->output->note(index) : nullptr;
 }
 
 const char* tetstream_writer_message(const tetstream_writer* writer) {

@@ -68,7 +68,8 @@ class DescriptorSource final : public ByteSource {
       errno = error;
       failIo(this->name(), "open");
     }
-    seekable_ = S_ISREG(info.st_mode) && ::lseek(fd, 0, SEEK_CUR) == 0;
+    waits_ = !S_ISREG(info.st_mode);
+    seekable_ = !waits_ && ::lseek(fd, 0, SEEK_CUR) == 0;
     size_ = seekable_ ? static_cast<uint64_t>(info.st_size) : 0;
   }
   ~DescriptorSource() override {
@@ -80,10 +81,11 @@ class DescriptorSource final : public ByteSource {
   }
   bool seekable() const override { return seekable_; }
   uint64_t size() const override { return size_; }
+  bool waits() const override { return waits_; }
 
  private:
   int fd_;
-  bool owned_, seekable_;
+  bool owned_, waits_, seekable_;
   uint64_t size_;
 };
 
@@ -123,6 +125,7 @@ class SecondReading final : public ByteSource {
   }
   bool seekable() const override { return true; }
   uint64_t size() const override { return source_.size(); }
+  bool waits() const override { return source_.waits(); }
 
  private:
   ByteSource& source_;
@@ -144,6 +147,7 @@ class PrefixedSource final : public ByteSource {
   size_t readAt(uint64_t, void*, size_t) override { return 0; }
   bool seekable() const override { return false; }
   uint64_t size() const override { return 0; }
+  bool waits() const override { return rest_->waits(); }
 
  private:
   std::vector<unsigned char> prefix_;
@@ -215,8 +219,9 @@ class DescriptorSink final : public ByteSink {
   DescriptorSink(int fd, bool owned, const std::string& name)
       : ByteSink(name), fd_(fd), owned_(owned) {
     struct stat info;
-    seekable_ = ::fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_size == 0 &&
-                ::lseek(fd, 0, SEEK_CUR) == 0 && !(::fcntl(fd, F_GETFL) & O_APPEND);
+    waits_ = ::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode);
+    seekable_ = !waits_ && info.st_size == 0 && ::lseek(fd, 0, SEEK_CUR) == 0 &&
+                !(::fcntl(fd, F_GETFL) & O_APPEND);
   }
   ~DescriptorSink() override {
     if (owned_) ::close(fd_);
@@ -226,11 +231,12 @@ class DescriptorSink final : public ByteSink {
     writeFullyAt(fd_, offset, data, size, name());
   }
   bool seekable() const override { return seekable_; }
+  bool waits() const override { return waits_; }
   void commit() override {}
 
  private:
   int fd_;
-  bool owned_, seekable_;
+  bool owned_, waits_, seekable_;
 };
 
 class NamedSink final : public ByteSink {

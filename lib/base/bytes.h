@@ -22,7 +22,9 @@ class ByteSource {
   // asked for only at the end.
   virtual size_t readAt(uint64_t offset, void* out, size_t size) = 0;
   virtual bool seekable() const = 0;
-  virtual uint64_t size() const = 0;                 // of seekable sources
+  virtual uint64_t size() const = 0;  // of seekable sources
+  // Whether a read may wait, for ever, for somebody at the other end: of a pipe, a terminal.
+  virtual bool waits() const { return false; }
   const std::string& name() const { return name_; }  // for messages
 
  protected:
@@ -53,6 +55,8 @@ class ByteSink {
   // Seekable sinks only: overwrites bytes written before.
   virtual void writeAt(uint64_t offset, const void* data, size_t size) = 0;
   virtual bool seekable() const = 0;
+  // Whether a write may wait for somebody at the other end.
+  virtual bool waits() const { return false; }
   // Makes the output complete, under its final name unless that is given to several together.
   // Called once, last.
   virtual void commit() = 0;

@@ -1,13 +1,11 @@
 #include "tasks.h"
 
 #include <sched.h>
-#include <signal.h>
 
 #include <algorithm>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -21,95 +19,81 @@ size_t coresToUse() {
   return std::max<size_t>(cores > 0 ? cores : std::thread::hardware_concurrency(), 1);
 }
 
-namespace {
-
-// No signal is delivered to threads that are started while it lives.
-class SignalsHeldBack {
+// What is shared out at the time. As a piece of work: helps with it. One that comes late helps with
+// what is shared out by then, or finds nothing.
+class Tasks::Parts final : public Work {
  public:
-  SignalsHeldBack() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  void run() noexcept override {
+    std::unique_lock<std::mutex> lock(mutex_);
+    --helpers_;
+    ++running_;
+    while (next_ < count_) runPart(next_++, lock);
+    if (--running_ == 0) done_.notify_one();
   }
-  ~SignalsHeldBack() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+  // Begins, and returns how many more should help so that `wanted` do.
+  size_t begin(size_t count, const std::function<void(size_t)>& work, size_t wanted) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    errors_.assign(count, nullptr);
+    work_ = &work;
+    count_ = count;
+    next_ = 1;
+    const size_t more = wanted - std::min(wanted, helpers_);
+    helpers_ += more;
+    return more;
+  }
+  void countRefused() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    --helpers_;
+  }
+
+  // The caller's part, and what nobody has begun.
+  void finish() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    runPart(0, lock);
+    while (next_ < count_) runPart(next_++, lock);
+    done_.wait(lock, [this] { return running_ == 0; });
+    for (const std::exception_ptr& error : errors_)
+      if (error) std::rethrow_exception(error);
+  }
 
  private:
-  sigset_t before_;
-};
-
-}  // namespace
-
-struct Tasks::Pool {
-  std::mutex mutex;
-  std::condition_variable begun, done;
-  std::vector<std::thread> threads;
-  const std::function<void(size_t)>* work = nullptr;
-  size_t next = 0, count = 0;  // of the parts that nobody has begun
-  size_t running = 0;          // by the pool's threads
-  std::vector<std::exception_ptr> errors;
-  bool is_over = false;
-
   // With the mutex held, but not while it runs.
-  void runNext(std::unique_lock<std::mutex>& lock) {
-    const size_t part = next++;
+  void runPart(size_t part, std::unique_lock<std::mutex>& lock) {
     lock.unlock();
     std::exception_ptr error;
     try {
-      (*work)(part);
+      (*work_)(part);
     } catch (...) {
       error = std::current_exception();
     }
     lock.lock();
-    errors[part] = error;
+    errors_[part] = error;
   }
 
-  void serve() {
-    std::unique_lock<std::mutex> lock(mutex);
-    for (;;) {
-      begun.wait(lock, [this] { return is_over || next < count; });
-      if (is_over) return;
-      ++running;
-      runNext(lock);
-      if (--running == 0) done.notify_one();
-    }
-  }
-
-  void start(size_t wanted) {
-    const SignalsHeldBack held_back;
-    try {
-      while (threads.size() < wanted) threads.emplace_back([this] { serve(); });
-    } catch (const std::system_error&) {  // the system has no more: the caller does their parts
-    }
-  }
+  std::mutex mutex_;
+  std::condition_variable done_;
+  const std::function<void(size_t)>* work_ = nullptr;
+  size_t next_ = 0, count_ = 0;  // of the parts that nobody has begun
+  size_t helpers_ = 0;           // asked to come, and not here yet
+  size_t running_ = 0;           // here
+  std::vector<std::exception_ptr> errors_;
 };
 
-Tasks::Tasks(size_t threads)
-    : threads_(std::max<size_t>(threads, 1)), pool_(std::make_unique<Pool>()) {}
+Tasks::Tasks(size_t threads, Workers* brought)
+    : threads_(std::max<size_t>(threads, 1)),
+      own_(brought ? nullptr : startWorkers(threads_ - 1)),
+      workers_(brought ? brought : own_.get()),
+      parts_(new Parts) {}
 
-Tasks::~Tasks() {
-  {
-    const std::lock_guard<std::mutex> lock(pool_->mutex);
-    pool_->is_over = true;
-  }
-  pool_->begun.notify_all();
-  for (std::thread& thread : pool_->threads) thread.join();
-}
+Tasks::~Tasks() = default;
 
 void Tasks::forParts(size_t count, const std::function<void(size_t)>& work) const {
-  Pool& pool = *pool_;
-  pool.start(std::min(threads_, count) - (count > 0));
-  std::unique_lock<std::mutex> lock(pool.mutex);
-  pool.errors.assign(count, nullptr);
-  pool.work = &work;
-  pool.count = count;
-  pool.next = 0;
-  if (count > 0) {
-    pool.begun.notify_all();
-    while (pool.next < count) pool.runNext(lock);
-  }
-  pool.done.wait(lock, [&] { return pool.running == 0; });
-  for (const std::exception_ptr& error : pool.errors)
-    if (error) std::rethrow_exception(error);
+  if (count == 0) return;
+  const size_t more = parts_->begin(count, work, std::min(threads_, count) - 1);
+  for (size_t i = 0; i < more; ++i)
+    if (!submit(parts_.get())) parts_->countRefused();
+  parts_->finish();
 }
 
 }  // namespace tetstream

@@ -14,6 +14,7 @@ class WrappedSource : public ByteSource {
   size_t readAt(uint64_t, void*, size_t) override { return 0; }
   bool seekable() const override { return false; }
   uint64_t size() const override { return 0; }
+  bool waits() const override { return bytes_->waits(); }
 
  protected:
   WrappedSource(std::unique_ptr<ByteSource> bytes, size_t buffer_bytes)
@@ -44,6 +45,7 @@ class WrappedSink : public ByteSink {
     fail(Status::kInternal, "%s: what is compressed cannot be changed", name().c_str());
   }
   bool seekable() const override { return false; }
+  bool waits() const override { return bytes_->waits(); }
   void commit() override {
     end();
     bytes_->commit();

@@ -62,6 +62,7 @@ Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFuncti
   IndexedSource* indexed = indexedOf(input, options, part(0, spooling));
   if (!indexed) {
     source_ = input.stream.get();
+    stays_with_caller_ = input.stays_with_caller;
     chosen_ = "none: the stream is as it was" + reasonToKeep(input.stream->schema());
     return;
   }

@@ -17,6 +17,8 @@ class Ordering {
 
   Source& source() const { return *source_; }
   bool isOrdered() const { return ordered_ != nullptr; }
+  // As an Input; what was ordered is in memory and in files.
+  bool staysWithCaller() const { return stays_with_caller_; }
   double share() const;                                  // of the time of a run
   const std::string& chosen() const { return chosen_; }  // "spatial, along z"
   int64_t unusedVertices() const { return ordered_ ? ordered_->unusedVertices() : 0; }
@@ -29,6 +31,7 @@ class Ordering {
   uint64_t spooled_bytes_ = 0;
   std::unique_ptr<OrderedSource> ordered_;
   Source* source_ = nullptr;
+  bool stays_with_caller_ = false;
   std::string chosen_;
 };
 

@@ -7,12 +7,14 @@
 #include "front_meter.h"
 #include "ordering.h"
 #include "orders.h"
+#include "read_ahead.h"
 #include "sampler.h"
 #include "simplifier.h"
 #include "spooled_mesh.h"
 #include "status.h"
 #include "stream_facts.h"
 #include "tasks.h"
+#include "write_behind.h"
 
 namespace tetstream {
 
@@ -38,7 +40,8 @@ class Nowhere final : public Sink {
 };
 
 size_t threadsOf(const RunOptions& options) {
-  return options.threads > 0 ? static_cast<size_t>(options.threads) : coresToUse();
+  if (options.threads > 0) return static_cast<size_t>(options.threads);
+  return options.workers ? options.workers->threads() + 1 : coresToUse();
 }
 
 RunOptions withTasks(RunOptions options, const Tasks* tasks) {
@@ -59,10 +62,34 @@ void tellCells(Progress& p, size_t more, double before, const ProgressFunction& 
 
 struct SimplifyRun::State {
   State(const RunOptions& the_options, Sink& out, ProgressFunction the_progress)
-      : tasks(threadsOf(the_options)),
+      : tasks(threadsOf(the_options), the_options.workers),
         options(withTasks(the_options, &tasks)),
         progress(std::move(the_progress)),
-        simplifier(options.simplify, out, [this](const Progress& p) { tell(p); }) {}
+        behind(overlaps() && !out.staysWithCaller() ? std::make_unique<WriteBehind>(out, tasks)
+                                                    : nullptr),
+        simplifier(options.simplify, behind ? *behind : out,
+                   [this](const Progress& p) { tell(p); }) {}
+
+  // A memory budget is for one batch on its way, as it is for a single patch.
+  bool overlaps() const { return tasks.threads() > 1 && options.simplify.memory_bytes == 0; }
+
+  // The stream, read ahead where that may be.
+  std::unique_ptr<ReadAhead> ahead(Source& stream, const Ordering& ordering) const {
+    if (!overlaps() || ordering.staysWithCaller()) return nullptr;
+    return std::make_unique<ReadAhead>(stream, tasks);
+  }
+
+  // Of two errors the one that came first in the stream's order: what was put before the other is
+  // written first.
+  template <class Step>
+  void inOrder(Step step) {
+    try {
+      step();
+    } catch (...) {
+      if (behind) behind->settle();
+      throw;
+    }
+  }
 
   // The simplifier's progress after the part that ordering took.
   void tell(Progress p) {
@@ -77,6 +104,7 @@ struct SimplifyRun::State {
   ProgressFunction progress;
   double order_share = 0;  // of the time, of ordering that is done
   double pilot_share = 0;  // of the time, of a pilot that is done
+  std::unique_ptr<WriteBehind> behind;
   Simplifier simplifier;
   std::unique_ptr<SpooledMesh> collector;
   Clock::time_point start;
@@ -86,15 +114,15 @@ struct SimplifyRun::State {
     Ordering stream(input, options, progress);
     order_share = stream.share();
     if (std::unique_ptr<Source> first = pilotSource(stream.source())) {
-      if (first->schema().cell_count <= kPilotCells)
-        fly(*first);
+      const auto before = ahead(*first, stream);
+      Source& reading = before ? *before : *first;
+      if (reading.schema().cell_count <= kPilotCells)
+        fly(reading);
       else
-        sample(*first);
+        sample(reading);
     }
-    simplifier.begin(stream.source().schema());
-    BatchView batch;
-    while (stream.source().next(batch)) simplifier.put(batch);
-    simplifier.finish();
+    const auto before = ahead(stream.source(), stream);
+    copyStream(before ? *before : stream.source(), simplifier);
     close();
     report.unused_vertices += stream.unusedVertices();
     report.order = stream.chosen();
@@ -163,7 +191,7 @@ void SimplifyRun::trace(TraceSinks sinks) {
 
 void SimplifyRun::run(Input& input) {
   state_->start = Clock::now();
-  state_->simplify(input);
+  state_->inOrder([&] { state_->simplify(input); });
 }
 
 void SimplifyRun::begin(const Schema& schema, bool indexed) {
@@ -178,7 +206,7 @@ void SimplifyRun::put(const BatchView& batch) {
   if (state_->collector)
     state_->collector->put(batch);
   else
-    state_->simplifier.put(batch);
+    state_->inOrder([&] { state_->simplifier.put(batch); });
 }
 
 void SimplifyRun::finish() {
@@ -186,9 +214,10 @@ void SimplifyRun::finish() {
     state_->collector->finish();
     Input input;
     input.indexed = std::move(state_->collector);
-    state_->simplify(input);
+    input.stays_with_caller = false;
+    state_->inOrder([&] { state_->simplify(input); });
   } else {
-    state_->simplifier.finish();
+    state_->inOrder([&] { state_->simplifier.finish(); });
     state_->close();
   }
 }

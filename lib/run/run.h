@@ -12,6 +12,7 @@
 #include "source.h"
 #include "sweep_views.h"
 #include "traces.h"
+#include "workers.h"
 
 namespace tetstream {
 
@@ -23,7 +24,8 @@ struct RunOptions {
   enum class Auto { kKeeps, kSweeps, kNarrows } automatic = Auto::kSweeps;
   std::string axis = "auto";  // of order "spatial"
   std::string temp_dir;
-  int64_t threads = 0;         // that simplify; 0: one for each core that the process may use
+  int64_t threads = 0;         // at work at once; 0: one for each core that the process may use
+  Workers* workers = nullptr;  // that were brought; null: threads of our own
   std::string split = "no";    // of other cells, when a file is read
   std::string recover = "no";  // what is whole of a damaged file
   std::string step = "last";   // time step, likewise

@@ -55,6 +55,9 @@ class IndexedSource {
 struct Input {
   std::unique_ptr<Source> stream;
   std::unique_ptr<IndexedSource> indexed;
+  // Callbacks of the caller's, or what may wait for somebody at the other end: a stream that is
+  // read by the caller's thread alone.
+  bool stays_with_caller = true;
   const Schema& schema() const { return stream ? stream->schema() : indexed->schema(); }
 };
 
@@ -67,6 +70,9 @@ class Sink {
   virtual void begin(const Schema& schema) = 0;
   virtual void put(const BatchView& batch) = 0;
   virtual void finish() = 0;
+  // Callbacks of the caller's, or what may wait for somebody at the other end: to be called by the
+  // caller's thread alone.
+  virtual bool staysWithCaller() const { return true; }
 };
 
 // Joins both ends without anything in between.

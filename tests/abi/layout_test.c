@@ -54,6 +54,13 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_batch, locked_faces, 112);
   MEMBER(tetstream_batch, locked_edge_count, 120);
   MEMBER(tetstream_batch, locked_edges, 128);
+
+  CHECK_EQUAL(sizeof(tetstream_pool_callbacks), 32);
+  MEMBER(tetstream_pool_callbacks, struct_size, 0);
+  MEMBER(tetstream_pool_callbacks, user, 8);
+  MEMBER(tetstream_pool_callbacks, threads, 16);
+  MEMBER(tetstream_pool_callbacks, submit, 24);
+
   CHECK_EQUAL(sizeof(tetstream_reader_callbacks), 40);
   MEMBER(tetstream_reader_callbacks, struct_size, 0);
   MEMBER(tetstream_reader_callbacks, user, 8);

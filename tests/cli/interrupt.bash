@@ -53,7 +53,7 @@ mkfifo pipe
 echo precious >out.tets
 tetstream generate fluid --cells 2e7 - >pipe 2>"$logs/producer" &
 producer=$!
-start simplify pipe out.tets --format-in tets --ratio 0.1
+start simplify pipe out.tets --format-in tets --ratio 0.1 --threads 3
 until_true has_temporary out.tets
 sleep 0.5
 kill -INT "$pid"
@@ -61,7 +61,7 @@ ended 7
 wait "$producer" || true
 only_files pipe out.tets
 tetstream generate fluid --cells 1e6 in.vtu --compress no
-start simplify in.vtu out.tets --ratio 0.1
+start simplify in.vtu out.tets --ratio 0.1 --threads 3
 until_true has_temporary out.tets
 kill -INT "$pid"
 ended 7
@@ -83,7 +83,7 @@ rm -r ball.tets spool
 
 # While it waits for input that does not come.
 exec 3<>pipe
-start simplify - out.tets --ratio 0.1 <pipe
+start simplify - out.tets --ratio 0.1 --threads 3 <pipe
 until_true has_temporary out.tets
 until_true waits_in_read
 sleep 0.5

@@ -29,6 +29,9 @@ def formats_written(tool):
 def table(tool):
     rows = [Command("simplify a stream", "simplify in.tets out.tets --ratio 0.3 --window 4000",
                     ["out.tets"]),
+            Command("simplify, read ahead and written behind",
+                    "simplify in.long.tets out.tets --ratio 0.9 --window 4000 --threads 4",
+                    ["out.tets"]),
             Command("simplify a mesh", "simplify in.vtu out.vtu --ratio 0.3", ["out.vtu"]),
             Command("simplify, map and log",
                     "simplify in.tets out.vtu --ratio 0.3 --map out.tetmap --collapse-log out.csv",
@@ -69,6 +72,7 @@ class Bench:
         def run(*words):
             subprocess.run([self.tool, *words], cwd=self.inputs, check=True, capture_output=True)
         run("generate", "ball", "--cells", str(cells), "in.tets")
+        run("generate", "ball", "--cells", str(40 * cells), "in.long.tets")
         for name in formats_written(self.tool):
             if name != "tets":
                 run("convert", "in.tets", f"in.{name}")

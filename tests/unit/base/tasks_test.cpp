@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "strange_workers.h"
+
 namespace tetstream::test {
 namespace {
 
@@ -67,6 +69,55 @@ TEST(Tasks, TellTheErrorOfTheFirstPartAndServeAgain) {
       EXPECT_EQ(done, 6);
     }
   }
+}
+
+TEST(Tasks, AreDoneWhateverTheWorkersThatWereBrought) {
+  NoWorkers none;
+  HastyWorkers hasty;
+  LazyWorkers lazy;
+  for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
+    const Tasks tasks(4, workers);
+    EXPECT_EQ(tasks.threads(), 4u);
+    for (size_t count : {0, 1, 3, 50}) {
+      std::vector<std::thread::id> done(count);
+      tasks.forParts(count, [&](size_t part) { done[part] = std::this_thread::get_id(); });
+      for (std::thread::id thread : done) EXPECT_EQ(thread, std::this_thread::get_id());
+    }
+  }
+  EXPECT_GT(none.refused, 0u);
+}
+
+TEST(Tasks, AskForNoMoreHelpThanIsOnItsWay) {
+  LazyWorkers lazy;
+  {
+    const Tasks tasks(3, &lazy);
+    for (int round = 0; round < 10; ++round) tasks.forParts(20, [](size_t) {});
+    EXPECT_EQ(lazy.waiting.size(), 2u);
+    lazy.workAll();
+    for (int round = 0; round < 10; ++round) tasks.forParts(20, [](size_t) {});
+    EXPECT_EQ(lazy.waiting.size(), 2u);
+  }
+  lazy.workAll();  // late, when nothing is left of the tasks
+}
+
+class Counting final : public Work {
+ public:
+  explicit Counting(std::atomic<int>& ran) : ran_(ran) {}
+  void run() noexcept override {
+    if (std::this_thread::get_id() != caller_) ++ran_;
+  }
+
+ private:
+  std::atomic<int>& ran_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+};
+
+TEST(Tasks, RunWorkBesideTheCaller) {
+  std::atomic<int> ran = 0;
+  const Tasks tasks(3);
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(tasks.submit(new Counting(ran)));
+  while (ran < 100) std::this_thread::yield();
+  EXPECT_FALSE(Tasks(1).submit(new Counting(ran)));
 }
 
 TEST(Tasks, KnowAtLeastOneCore) {
