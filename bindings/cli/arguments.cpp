@@ -15,7 +15,7 @@ constexpr size_t kHelpColumn = 26;  // where the texts of a help page begin
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 ok, 1 usage, 2 bad data, 3 input or output, 4 memory, 5 target missed (the\n"
-    "output is complete), 6 unsupported, 7 cancelled, 8 internal error. More: man tetstream";
+    "output is complete), 6 unsupported, 7 cancelled, 8 internal error.";
 
 // Every row of the library's table of formats, one line each.
 std::string formatsText() {
@@ -61,6 +61,7 @@ class Parser {
 
  private:
   CLI::App* addCommand(const char* name, const char* text, Arguments::Command command);
+  void addRemark(CLI::App* command, const std::string& remark);
   void addSimplify();
   void addInfo();
   void addConvert();
@@ -102,7 +103,8 @@ Parser::Parser() {
   app_.require_subcommand(0, 1);  // further words are names, whatever they are
   app_.set_help_flag("-h,--help", "Show this text and stop");
   app_.add_flag("--version", version_, "Show the library's version and formats and stop");
-  app_.footer(std::string("`tetstream help COMMAND` says more about one.\n") + kExitCodes);
+  app_.footer(std::string("`tetstream help COMMAND` says more about one.\n") + kExitCodes +
+              "\nMore: man tetstream");
   addSimplify();
   addInfo();
   addConvert();
@@ -116,9 +118,15 @@ Parser::Parser() {
 
 CLI::App* Parser::addCommand(const char* name, const char* text, Arguments::Command command) {
   CLI::App* added = app_.add_subcommand(name, text)->group("Commands");
-  added->footer("");
+  addRemark(added, "");
   commands_.emplace_back(added, command);
   return added;
+}
+
+// Below the flags stands a remark, and the name of the command's manual page.
+void Parser::addRemark(CLI::App* command, const std::string& remark) {
+  command->footer(remark + (remark.empty() ? "" : "\n") + "More: man tetstream-" +
+                  command->get_name());
 }
 
 void Parser::addIn(CLI::App* command) {
@@ -217,10 +225,10 @@ void Parser::addSimplify() {
   addFormat(command);
   addReport(command);
   addProgress(command);
-  command->footer(std::string("One of --ratio, --cells and --error has to be given. ") +
-                  "The report goes to standard output, or to\nstandard error if OUT, or the map or "
-                  "the log, is -.\n" +
-                  kExitCodes);
+  addRemark(command, std::string("One of --ratio, --cells and --error has to be given. ") +
+                         "The report goes to standard output, or to\nstandard error if OUT, or the "
+                         "map or the log, is -.\n" +
+                         kExitCodes);
 }
 
 void Parser::addInfo() {
@@ -253,7 +261,7 @@ void Parser::addLayout() {
   addStreamOptions(command);
   addReport(command);
   addProgress(command);
-  command->footer("The report goes to standard output, or to standard error if OUT is -.");
+  addRemark(command, "The report goes to standard output, or to standard error if OUT is -.");
 }
 
 void Parser::addGenerate() {
@@ -340,6 +348,7 @@ void Parser::addCompare() {
 
 void Parser::addHelp() {
   CLI::App* command = addCommand("help", "Show the help of a command", Arguments::Command::kText);
+  command->footer("More: man tetstream");
   addWord(command, "COMMAND", help_about_, " ", "Its name");
 }
 

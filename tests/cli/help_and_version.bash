@@ -15,6 +15,7 @@ expect 0 help
 for command in simplify info convert layout generate diagram compare completion; do
   expect 0 "$command" --help
   contains "$out" "usage: tetstream $command"
+  contains "$out" "More: man tetstream-$command"
   text=$out
   expect 0 help "$command"
   [[ $out == "$text" ]] || fail "help $command and $command --help differ"

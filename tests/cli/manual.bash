@@ -1,28 +1,60 @@
-# The manual page and --help name the same flags.
+# Each command has a page, which shows in SYNOPSIS the flags and arguments that its --help shows, and no
+# others; each of them is described there or in a page that it refers to, once.
 source "${BASH_SOURCE%/*}/common.bash"
+pages=$TETSTREAM_SOURCE/man/man1
+common=$(<"$pages/tetstream.1")
 
-manual=$(<"$TETSTREAM_SOURCE/man/man1/tetstream.1")
-help=
-for command in simplify info convert layout generate diagram compare completion; do
-  expect 0 "$command" --help
-  help+=$out$'\n'
-done
-expect 0 --help
-help+=$out
-
-known=" "
-rest=$help
-while [[ $rest =~ (^|[[:space:],])--([a-z][a-z-]*) ]]; do
-  rest=${rest#*"${BASH_REMATCH[0]}"}
-  known+="${BASH_REMATCH[2]} "
-  contains "$manual" ".It Fl -${BASH_REMATCH[2]}"
-done
+# flags_of TEXT PATTERN: what follows the pattern, sorted, each once.
+flags_of() {
+  grep -oE -- "$2[a-z][a-z-]*" <<<"$1" | sed -E "s/^$2//" | sort -u
+}
 
 count=0
-rest=$manual
-while [[ $rest =~ \.It\ Fl\ -([a-z][a-z-]*) ]]; do
-  rest=${rest#*"${BASH_REMATCH[0]}"}
-  contains "$known" " ${BASH_REMATCH[1]} "
-  count=$((count + 1))
+for command in simplify info convert layout generate diagram compare completion; do
+  expect 0 "$command" --help
+  page=$(<"$pages/tetstream-$command.1")
+  synopsis=$(sed -n '/^\.Sh SYNOPSIS/,/^\.Sh DESCRIPTION/p' <<<"$page")
+  shown=$(flags_of "$out" "--" | grep -vx help || true)
+  written=$(flags_of "$synopsis" "Fl -" || true)
+  [[ $shown == "$written" ]] ||
+    fail "$command: --help has ${shown//$'\n'/ }; the page ${written//$'\n'/ }"
+
+  # The pages that may describe its flags: its own first.
+  referred=$(sed -n 's/^\.Xr \(tetstream[a-z-]*\) 1.*/\1/p' <<<"$page" | sort -u)
+  for flag in $shown; do
+    entry="^\.It Fl -$flag( |$)"
+    places=0
+    if grep -qE -- "$entry" <<<"$page"; then
+      places=1
+    else
+      for name in $referred; do
+        grep -qE -- "$entry" "$pages/$name.1" && places=$((places + 1))
+      done
+    fi
+    ((places == 1)) || fail "$command: --$flag is described in $places pages"
+    # A flag that is described in the page of all commands has the same meaning everywhere.
+    if grep -qE -- "$entry" <<<"$page" && grep -qE -- "$entry" <<<"$common" &&
+      [[ $command/$flag != info/format ]]; then
+      fail "$command: --$flag is described in tetstream(1), too"
+    fi
+    count=$((count + 1))
+  done
+
+  # Nothing is described that is not there.
+  for flag in $(flags_of "$page" "^\.It Fl -" || true); do
+    grep -qx -- "$flag" <<<"$shown" || fail "tetstream-$command(1) describes --$flag"
+  done
+  for word in $(sed -n 's/^usage:.*\[options\] //p' <<<"$out"); do
+    word=$(tr '[:upper:]' '[:lower:]' <<<"$word")
+    [[ $command == diagram && $word == out ]] && word=picture
+    grep -qE "^\.Ar (.* )?$word( |$)" <<<"$synopsis" || fail "$command: the page has no $word"
+  done
 done
-((count >= 20)) || fail "found only $count flags in the manual"
+((count >= 100)) || fail "only $count flags were found"
+
+# In tetstream(1) stands what several commands have, and the two flags that it has itself.
+for flag in $(flags_of "$common" "\.It Fl -"); do
+  case $flag in help | version) continue ;; esac
+  users=$(grep -lE -- "^\.(Op )?Fl -$flag( |$)" "$pages"/tetstream-*.1 | wc -l)
+  ((users >= 2)) || fail "tetstream(1) describes --$flag, which $users commands have"
+done

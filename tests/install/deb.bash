@@ -1,7 +1,7 @@
 # install.deb: makes the Debian packages and plays the user of a system that has them and not the build
 # tree: they are installed by dpkg below a folder, whose database is a copy of this system's, so that
 # dependencies are those of this Debian; used; and removed without a trace.
-# Environment: BUILD, WORK, CC, PYTHON, VERSION, MULTIARCH, SOURCE, PACKAGES (the names that are to be
+# Environment: BUILD, WORK, CC, FC, PYTHON, VERSION, MULTIARCH, SOURCE, PACKAGES (the names that are to be
 # there, blank-separated).
 set -eu
 
@@ -46,6 +46,10 @@ fi
 if [[ " $PACKAGES " == *" octave-tetstream "* ]]; then
   says octave-tetstream Depends "octave (>= " "octave (<< " "libc6 (>="
 fi
+if [[ " $PACKAGES " == *" libtetstream-fortran-dev "* ]]; then
+  says libtetstream-fortran-dev Depends "libtetstream-dev (= $VERSION-1)"
+  says libtetstream-fortran-dev Section libdevel
+fi
 for package in $PACKAGES; do
   says "$package" Description "simplifies tetrahedral meshes"
   says "$package" Maintainer "@"
@@ -68,8 +72,9 @@ for package in $PACKAGES; do
   [[ -s $root/usr/share/doc/$package/copyright ]] || fail "$package has no licence"
 done
 for file in share/bash-completion/completions/tetstream share/zsh/site-functions/_tetstream \
-  share/fish/vendor_completions.d/tetstream.fish share/man/man1/tetstream.1.gz \
-  share/man/man3/tetstream_simplifier_run.3.gz "lib/$MULTIARCH/libtetstream.a"; do
+  share/fish/vendor_completions.d/tetstream.fish share/man/man1/tetstream.1.gz share/man/man1/tetstream-simplify.1.gz \
+  share/man/man3/tetstream_simplifier_run.3.gz \
+  share/doc/tetstream/examples/tutorial/01_files.c "lib/$MULTIARCH/libtetstream.a"; do
   [[ -s $root/usr/$file ]] || fail "$file is not there"
 done
 if grep -rlIF -e "$BUILD" -e "$WORK" -- "$root/usr"; then
@@ -103,6 +108,19 @@ mkdir debian && printf 'Source: client\n\nPackage: client\nArchitecture: any\n' 
 needs=$(dpkg-shlibdeps -L"$database/info/$library.shlibs" -l"$root/usr/lib/$MULTIARCH" -O ./client)
 [[ $needs == *"$library (>= $VERSION)"* ]] || fail "dpkg-shlibdeps finds for a client: $needs"
 
+if [[ " $PACKAGES " == *" libtetstream-fortran-dev "* ]]; then
+  [[ -s $root/usr/share/man/man3/tetstream-fortran.3.gz ]] || fail "tetstream-fortran(3) is not there"
+  # shellcheck disable=SC2046
+  "$FC" "$SOURCE/tests/install/client.f90" $(pkg-config --cflags --libs tetstream-fortran) -o fortran_client
+  # shellcheck disable=SC2046
+  "$FC" "$root"/usr/share/doc/*/examples/heat.f90 $(pkg-config --cflags --libs tetstream-fortran) -o heat
+  export LD_LIBRARY_PATH=$root/usr/lib/$MULTIARCH
+  ./fortran_client
+  ./heat fluid.vtu fluid 2 2 >/dev/null
+  unset LD_LIBRARY_PATH
+  [[ -s fluid-002.tets ]] || fail "heat.f90 does not do what it should"
+fi
+
 if [[ " $PACKAGES " == *" python3-tetstream "* ]]; then
   PYTHONPATH=$root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 "$PYTHON" -c "
 import tetstream
@@ -123,9 +141,11 @@ fi
 # --------------------------------------------------------------------------------------------- removed
 # Programs need the library alone.
 cd "$WORK"
+others=()
 for package in $PACKAGES; do
-  [[ $package == "$library" ]] || on_root --purge "$package"
+  [[ $package == "$library" ]] || others+=("$package")
 done
+on_root --purge "${others[@]}"
 LD_LIBRARY_PATH=$root/usr/lib/$MULTIARCH "$elsewhere/client"
 on_root --purge "$library"
 left=$(find "$root" -path "$database" -prune -o -type f -print -o -type l -print)

@@ -1,4 +1,4 @@
-# man.run: the commands of tetstream(1) and the program of tetstream(3) do what they say, on a small mesh
+# man.run: the commands of section 1 and the program of tetstream(3) do what they say, on a small mesh
 # with the names that they use. A billion cells are some thousands here.
 # Environment: TETSTREAM_COMMAND, CC, LIBRARY (the folder of the shared one), and cli's.
 source "${BASH_SOURCE%/*}/../cli/common.bash"
@@ -19,10 +19,12 @@ while read -r line; do
   line=${line//1e9/3000}
   eval "set -o pipefail; $line" >"$logs/out" 2>"$logs/err" || fail "$line: $? $(<"$logs/err")"
   count=$((count + 1))
-done < <(sed -n '/^\.Sh EXAMPLES/,/^\.Sh/{/^\.Dl /p}' "$TETSTREAM_SOURCE/man/man1/tetstream.1")
-((count >= 9)) || fail "only $count commands were found"
-for file in jet-10.vtu small.vtu close.vtu out.tets report.json out.tetmap jet-layout.svg \
-  jet-sweep.png jet-10.png; do
+done < <(for page in tetstream-{simplify,info,convert,layout,generate,diagram,compare,completion} tetstream; do
+  sed -n '/^\.Sh EXAMPLES/,/^\.Sh/{/^\.Dl /p}' "$TETSTREAM_SOURCE/man/man1/$page.1"
+done)
+((count >= 20)) || fail "only $count commands were found"
+for file in jet-10.vtu small.vtu close.vtu out.tets report.json out.tetmap jet.msh jet.tets.zst jet.tets \
+  ball.vtu jet-layout.svg jet-sweep.png jet-10.png _tetstream; do
   [[ -s $file ]] || fail "$file was not made"
 done
 
