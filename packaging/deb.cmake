@@ -115,4 +115,16 @@ if(TETSTREAM_OCTAVE)
   set(CPACK_DEBIAN_OCTAVE_PACKAGE_RECOMMENDS "${recommended}")
 endif()
 
+if(TETSTREAM_FORTRAN)
+  deb_package(fortran libtetstream-fortran-dev libdevel "simplifies tetrahedral meshes (Fortran)"
+    "${about}This is the module for Fortran: for gfortran, and its sources for other compilers.")
+  set(CPACK_DEBIAN_FORTRAN_PACKAGE_DEPENDS
+    "libtetstream-dev (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
+  get_filename_component(folder ${TETSTREAM_FORTRAN_FOLDER} NAME)
+  if(folder MATCHES "^gfortran-mod-")  # what gfortran's packages provide
+    string(APPEND CPACK_DEBIAN_FORTRAN_PACKAGE_DEPENDS ", ${folder}")
+  endif()
+  set(CPACK_DEBIAN_FORTRAN_PACKAGE_SHLIBDEPS OFF)
+endif()
+
 include(CPack)

@@ -49,6 +49,13 @@ configure_file(${CMAKE_CURRENT_LIST_DIR}/tetstream.pc.in ${PROJECT_BINARY_DIR}/t
 install(FILES ${PROJECT_BINARY_DIR}/tetstream.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)
 
+if(TETSTREAM_FORTRAN)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/tetstream-fortran.pc.in
+    ${PROJECT_BINARY_DIR}/tetstream-fortran.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/tetstream-fortran.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT fortran)
+endif()
+
 # ------------------------------------------------------------------------------------- CMake
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/tetstream)
 foreach(export tetstreamTargets tetstreamStaticTargets)
@@ -65,6 +72,13 @@ else()
 endif()
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/tetstreamConfigVersion.cmake
   COMPATIBILITY ${compatibility})
+if(TETSTREAM_FORTRAN)
+  file(RELATIVE_PATH up /p/${package_dir} /p)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/tetstreamFortran.cmake.in
+    ${PROJECT_BINARY_DIR}/tetstreamFortran.cmake @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/tetstreamFortran.cmake DESTINATION ${package_dir}
+    COMPONENT fortran)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/tetstreamConfig.cmake
               ${PROJECT_BINARY_DIR}/tetstreamConfigVersion.cmake
   DESTINATION ${package_dir} COMPONENT development)

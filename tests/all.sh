@@ -5,8 +5,8 @@
 #   format     clang-format finds nothing to change
 #   lint       clang-tidy finds nothing to say about the library and the command
 #   sanitize   another build, with AddressSanitizer and UndefinedBehaviorSanitizer, and its tests
-#   memcheck   unit and API tests of the release, the shared problem, and streams through Python and
-#              Octave, under Valgrind
+#   memcheck   unit, API and Fortran tests of the release, the shared problem, and streams through Python
+#              and Octave, under Valgrind
 #   tests      the quick layer of the release
 # Not among them without being named:
 #   full       the long layer: real meshes at every ratio
@@ -81,7 +81,7 @@ stage_sanitize() {
 
 # The same programs as those of the release; only how ctest starts them is another.
 stage_memcheck() {
-  configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi|languages|python|octave)\.'
+  configure build/release -DTETSTREAM_MEMCHECK=ON && check build/release -R '^(unit|api|abi|fortran|languages|python|octave)\.'
   local result=$?
   configure build/release -DTETSTREAM_MEMCHECK=OFF && return "$result"
 }
@@ -100,7 +100,7 @@ echo "== packages"
 bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev liblz4-dev \
   liblzma-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev clang-format clang-tidy \
   valgrind mandoc python3 python3-dev python3-numpy swig abigail-tools dpkg-dev zsh fish \
-  octave-dev || exit 1
+  octave-dev gfortran || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"
   begin=$SECONDS

@@ -225,6 +225,10 @@ typedef struct tetstream_column {
                                       and ordered by the library before it is streamed */
 #define TETSTREAM_STREAM_INT32_CELLS 2 /* of tetstream_reader_open_mesh alone: `cells` of the batch
                                           points to int32_t. Since 0.1 */
+#define TETSTREAM_STREAM_FROM_ONE 4 /* of tetstream_reader_open_mesh alone: the ids in `cells`, `faces`
+                                       and `locked_edges` count from 1, as in Fortran, and so does
+                                       the message that refuses one; ids of the output are from 0.
+                                       Since 0.1 */
 
 /* What a stream carries. Counts that are not known are -1 where the library gives them, and -1 or 0
  * where it takes them. The arrays are read during the call only. */

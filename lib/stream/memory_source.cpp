@@ -7,13 +7,13 @@
 
 namespace tetstream {
 
-MemorySource::MemorySource(const Schema& schema, const BatchView& mesh, bool narrow_cells)
+MemorySource::MemorySource(const Schema& schema, const BatchView& mesh, Ids ids)
     : schema_(schema),
       fields_(mesh.fields, mesh.fields + schema.fields.size()),
       cell_data_(mesh.cell_data, mesh.cell_data + schema.cell_data.size()),
       mesh_(mesh),
       locked_(account_),
-      narrow_cells_(narrow_cells) {
+      ids_(ids) {
   mesh_.fields = fields_.data();
   mesh_.cell_data = cell_data_.data();
   schema_.vertex_count = static_cast<int64_t>(mesh.vertex_count);
@@ -33,18 +33,18 @@ void MemorySource::lockVertices() {
   mesh_.locked = locked_.data();
 }
 
-static void checkVertex(const char* what, uint64_t row, int64_t vertex, const Schema& schema) {
-  if (vertex < 0 || vertex >= schema.vertex_count)
+// The vertex's rank.
+int64_t MemorySource::checked(const char* what, uint64_t row, int64_t vertex) const {
+  if (vertex < ids_.first || vertex - ids_.first >= schema_.vertex_count)
     fail(Status::kBadData, "%s %llu: vertex %lld is not one of the mesh's %lld", what,
-         static_cast<unsigned long long>(row), static_cast<long long>(vertex),
-         static_cast<long long>(schema.vertex_count));
+         static_cast<unsigned long long>(row) + static_cast<unsigned long long>(ids_.first),
+         static_cast<long long>(vertex), static_cast<long long>(schema_.vertex_count));
+  return vertex - ids_.first;
 }
 
 void MemorySource::lock(const char* what, size_t row, const int64_t* vertices, size_t count) {
-  for (size_t j = 0; j < count; ++j) {
-    checkVertex(what, row, vertices[j], schema_);
-    locked_[static_cast<size_t>(vertices[j])] = 1;
-  }
+  for (size_t j = 0; j < count; ++j)
+    locked_[static_cast<size_t>(checked(what, row, vertices[j]))] = 1;
 }
 
 static void copyRows(const void* from, uint64_t first, size_t count, size_t stride, void* out) {
@@ -60,13 +60,13 @@ void MemorySource::readField(size_t column, uint64_t first, size_t count, void* 
 }
 
 void MemorySource::readCells(uint64_t first, size_t count, int64_t* out) {
-  if (narrow_cells_) {
+  if (ids_.narrow_cells) {
     const auto* const narrow = reinterpret_cast<const int32_t*>(mesh_.cells) + 4 * first;
     std::copy(narrow, narrow + 4 * count, out);
   } else {
     copyRows(mesh_.cells, first, count, 4 * sizeof(int64_t), out);
   }
-  for (size_t i = 0; i < 4 * count; ++i) checkVertex("cell", first + i / 4, out[i], schema_);
+  for (size_t i = 0; i < 4 * count; ++i) out[i] = checked("cell", first + i / 4, out[i]);
 }
 
 void MemorySource::readCellData(size_t column, uint64_t first, size_t count, void* out) {
@@ -77,7 +77,7 @@ void MemorySource::readFaces(uint64_t first, size_t count, int64_t* corners, int
   copyRows(mesh_.faces, first, count, 3 * sizeof(int64_t), corners);
   copyRows(mesh_.face_labels, first, count, sizeof(int64_t), labels);
   for (size_t i = 0; i < 3 * count; ++i)
-    checkVertex("labelled face", first + i / 3, corners[i], schema_);
+    corners[i] = checked("labelled face", first + i / 3, corners[i]);
 }
 
 }  // namespace tetstream

@@ -10,10 +10,16 @@ namespace tetstream {
 
 // The whole mesh is one batch, whose arrays must live as long as the source; its finalizations are
 // not looked at. Vertex ids are checked when cells and faces are read, those of locked edges and
-// faces at once; with `narrow_cells` those of cells are int32.
+// faces at once.
 class MemorySource : public IndexedSource {
  public:
-  MemorySource(const Schema& schema, const BatchView& mesh, bool narrow_cells = false);
+  // How the ids are written.
+  struct Ids {
+    bool narrow_cells = false;  // those of cells are int32
+    int64_t first = 0;  // the id of the first vertex: from there rows count in messages, too
+  };
+  MemorySource(const Schema& schema, const BatchView& mesh, Ids ids);
+  MemorySource(const Schema& schema, const BatchView& mesh) : MemorySource(schema, mesh, Ids()) {}
   const Schema& schema() const override { return schema_; }
   bool randomAccess() const override { return true; }
   const uint8_t* locked() const override { return mesh_.locked; }
@@ -26,12 +32,13 @@ class MemorySource : public IndexedSource {
  private:
   void lockVertices();
   void lock(const char* what, size_t row, const int64_t* vertices, size_t count);
+  int64_t checked(const char* what, uint64_t row, int64_t vertex) const;
   Schema schema_;
   std::vector<const void*> fields_, cell_data_;
   BatchView mesh_;
   Account account_;
   Array<uint8_t> locked_;  // where edges or faces are locked
-  bool narrow_cells_;
+  Ids ids_;
 };
 
 }  // namespace tetstream

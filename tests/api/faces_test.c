@@ -239,6 +239,69 @@ static void faces_of_unknown_vertices_are_refused(void) {
   }
 }
 
+/* The bytes that a mesh in memory is converted to, in a writer; `flags` say how its ids are. */
+static tetstream_writer* converted(const tetstream_batch* batch, uint32_t flags, const void** bytes,
+                                   size_t* size) {
+  const tetstream_stream_info info = info_of_mesh(flags);
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_get_memory(writer, bytes, size), TETSTREAM_OK);
+  tetstream_reader_destroy(reader);
+  return writer;
+}
+
+static int64_t* from_one(const int64_t* ids, int64_t count) {
+  int64_t* copy = malloc((size_t)count * sizeof *copy);
+  for (int64_t i = 0; i < count; ++i) copy[i] = ids[i] + 1;
+  return copy;
+}
+
+static void ids_may_count_from_one(void) {
+  tetstream_batch batch = whole_mesh();
+  const void *bytes = NULL, *same = NULL;
+  size_t size = 0, same_size = 0;
+  tetstream_writer* writer = converted(&batch, 0, &bytes, &size);
+  int64_t* cells = from_one(mesh->cells, 4 * mesh->cell_count);
+  int64_t* corners = from_one(faces, 3 * face_count);
+  const int64_t ends[2] = {edge[0] + 1, edge[1] + 1};
+  int32_t* narrow = malloc(4 * sizeof *narrow * (size_t)mesh->cell_count);
+  for (int64_t i = 0; i < 4 * mesh->cell_count; ++i) narrow[i] = (int32_t)cells[i];
+  batch.faces = corners;
+  batch.locked_edges = ends;
+  for (int kind = 0; kind < 2; ++kind) {
+    batch.cells = kind == 0 ? cells : (const int64_t*)(const void*)narrow;
+    const uint32_t more = kind == 0 ? 0 : TETSTREAM_STREAM_INT32_CELLS;
+    tetstream_writer* again =
+        converted(&batch, more | TETSTREAM_STREAM_FROM_ONE, &same, &same_size);
+    CHECK_EQUAL(same_size, size);
+    CHECK(same_size == size && memcmp(same, bytes, size) == 0);
+    tetstream_writer_destroy(again);
+  }
+  tetstream_writer_destroy(writer);
+
+  /* 0 is no vertex then, and messages count as the caller does. */
+  tetstream_stream_info info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
+  tetstream_reader* reader = NULL;
+  cells[5] = 0;
+  batch.cells = cells;
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
+  CHECK_SAYS(tetstream_reader_message(reader), "cell 2: vertex 0 is not one of the mesh's");
+  tetstream_reader_destroy(reader);
+  info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
+  corners[0] = mesh->vertex_count + 1;
+  locked_faces[0] = 1;
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_BAD_DATA);
+  CHECK_SAYS(tetstream_reader_message(reader), "locked face 1: vertex");
+  tetstream_reader_destroy(reader);
+  free(cells);
+  free(corners);
+  free(narrow);
+}
+
 int main(void) {
   make_faces();
   RUN_CASE(labels_survive_in_meshes_in_memory);
@@ -246,6 +309,7 @@ int main(void) {
   RUN_CASE(inspections_tell_the_labels);
   RUN_CASE(comparisons_tell_areas);
   RUN_CASE(faces_of_unknown_vertices_are_refused);
+  RUN_CASE(ids_may_count_from_one);
   free_faces();
   return check_end();
 }

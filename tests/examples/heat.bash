@@ -1,11 +1,12 @@
 # The solver of the heat equation, on a box, where the answer is known, and on a part with fillets and
-# holes.
+# holes: heat.bash heat, in C, and heat.bash heat_fortran.
 source "${BASH_SOURCE%/*}/common.bash"
+program=$1
 
 # solve NAME MESH STEPS EVERY: runs it and checks what must hold on any mesh.
 solve() {
   local name=$1 mesh=$2 steps=$3 every=$4 all contents first count=0 cells
-  example 0 heat "$mesh" "$name" "$steps" "$every"
+  example 0 "$program" "$mesh" "$name" "$steps" "$every"
   [[ -z $err ]] || fail "$name: not silent"
   cp "$logs/out" "$name.table"
   all=$(cells_in "$mesh")
@@ -36,31 +37,31 @@ grep -v '^#' box.table | while read -r number time _ amplitude _; do
 done
 
 # Twice as many steps of half the length end at the same time.
-example 0 heat box.tets half $((2 * steps)) $((2 * steps)) 0.0005
+example 0 "$program" box.tets half $((2 * steps)) $((2 * steps)) 0.0005
 [[ $(tail -1 <<<"$out" | cut -d ' ' -f 2) == $(tail -1 box.table | cut -d ' ' -f 2) ]] ||
   fail "another time: $out"
 
 # The same again gives the same bytes.
-example 0 heat box.tets again $steps $steps
+example 0 "$program" box.tets again $steps $steps
 last=$(printf %03d $steps).tets
 cmp box-$last again-$last || fail "the second run gives other bytes"
 
-example 1 heat nothing.vtu out
+example 1 "$program" nothing.vtu out
 contains "$err" "nothing.vtu: cannot open"
-example 1 heat box.tets out 10 0
+example 1 "$program" box.tets out 10 0
 contains "$err" "usage: "
-example 1 heat box.tets nowhere/out 0
+example 1 "$program" box.tets nowhere/out 0
 contains "$err" "nowhere/out-000.tets"
 printf '%s\n' "# vtk DataFile Version 3.0" flat ASCII "DATASET UNSTRUCTURED_GRID" "POINTS 4 double" \
   "0 0 0  1 0 0  0 1 0  1 1 0" "CELLS 1 5" "4 0 1 2 3" "CELL_TYPES 1" 10 >flat.vtk
-example 1 heat flat.vtk out
+example 1 "$program" flat.vtk out
 contains "$err" "flat"
 if ! is_slow; then
   (
     trap '' XFSZ
     ulimit -f 8 # no file may have more than 8 KB
-    example 1 heat box.tets out 0
-    contains "$err" "heat: out-000.tets: "
+    example 1 "$program" box.tets out 0
+    contains "$err" ": out-000.tets: "
     [[ -z $out || $out == "# "* ]] || fail "a step that was not written is told: $out"
   )
 fi

@@ -1,7 +1,7 @@
 # install.deb: makes the Debian packages and plays the user of a system that has them and not the build
 # tree: they are installed by dpkg below a folder, whose database is a copy of this system's, so that
 # dependencies are those of this Debian; used; and removed without a trace.
-# Environment: BUILD, WORK, CC, PYTHON, VERSION, MULTIARCH, SOURCE, PACKAGES (the names that are to be
+# Environment: BUILD, WORK, CC, FC, PYTHON, VERSION, MULTIARCH, SOURCE, PACKAGES (the names that are to be
 # there, blank-separated).
 set -eu
 
@@ -45,6 +45,10 @@ if [[ " $PACKAGES " == *" python3-tetstream "* ]]; then
 fi
 if [[ " $PACKAGES " == *" octave-tetstream "* ]]; then
   says octave-tetstream Depends "octave (>= " "octave (<< " "libc6 (>="
+fi
+if [[ " $PACKAGES " == *" libtetstream-fortran-dev "* ]]; then
+  says libtetstream-fortran-dev Depends "libtetstream-dev (= $VERSION-1)"
+  says libtetstream-fortran-dev Section libdevel
 fi
 for package in $PACKAGES; do
   says "$package" Description "simplifies tetrahedral meshes"
@@ -104,6 +108,19 @@ mkdir debian && printf 'Source: client\n\nPackage: client\nArchitecture: any\n' 
 needs=$(dpkg-shlibdeps -L"$database/info/$library.shlibs" -l"$root/usr/lib/$MULTIARCH" -O ./client)
 [[ $needs == *"$library (>= $VERSION)"* ]] || fail "dpkg-shlibdeps finds for a client: $needs"
 
+if [[ " $PACKAGES " == *" libtetstream-fortran-dev "* ]]; then
+  [[ -s $root/usr/share/man/man3/tetstream-fortran.3.gz ]] || fail "tetstream-fortran(3) is not there"
+  # shellcheck disable=SC2046
+  "$FC" "$SOURCE/tests/install/client.f90" $(pkg-config --cflags --libs tetstream-fortran) -o fortran_client
+  # shellcheck disable=SC2046
+  "$FC" "$root"/usr/share/doc/*/examples/heat.f90 $(pkg-config --cflags --libs tetstream-fortran) -o heat
+  export LD_LIBRARY_PATH=$root/usr/lib/$MULTIARCH
+  ./fortran_client
+  ./heat fluid.vtu fluid 2 2 >/dev/null
+  unset LD_LIBRARY_PATH
+  [[ -s fluid-002.tets ]] || fail "heat.f90 does not do what it should"
+fi
+
 if [[ " $PACKAGES " == *" python3-tetstream "* ]]; then
   PYTHONPATH=$root/usr/lib/python3/dist-packages PYTHONDONTWRITEBYTECODE=1 "$PYTHON" -c "
 import tetstream
@@ -124,9 +141,11 @@ fi
 # --------------------------------------------------------------------------------------------- removed
 # Programs need the library alone.
 cd "$WORK"
+others=()
 for package in $PACKAGES; do
-  [[ $package == "$library" ]] || on_root --purge "$package"
+  [[ $package == "$library" ]] || others+=("$package")
 done
+on_root --purge "${others[@]}"
 LD_LIBRARY_PATH=$root/usr/lib/$MULTIARCH "$elsewhere/client"
 on_root --purge "$library"
 left=$(find "$root" -path "$database" -prune -o -type f -print -o -type l -print)

@@ -55,6 +55,20 @@ $(${PKG_CONFIG} --static --cflags --libs tetstream | sed 's/-ltetstream/-l:libte
 -o '\"${WORK}/static_${client}\"'")
     must(${WORK}/static_${client})
   endforeach()
+  if(FC)
+    must(${PKG_CONFIG} --validate tetstream-fortran)
+    foreach(linkage shared static)
+      set(libraries "--libs tetstream-fortran")
+      if(linkage STREQUAL "static")
+        set(libraries "--static --libs tetstream-fortran | sed 's/-ltetstream /-l:libtetstream.a /'")
+      endif()
+      must(sh -c "eval \"${FC}\" ${flags} '\"${here}/client.f90\"' \
+$(${PKG_CONFIG} --cflags tetstream-fortran) $(${PKG_CONFIG} ${libraries}) \
+-o '\"${WORK}/${linkage}_fortran\"'")
+    endforeach()
+    must(${CMAKE_COMMAND} -E env "LD_LIBRARY_PATH=${prefix}/${LIBDIR}" ${WORK}/shared_fortran)
+    must(${WORK}/static_fortran)
+  endif()
   # The examples, as their README.md says it; those that need no arguments are run.
   set(examples "${prefix}/${DOCDIR}/examples")
   file(GLOB sources "${examples}/*.c" "${examples}/tutorial/*.c")
@@ -82,6 +96,14 @@ foreach(linkage shared static any)
   must(${CMAKE_COMMAND} --build ${WORK}/${linkage})
   must(${WORK}/${linkage}/client_c)
   must(${WORK}/${linkage}/client_cpp)
+  if(FC AND NOT linkage STREQUAL "shared")  # which is what "any" means there
+    set(build "${WORK}/${linkage} fortran")
+    must(${CMAKE_COMMAND} -S ${here}/project_fortran -B "${build}" -G ${GENERATOR}
+      -DCMAKE_Fortran_COMPILER=${FC} -DCMAKE_Fortran_FLAGS=${flags} "-DCMAKE_PREFIX_PATH=${prefix}"
+      -DLINKAGE=${linkage})
+    must(${CMAKE_COMMAND} --build "${build}")
+    must("${build}/client_fortran")
+  endif()
 endforeach()
 
 # A version that is not compatible is not found.

@@ -1,0 +1,279 @@
+! What is handed over to C: descriptions and batches as C has them, in memory that lives as long as the
+! library reads them. Points are numbered from 0 there.
+module tetstream_handover
+  use, intrinsic :: iso_c_binding
+  use tetstream_c
+  use tetstream_arrays
+  use tetstream_streams
+  use tetstream_failures
+  implicit none
+  private
+
+  ! A name as C has it, with room for one letter more than the library takes: it refuses that.
+  type :: column_room
+    character(kind=c_char) :: names(257)
+  end type
+
+  ! A tetstream_stream_info for C, and what it points to.
+  type, public :: info_room
+    type(tetstream_stream_info) :: info
+    type(c_column), allocatable :: fields(:), cell_data(:)
+    type(column_room), allocatable :: field_names(:), cell_data_names(:)
+  contains
+    procedure :: fill => fill_info
+  end type
+
+  ! A tetstream_batch for C, and what it points to.
+  type, public :: batch_room
+    type(tetstream_batch) :: batch
+    real(c_float), allocatable :: narrow_points(:, :)
+    type(c_ptr), allocatable :: fields(:), cell_data(:)
+    integer(c_int8_t), allocatable :: locked(:), last_uses(:), locked_faces(:)
+  contains
+    procedure :: fill => fill_batch
+  end type
+
+  public :: flags_of
+
+contains
+
+  ! ------------------------------------------------------------------------------- descriptions
+
+  subroutine fill_info(this, out)
+    class(info_room), intent(inout), target :: this
+    type(c_stream_info), intent(inout) :: out
+
+    out%position_type = this%info%position_type
+    if (this%info%indexed) out%flags = ior(out%flags, TETSTREAM_STREAM_INDEXED)
+    call fill_columns(this%info%fields, this%fields, this%field_names, out%fields, out%field_count)
+    call fill_columns(this%info%cell_data, this%cell_data, this%cell_data_names, out%cell_data, &
+                      out%cell_data_count)
+    out%vertex_count = this%info%vertex_count
+    out%cell_count = this%info%cell_count
+    out%face_count = this%info%face_count
+    out%front_width = this%info%front_width
+    out%front_span = this%info%front_span
+    out%front_cells = this%info%front_cells
+    if (boxed(this%info)) then
+      out%box_min = c_loc(this%info%box_min)
+      out%box_max = c_loc(this%info%box_max)
+    end if
+  end subroutine
+
+  ! Whether the box is there, of the length that the library reads.
+  pure logical function boxed(info)
+    type(tetstream_stream_info), intent(in) :: info
+    integer :: length
+
+    boxed = allocated(info%box_min) .and. allocated(info%box_max)
+    if (.not. boxed) return
+    length = 3
+    if (allocated(info%fields)) length = 3 + sum(info%fields%components)
+    boxed = size(info%box_min) == length .and. size(info%box_max) == length
+  end function
+
+  subroutine fill_columns(columns, made, names, place, count)
+    type(tetstream_column), allocatable, intent(inout) :: columns(:)
+    type(c_column), allocatable, intent(inout), target :: made(:)
+    type(column_room), allocatable, intent(inout), target :: names(:)
+    type(c_ptr), intent(inout) :: place
+    integer(c_int32_t), intent(inout) :: count
+    integer :: i, j
+
+    if (.not. allocated(columns)) allocate (columns(0))
+    count = size(columns)
+    if (count == 0) return
+    if (allocated(made)) deallocate (made, names)
+    allocate (made(count), names(count))
+    do i = 1, count
+      names(i)%names = c_null_char
+      do j = 1, min(len(columns(i)%name), 256)
+        names(i)%names(j) = columns(i)%name(j:j)
+      end do
+      made(i)%name = c_loc(names(i)%names)
+      made(i)%components = columns(i)%components
+      made(i)%type = columns(i)%type
+    end do
+    place = c_loc(made)
+  end subroutine
+
+  ! ------------------------------------------------------------------------------------ batches
+
+  ! Checks the room's batch against what the stream announced, and makes C's of it. Its numbers of
+  ! points are then from 0.
+  subroutine fill_batch(this, info, out, stat, errmsg)
+    class(batch_room), intent(inout), target :: this
+    type(tetstream_stream_info), intent(in) :: info
+    type(c_batch), intent(inout) :: out
+    integer, intent(out) :: stat
+    character(*), intent(inout) :: errmsg
+
+    stat = TETSTREAM_OK
+    associate (b => this%batch)
+      call fill_points(this, info, out, stat, errmsg)
+      call fill_ids("cells", b%cells, 4, out%cell_count, out%cells, stat, errmsg)
+      call fill_ids("faces", b%faces, 3, out%face_count, out%faces, stat, errmsg)
+      call fill_ids("locked_edges", b%locked_edges, 2, out%locked_edge_count, out%locked_edges, stat, errmsg)
+      call fill_arrays("field", b%fields, info%fields, out%vertex_count, this%fields, out%fields, stat, errmsg)
+      call fill_arrays("cell array", b%cell_data, info%cell_data, out%cell_count, this%cell_data, &
+                       out%cell_data, stat, errmsg)
+      call fill_flags("locked", b%locked, out%vertex_count, this%locked, out%locked, stat, errmsg)
+      call fill_flags("locked_faces", b%locked_faces, out%face_count, this%locked_faces, out%locked_faces, &
+                      stat, errmsg)
+      call fill_last_uses(this, out, stat, errmsg)
+      call fill_labels(b, out, stat, errmsg)
+      if (stat < 0 .or. .not. allocated(b%finalized)) return
+      b%finalized = b%finalized - 1
+      out%finalized_count = size(b%finalized, kind=c_int64_t)
+      if (out%finalized_count > 0) out%finalized = c_loc(b%finalized)
+    end associate
+  end subroutine
+
+  subroutine refuse(sentence, stat, errmsg)
+    character(*), intent(in) :: sentence
+    integer, intent(out) :: stat
+    character(*), intent(inout) :: errmsg
+
+    stat = TETSTREAM_BAD_ARGUMENT
+    errmsg = sentence
+  end subroutine
+
+  ! "WHAT has COUNT rows, WANTED are needed" is refused, unless it is so.
+  subroutine need_rows(what, count, wanted, stat, errmsg)
+    character(*), intent(in) :: what
+    integer(c_int64_t), intent(in) :: count, wanted
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
+    character(100) :: words
+
+    if (count == wanted) return
+    write (words, "(a, i0, a, i0, a)") ": there are ", count, ", where ", wanted, " are needed"
+    call refuse(what//trim(words), stat, errmsg)
+  end subroutine
+
+  subroutine fill_points(this, info, out, stat, errmsg)
+    class(batch_room), intent(inout), target :: this
+    type(tetstream_stream_info), intent(in) :: info
+    type(c_batch), intent(inout) :: out
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
+
+    if (.not. allocated(this%batch%points)) return
+    call need_rows("the rows of points", size(this%batch%points, 1, c_int64_t), 3_c_int64_t, stat, errmsg)
+    out%vertex_count = size(this%batch%points, 2, c_int64_t)
+    if (stat < 0 .or. out%vertex_count == 0) return
+    if (info%position_type == TETSTREAM_TYPE_FLOAT32) then
+      this%narrow_points = real(this%batch%points, c_float)
+      out%positions = c_loc(this%narrow_points)
+    else
+      out%positions = c_loc(this%batch%points)
+    end if
+  end subroutine
+
+  subroutine fill_ids(what, ids, components, count, place, stat, errmsg)
+    character(*), intent(in) :: what
+    integer(c_int64_t), allocatable, intent(inout), target :: ids(:, :)
+    integer, intent(in) :: components
+    integer(c_int64_t), intent(inout) :: count
+    type(c_ptr), intent(inout) :: place
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
+
+    if (stat < 0 .or. .not. allocated(ids)) return
+    call need_rows("the rows of "//what, size(ids, 1, c_int64_t), int(components, c_int64_t), stat, errmsg)
+    count = size(ids, 2, c_int64_t)
+    if (stat < 0 .or. count == 0) return
+    ids = ids - 1
+    place = c_loc(ids)
+  end subroutine
+
+  subroutine fill_arrays(what, arrays, columns, rows, pointers, place, stat, errmsg)
+    character(*), intent(in) :: what
+    type(tetstream_array), allocatable, intent(in), target :: arrays(:)
+    type(tetstream_column), intent(in) :: columns(:)
+    integer(c_int64_t), intent(in) :: rows
+    type(c_ptr), allocatable, intent(inout), target :: pointers(:)
+    type(c_ptr), intent(inout) :: place
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
+    integer :: i
+
+    if (stat < 0 .or. rows == 0 .or. size(columns) == 0) return
+    if (.not. allocated(arrays)) then
+      call refuse(what//' "'//columns(1)%name//'" was announced and is not in the batch', stat, errmsg)
+      return
+    end if
+    call need_rows(what//"s of a batch", size(arrays, kind=c_int64_t), size(columns, kind=c_int64_t), &
+                   stat, errmsg)
+    if (stat < 0) return
+    if (allocated(pointers)) deallocate (pointers)
+    allocate (pointers(size(columns)))
+    do i = 1, size(columns)
+      if (arrays(i)%type() /= columns(i)%type .or. arrays(i)%components() /= columns(i)%components) then
+        call refuse(what//' "'//columns(i)%name//'" has not the type or the components that were '// &
+                    "announced", stat, errmsg)
+        return
+      end if
+      call need_rows(what//' "'//columns(i)%name//'"', arrays(i)%rows(), rows, stat, errmsg)
+      pointers(i) = arrays(i)%location()
+    end do
+    place = c_loc(pointers)
+  end subroutine
+
+  ! Flags as C has them.
+  pure function flags_of(values) result(flags)
+    logical, intent(in) :: values(:)
+    integer(c_int8_t) :: flags(size(values))
+
+    flags = merge(1_c_int8_t, 0_c_int8_t, values)
+  end function
+
+  subroutine fill_flags(what, values, rows, flags, place, stat, errmsg)
+    character(*), intent(in) :: what
+    logical, allocatable, intent(in) :: values(:)
+    integer(c_int64_t), intent(in) :: rows
+    integer(c_int8_t), allocatable, intent(inout), target :: flags(:)
+    type(c_ptr), intent(inout) :: place
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
+
+    if (stat < 0 .or. .not. allocated(values)) return
+    call need_rows(what, size(values, kind=c_int64_t), rows, stat, errmsg)
+    if (stat < 0 .or. rows == 0) return
+    flags = flags_of(values)
+    place = c_loc(flags)
+  end subroutine
+
+  subroutine fill_last_uses(this, out, stat, errmsg)
+    class(batch_room), intent(inout), target :: this
+    type(c_batch), intent(inout) :: out
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
+    integer :: corner
+
+    if (stat < 0 .or. .not. allocated(this%batch%last_uses)) return
+    call need_rows("the rows of last_uses", size(this%batch%last_uses, 1, c_int64_t), 4_c_int64_t, stat, errmsg)
+    call need_rows("last_uses", size(this%batch%last_uses, 2, c_int64_t), out%cell_count, stat, errmsg)
+    if (stat < 0 .or. out%cell_count == 0) return
+    if (allocated(this%last_uses)) deallocate (this%last_uses)
+    allocate (this%last_uses(out%cell_count), source=0_c_int8_t)
+    do corner = 1, 4
+      where (this%batch%last_uses(corner, :)) this%last_uses = ibset(this%last_uses, corner - 1)
+    end do
+    out%last_uses = c_loc(this%last_uses)
+  end subroutine
+
+  ! Faces without labels have the label 0.
+  subroutine fill_labels(batch, out, stat, errmsg)
+    type(tetstream_batch), intent(inout), target :: batch
+    type(c_batch), intent(inout) :: out
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
+
+    if (stat < 0 .or. out%face_count == 0) return
+    if (.not. allocated(batch%face_labels)) allocate (batch%face_labels(out%face_count), source=0_c_int64_t)
+    call need_rows("face_labels", size(batch%face_labels, kind=c_int64_t), out%face_count, stat, errmsg)
+    out%face_labels = c_loc(batch%face_labels)
+  end subroutine
+
+end module
