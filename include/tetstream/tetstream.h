@@ -183,6 +183,9 @@ TETSTREAM_API tetstream_status tetstream_options_get_text(const tetstream_option
  * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_add_field(tetstream_options *options,
                                                            const char *name, double weight);
+/* A piece of work of the library's. */
+typedef void (*tetstream_work)(void *argument);
+
 /* Threads of the caller's, in place of those that a simplifier would start. Members may be added at
  * the end in later versions; struct_size says which ones the caller knows. Results do not depend on
  * the pool. */
@@ -198,7 +201,7 @@ typedef struct tetstream_pool_callbacks {
    * that itself. So a pool may be busy with other things, or with the very calls of the library.
    * Work that is late, even after its handles were destroyed, finds nothing left to do; what is
    * never called stays allocated. */
-  int32_t (*submit)(void *user, void (*work)(void *argument), void *argument);
+  int32_t (*submit)(void *user, tetstream_work work, void *argument);
 } tetstream_pool_callbacks;
 
 /* Simplifiers with these options start no thread, but give work to the pool. The option `threads`

@@ -1,5 +1,6 @@
 ! Options, statuses, tables: by name and by number, and what is refused.
 module options_cases
+  use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int32_t, c_null_funptr, c_ptr
   use, intrinsic :: iso_fortran_env, only: int32, int64, real32, real64
   use checks
   use tetstream
@@ -73,6 +74,12 @@ contains
     call check_says(errmsg, "loud", "a choice that is none")
     call options%get("mode", cells, stat, errmsg)
     call check_equal(stat, TETSTREAM_BAD_ARGUMENT, "another type")
+    call options%set_pool(c_funloc(refuse), -1, stat=stat, errmsg=errmsg)
+    call check_equal(stat, TETSTREAM_BAD_ARGUMENT, "a pool of fewer threads than none")
+    call options%set_pool(c_funloc(refuse), 3, stat=stat)
+    call check_equal(stat, 0, "a pool")
+    call options%set_pool(c_null_funptr, 0, stat=stat)
+    call check_equal(stat, 0, "and none again")
     call options%add_field("", 1._real64, stat, errmsg)
     call check_equal(stat, TETSTREAM_BAD_ARGUMENT, "a field without a name")
     call options%add_field("p", -1._real64, stat)
@@ -111,6 +118,15 @@ contains
     call check_says(tetstream_version_text(), "0.", "which has words")
   end subroutine
 
+  ! A pool that takes no work.
+  integer(c_int32_t) function refuse(user, work, argument) bind(c)
+    type(c_ptr), value :: user, argument
+    type(c_funptr), value :: work
+
+    refuse = 1
+    if (c_associated(user) .and. c_associated(work) .and. c_associated(argument)) refuse = 2
+  end function
+
 end module
 
 program options_test
@@ -121,4 +137,5 @@ program options_test
   call what_is_no_option_is_refused
   call tables_are_told
   call check_end
+
 end program

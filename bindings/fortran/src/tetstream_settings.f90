@@ -20,6 +20,7 @@ module tetstream_settings
     procedure, private :: get_id_int64, get_id_float64, get_id_text
     generic :: get => get_name_int64, get_name_float64, get_name_text, get_id_int64, get_id_float64, get_id_text
     procedure :: add_field => options_add_field
+    procedure :: set_pool => options_set_pool
     procedure :: destroy => options_destroy
     procedure, private :: options_copy
     generic :: assignment(=) => options_copy
@@ -292,6 +293,28 @@ contains
     if (present(weight)) factor = weight
     call need_handle(this)
     call told(this, c_options_add_field(this%handle, trim(name)//c_null_char, factor), stat, errmsg)
+  end subroutine
+
+  ! Threads of the caller's, by a function in C that takes work; with c_null_funptr those of the library again.
+  subroutine options_set_pool(this, submit, threads, user, stat, errmsg)
+    class(tetstream_options), intent(inout) :: this
+    type(c_funptr), intent(in) :: submit
+    integer, intent(in) :: threads
+    type(c_ptr), intent(in), optional :: user
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    type(c_pool_callbacks) :: pool
+
+    call need_handle(this)
+    if (.not. c_associated(submit)) then
+      call told(this, c_options_set_pool(this%handle), stat, errmsg)
+      return
+    end if
+    pool%struct_size = c_sizeof(pool)
+    if (present(user)) pool%user = user
+    pool%threads = threads
+    pool%submit = submit
+    call told(this, c_options_set_pool(this%handle, pool), stat, errmsg)
   end subroutine
 
   ! All have their defaults again.
