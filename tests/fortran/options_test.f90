@@ -49,6 +49,7 @@ contains
 
   subroutine what_is_no_option_is_refused
     type(tetstream_options) :: options
+    type(c_funptr) :: submit
     integer(int64) :: cells
     integer :: stat
     character(200) :: errmsg
@@ -74,9 +75,10 @@ contains
     call check_says(errmsg, "loud", "a choice that is none")
     call options%get("mode", cells, stat, errmsg)
     call check_equal(stat, TETSTREAM_BAD_ARGUMENT, "another type")
-    call options%set_pool(c_funloc(refuse), -1, stat=stat, errmsg=errmsg)
+    submit = c_funloc(refuse)
+    call options%set_pool(submit, -1, stat=stat, errmsg=errmsg)
     call check_equal(stat, TETSTREAM_BAD_ARGUMENT, "a pool of fewer threads than none")
-    call options%set_pool(c_funloc(refuse), 3, stat=stat)
+    call options%set_pool(submit, 3, stat=stat)
     call check_equal(stat, 0, "a pool")
     call options%set_pool(c_null_funptr, 0, stat=stat)
     call check_equal(stat, 0, "and none again")
