@@ -1,5 +1,5 @@
-// file: what a format of files is: the options of its reader and its writer, and the row that it has
-// in the table of formats. Depends on stream, base.
+// file: what a format of files is: the options of its reader and its writer, and the row that it
+// has in the table of formats. Depends on stream, base.
 #pragma once
 
 #include <functional>
