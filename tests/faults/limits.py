@@ -55,7 +55,7 @@ def strange_places(group):
     bench = group.bench
     for command, _, _ in group.each(lambda command: command.outputs):
         source = next(word for word in command.words if word.startswith("in."))
-        kind = source.split(".")[1]
+        kind = source.rsplit(".", 1)[1]
         os.makedirs(os.path.join(bench.root, "folder." + kind), exist_ok=True)
         for name, place, allowed in (("input: a folder", f"../folder.{kind}", [IO, BAD_DATA]),
                                      ("input: empty", f"../empty.{kind}", [IO, BAD_DATA])):
@@ -85,7 +85,7 @@ def stalled_inputs(group):
     """An input that does not go on, and a signal; one that ends in its middle."""
     bench = group.bench
     for kind in sorted(name.split(".")[1] for name in os.listdir(bench.inputs)
-                       if name.startswith("in.")):
+                       if name.startswith("in.") and name.count(".") == 1):
         if kind in ("ele", "sol", "solb", "node", "pvtu", "pvd"):  # not of one file
             continue
         name = {"exo": "exodus"}.get(kind, kind)
