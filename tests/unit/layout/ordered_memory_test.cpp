@@ -10,10 +10,11 @@ size_t bitsBeside(const TestMesh& mesh) {
 }
 
 TEST(OrderedMemory, IsKeptInEachOrderByPlace) {
-  const int n = slowRun() ? 10 : 24;
-  const size_t memory = slowRun() ? 64 << 10 : 512 << 10;
+  const int n = 24;
+  const size_t memory = 512 << 10;
   TestMesh mesh = withColumns(shuffled(fullGrid(n, n, n, 0.1), 7));
   for (const char* order : {"spatial", "brick", "z-order", "hilbert"}) {
+    if (slowRun() && order != std::string("brick")) continue;
     SCOPED_TRACE(order);
     MemorySource in(mesh.schema, mesh.view());
     SequentialSource sequential(in);

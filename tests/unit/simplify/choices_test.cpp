@@ -338,8 +338,8 @@ class Builds {
 
   Random r_;
   Rows rows_[2];
-  S errors_[24];
-  uint32_t others_[24];
+  S errors_[24] = {};  // also those beyond the list, which are read and dropped
+  uint32_t others_[24] = {};
 };
 
 template <class S>
