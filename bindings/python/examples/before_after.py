@@ -13,11 +13,14 @@ import matplotlib
 matplotlib.use("Agg")  # into a file, without a screen
 
 import numpy  # noqa: E402
-from matplotlib import collections, pyplot  # noqa: E402
+from matplotlib import cm, collections, colors, pyplot  # noqa: E402
 
 import tetstream  # noqa: E402
 
 AXES = "xyz"
+
+# viridis without its darkest part, on which edges would not be seen.
+PALE = colors.ListedColormap(cm.viridis(numpy.linspace(0.25, 1, 256)))
 
 
 def cut(mesh, values, axis, place):
@@ -64,7 +67,7 @@ def length(values):
 def draw(axes, mesh, field, axis, place, limits=None):
     """Draws the cut; `limits` of the colours, or None: those of the values that are seen."""
     polygons, colours = cut(mesh, length(mesh.fields[field]), axis, place)
-    drawn = collections.PolyCollection(polygons, array=colours, cmap="viridis", edgecolors="black",
+    drawn = collections.PolyCollection(polygons, array=colours, cmap=PALE, edgecolors="black",
                                        linewidths=0.15)
     drawn.set_clim(*(limits or (colours.min(), colours.max())))
     axes.add_collection(drawn)
@@ -96,11 +99,14 @@ def main():
     error = tetstream.compare(mesh, small, weights={field: 1}).fields[field]
 
     values = length(mesh.fields[field])
-    axis = AXES.index(arguments.axis) if arguments.axis else max(
-        range(3), key=lambda i: area(cut(mesh, values, i, middle(mesh, i))[0]))
+    axes = [AXES.index(arguments.axis)] if arguments.axis else range(3)
+    cuts = {i: cut(mesh, values, i, middle(mesh, i))[0] for i in axes}
+    axis = max(axes, key=lambda i: area(cuts[i]))
     place = middle(mesh, axis)
+    if not cuts[axis]:
+        parser.error(f"the plane {AXES[axis]} = {place:g} cuts no cell")
     # What is wide comes one above the other.
-    width, height = numpy.delete(numpy.ptp(mesh.points, axis=0), axis)
+    width, height = numpy.ptp(numpy.concatenate(cuts[axis]), axis=0)
     is_wide = width > 2 * height
     shape, size = ((2, 1), (11, 2.5 + 18 * height / width)) if is_wide else (
         (1, 2), (13, min(1.5 + 5.5 * height / width, 10)))
