@@ -393,9 +393,12 @@ static void null_is_refused_everywhere(void) {
   tetstream_reader* reader = NULL;
   hostile_mesh_info(mesh, &info);
   hostile_mesh_batch(mesh, &batch, pointers);
-#define REFUSED(call)                                   \
-  CHECK_EQUAL(call, TETSTREAM_BAD_ARGUMENT);            \
-  CHECK_SAYS(tetstream_reader_message(reader), "NULL"); \
+/* The sentence begins with the function that was called. */
+#define REFUSED(call)                                                                 \
+  CHECK_EQUAL(call, TETSTREAM_BAD_ARGUMENT);                                          \
+  CHECK_SAYS(tetstream_reader_message(reader), " is NULL");                           \
+  CHECK(strncmp(tetstream_reader_message(reader), #call, strcspn(#call, "(")) == 0 && \
+        tetstream_reader_message(reader)[strcspn(#call, "(")] == ':');                \
   tetstream_reader_destroy(reader)
   REFUSED(tetstream_reader_create(NULL, &reader));
   REFUSED(tetstream_reader_open_file(NULL, "vtu", &reader));

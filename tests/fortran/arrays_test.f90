@@ -203,6 +203,10 @@ contains
     call tetstream_simplify(points, cells, [tetstream_field("wave", field)], small, marks=marks, stat=stat, &
                             errmsg=errmsg)
     call check_says(errmsg, "face_labels: the extent is 2, not 1", "each face has one label")
+    deallocate (marks%faces)
+    call tetstream_simplify(points, cells, [tetstream_field("wave", field)], small, marks=marks, stat=stat, &
+                            errmsg=errmsg)
+    call check_says(errmsg, "face_labels: the extent is 2, not 0", "labels are of faces")
     call options%set("cells", 10)
     call tetstream_simplify(points, cells, [tetstream_field("wave", field)], small, options, 0.1_real64, &
                             stat=stat, errmsg=errmsg)

@@ -99,9 +99,7 @@ contains
       this%locked = flags_of(marks%locked)
       if (size(this%locked) > 0) batch%locked = c_loc(this%locked)
     end if
-    if (allocated(marks%faces)) then
-      if (size(marks%faces, 2) > 0) call mark_faces(this, marks, batch, status, refusal)
-    end if
+    call mark_faces(this, marks, batch, status, refusal)
     if (.not. allocated(marks%locked_edges)) return
     if (size(marks%locked_edges, 2) == 0) return
     call need("locked_edges: the first extent", size(marks%locked_edges, 1, c_int64_t), 2_c_int64_t, &
@@ -118,10 +116,12 @@ contains
     integer, intent(inout) :: status
     character(*), intent(inout) :: refusal
 
-    call need("faces: the first extent", size(marks%faces, 1, c_int64_t), 3_c_int64_t, status, refusal)
-    this%faces = marks%faces
-    batch%face_count = size(marks%faces, 2, c_int64_t)
-    batch%faces = c_loc(this%faces)
+    if (allocated(marks%faces)) batch%face_count = size(marks%faces, 2, c_int64_t)
+    if (batch%face_count > 0) then
+      call need("faces: the first extent", size(marks%faces, 1, c_int64_t), 3_c_int64_t, status, refusal)
+      this%faces = marks%faces
+      batch%faces = c_loc(this%faces)
+    end if
     if (allocated(marks%face_labels)) then
       this%face_labels = marks%face_labels
     else
