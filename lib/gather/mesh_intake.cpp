@@ -25,9 +25,9 @@ MeshIntake::MeshIntake(const FileScan& file, const ReadOptions& options, ScalarT
       mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir)),
       faces_(sizeof(int64_t[4]), options.temp_dir, {2, 256 << 10}) {}
 
-void MeshIntake::addLabels(const char* name, bool wide) {
+void MeshIntake::addLabels(const char* name, bool wide, bool sure) {
   const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;
-  labels_.push_back({mesh_->addCellData({name, 1, type}), wide, false, {}});
+  labels_.push_back({mesh_->addCellData({name, 1, type}), wide, sure, {}});
 }
 
 void MeshIntake::addPointLabels(const char* name, bool wide) {

@@ -21,8 +21,9 @@ class MeshIntake {
 
   MeshSpool& mesh() { return *mesh_; }
   uint64_t cellCount() const { return mesh_->cellCount() + held_cells_.size() / 4; }
-  // Integer cell data, int32 unless `wide`; before the first cell.
-  void addLabels(const char* name, bool wide = false);
+  // Integer cell data, int32 unless `wide`; before the first cell. Not there if all are 0, unless
+  // they are `sure` to have been.
+  void addLabels(const char* name, bool wide = false, bool sure = false);
 
   // The same of points, all of one column; before the first point.
   void addPointLabels(const char* name, bool wide = false);
@@ -52,7 +53,7 @@ class MeshIntake {
  private:
   struct Labels {
     size_t column;
-    bool wide, any;                   // any: not all are 0
+    bool wide, any;                   // any: not all are 0, or it is sure to be there
     std::vector<unsigned char> held;  // rows, as they are stored
   };
   struct Data {
