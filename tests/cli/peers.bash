@@ -31,7 +31,7 @@ for way in XML Binary HDF; do
   [[ -e theirs-$way.xdmf ]] || continue
   [[ $way == HDF && $out != *", hdf5,"* ]] && continue
   expect 0 convert "theirs-$way.xdmf" ours.vtu --compress no --order none
-  "$TETSTREAM_PYTHON" "$peers" same ours.vtu mesh.vtu >"$logs/peer" 2>&1 ||
+  "$TETSTREAM_PYTHON" "$peers" same ours.vtu "theirs-$way.xdmf" >"$logs/peer" 2>&1 ||
     fail "values in the way $way are read otherwise"
 done
 [[ -s theirs-Binary.xdmf ]] || fail "meshio wrote no raw files"
