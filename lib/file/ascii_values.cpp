@@ -1,12 +1,16 @@
 // Values that stand in a file as text, read in sequence. So that a reader can go back without
 // starting anew, the place of every so-manieth value is kept.
 #include <algorithm>
+#include <bit>
+#include <cfloat>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
+#include "plain_number.h"
 #include "status.h"
 #include "values.h"
 
@@ -36,6 +40,32 @@ bool parseWord(std::string_view word, T* value) {
     }
   }
   return false;
+}
+
+const char* readPlain(const char* at, double* value) {
+  return readPlainReal(at, value);
+}
+
+// Rounded twice, to a double first: that shows only where the double is half way between two
+// floats.
+const char* readPlain(const char* at, float* value) {
+  constexpr uint64_t beyond = (uint64_t{1} << 29) - 1, half = uint64_t{1} << 28;
+  double wide;
+  const char* end = readPlainReal(at, &wide);
+  if (!end) return nullptr;
+  const double size = std::fabs(wide);
+  const bool normal = wide == 0 || (size >= FLT_MIN && size < FLT_MAX);
+  if (!normal || (std::bit_cast<uint64_t>(wide) & beyond) == half) return nullptr;
+  *value = static_cast<float>(wide);
+  return end;
+}
+
+template <class Integer>
+const char* readPlain(const char* at, Integer* value) {
+  int64_t found;
+  const char* end = readPlainDigits(at, &found);
+  if (end) *value = static_cast<Integer>(found);
+  return end;
 }
 
 class AsciiValues final : public Values {
@@ -81,9 +111,13 @@ class AsciiValues final : public Values {
   template <class In, class Out>
   void readWords(size_t count, Out* out) {
     for (size_t i = 0; i < count; ++i) {
-      const std::string_view word = nextWord();
       In value;
-      bool good = parseWord(word, &value);
+      std::string_view word;
+      bool good = nextPlain(&value);
+      if (!good) {
+        word = nextWord();
+        good = parseWord(word, &value);
+      }
       if constexpr (std::is_integral_v<In> && std::is_integral_v<Out>)
         good = good && std::in_range<Out>(value);
       if (!good) failWord(word);
@@ -111,9 +145,22 @@ class AsciiValues final : public Values {
          static_cast<unsigned long long>(place()), static_cast<unsigned long long>(count_));
   }
 
+  // The next word as nearly all are; false, with nothing taken, if it is another one.
+  template <class In>
+  bool nextPlain(In* value) {
+    if (next_ == marks_.size() * stride_) return false;  // to be marked
+    while (at_ < filled_ && isBlank(text_[at_])) ++at_;
+    if (filled_ - at_ < kPlainNumberBytes) return false;
+    const char* end = readPlain(text_.data() + at_, value);
+    if (!end || !isBlank(*end)) return false;
+    at_ = static_cast<size_t>(end - text_.data());
+    ++next_;
+    return true;
+  }
+
   // The next word, empty at the end; it lives until the next call.
   std::string_view nextWord() {
-    if (next_ % stride_ == 0 && next_ / stride_ == marks_.size()) mark();
+    if (next_ == marks_.size() * stride_) mark();
     if (!findWord()) return {};
     size_t size = 0;
     for (;;) {
