@@ -1,10 +1,7 @@
 // Values that stand in a file as text, read in sequence. So that a reader can go back without
 // starting anew, the place of every so-manieth value is kept.
 #include <algorithm>
-#include <bit>
-#include <cfloat>
 #include <charconv>
-#include <cmath>
 #include <cstring>
 #include <string_view>
 #include <type_traits>
@@ -42,29 +39,12 @@ bool parseWord(std::string_view word, T* value) {
   return false;
 }
 
-const char* readPlain(const char* at, double* value) {
-  return readPlainReal(at, value);
-}
+using tetstream::readPlain;
 
-// Rounded twice, to a double first: that shows only where the double is half way between two
-// floats.
-const char* readPlain(const char* at, float* value) {
-  constexpr uint64_t beyond = (uint64_t{1} << 29) - 1, half = uint64_t{1} << 28;
-  double wide;
-  const char* end = readPlainReal(at, &wide);
-  if (!end) return nullptr;
-  const double size = std::fabs(wide);
-  const bool normal = wide == 0 || (size >= FLT_MIN && size < FLT_MAX);
-  if (!normal || (std::bit_cast<uint64_t>(wide) & beyond) == half) return nullptr;
-  *value = static_cast<float>(wide);
-  return end;
-}
-
-template <class Integer>
-const char* readPlain(const char* at, Integer* value) {
+const char* readPlain(const char* at, uint64_t* value) {
   int64_t found;
-  const char* end = readPlainDigits(at, &found);
-  if (end) *value = static_cast<Integer>(found);
+  const char* end = readPlain(at, &found);
+  if (end) *value = static_cast<uint64_t>(found);
   return end;
 }
 

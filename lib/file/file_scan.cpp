@@ -140,8 +140,8 @@ int64_t FileScan::integer(const char* what) {
 }
 
 // Plain numbers, each with a blank behind it, within what is in the buffer. Returns how many.
-template <class Number, class Read>
-size_t FileScan::plainNumbers(Number* out, size_t count, Read read) {
+template <class Number>
+size_t FileScan::plainNumbers(Number* out, size_t count) {
   if (filled_ - at_ < kPlainNumberBytes) return 0;
   const char* at = buffer_.data() + at_;
   const char* const last = buffer_.data() + filled_ - kPlainNumberBytes;
@@ -150,7 +150,7 @@ size_t FileScan::plainNumbers(Number* out, size_t count, Read read) {
   for (; done < count; ++done) {
     while (isSpace(*at)) lines += *at++ == '\n';
     if (at > last) break;
-    const char* end = read(at, out + done);
+    const char* end = readPlain(at, out + done);
     if (!end || !isSpace(*end)) break;
     at = end;
   }
@@ -161,7 +161,7 @@ size_t FileScan::plainNumbers(Number* out, size_t count, Read read) {
 
 void FileScan::integers(int64_t* out, size_t count, const char* what) {
   while (count > 0) {
-    const size_t plain = plainNumbers(out, count, readPlainDigits);
+    const size_t plain = plainNumbers(out, count);
     out += plain;
     count -= plain;
     if (count == 0) break;
@@ -172,7 +172,7 @@ void FileScan::integers(int64_t* out, size_t count, const char* what) {
 
 void FileScan::reals(double* out, size_t count, const char* what) {
   while (count > 0) {
-    const size_t plain = plainNumbers(out, count, readPlainReal);
+    const size_t plain = plainNumbers(out, count);
     out += plain;
     count -= plain;
     if (count == 0) break;

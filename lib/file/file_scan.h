@@ -63,8 +63,8 @@ class FileScan {
   bool refill();  // adds to the buffer; false at the end of the file
   void checkRange(int64_t value, const char* what, int64_t least, int64_t most) const;
   bool passBlanks();
-  template <class Number, class Read>
-  size_t plainNumbers(Number* out, size_t count, Read read);
+  template <class Number>
+  size_t plainNumbers(Number* out, size_t count);
   size_t wordSize();
   [[noreturn]] void failWord(std::string_view word, const char* what) const;
 
