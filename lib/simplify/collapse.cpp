@@ -18,6 +18,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
       mesh_(mesh),
       tally_(tally),
       refusals_(account),
+      sound_(account),
       link_(account),
       stars_(account),
       merged_(static_cast<size_t>(core.plan.values)),
@@ -26,6 +27,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
 template <class Mesh>
 void Collapser<Mesh>::forget() {
   std::fill_n(refusals_.data(), refusals_.size(), Refusal{kNone, kNone, kNone});
+  std::fill_n(sound_.data(), sound_.size(), uint8_t{0});
 }
 
 template <class Mesh>
@@ -61,24 +63,48 @@ StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size
 // Whether the share of thin cells in the two stars would not grow, so that in the end it is no
 // larger than in the input.
 template <class Mesh>
-bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) const {
+bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) {
   if (after == 0) return true;
   const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
   const size_t before = thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +
                         thinIn(stars_.v, at_v, angle);
+  if (before == 0) {
+    setSound(u, true);
+    setSound(v, true);
+  }
   const size_t left = stars_.u.size() + stars_.v.size();
   return after * (left + stars_.ring.size()) <= before * left;
 }
 
 // `after`: cells that would be below the largest angle in question.
 template <class Mesh>
-Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, bool spares, size_t after) const {
+Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, bool spares, size_t after) {
   if (!thinsOut(u, v, core_.thin, spares ? thinAfter(core_.thin) : after))
     return Outcome::kOrientation;
   for (size_t i = 0; spares && i < core_.dear.size(); ++i)
     if (!thinsOut(u, v, core_.dear[i], i > 0 ? thinAfter(core_.dear[i]) : after))
       return Outcome::kDear;
   return Outcome::kDone;
+}
+
+template <class Mesh>
+void Collapser<Mesh>::setSound(uint32_t v, bool sound) {
+  if (core_.options.shape != Shape::kSolver) return;
+  if (v >= sound_.size()) {
+    const size_t before = sound_.size();
+    sound_.resize(size_t{v} + 1024);
+    std::fill(sound_.data() + before, sound_.data() + sound_.size(), uint8_t{0});
+  }
+  sound_[v] = sound;
+}
+
+// A cell of the stars is thin now, so that of their other vertices, too.
+template <class Mesh>
+void Collapser<Mesh>::spreadThin() {
+  for (const Star* star : {&stars_.u, &stars_.v})
+    for (const StarCell& s : *star)
+      for (uint32_t t : s.t)
+        if (isSound(t)) setSound(t, false);
 }
 
 // Whether u is farther from the new place than v is.
@@ -104,10 +130,11 @@ Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turne
   return Outcome::kOrientation;
 }
 
-// Whether the cell that the edge was refused for is still there and would be turned over now, too.
+// Whether the cell that the edge was refused for is still there and would be turned over now, too,
+// or thin.
 // Slots may have changed hands since: any cell of one end tells.
 template <class Mesh>
-bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
+bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const {
   if (refusals_.size() == 0) return false;
   if (u > v) std::swap(u, v);
   const Refusal& last = refusals_[placeOf(u, v)];
@@ -122,7 +149,7 @@ bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
   }
   if (ends != 1) return false;
   const StarCell cell = mesh_.starCell(at);
-  return !shapeFrom(merged_.data(), &cell, 1, core_.thin).positive;
+  return !shapeFrom(merged_.data(), &cell, 1, angle).positive;
 }
 
 template <class Mesh>
@@ -222,7 +249,10 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
-  if (turnsSameCell(u, v)) return Outcome::kOrientation;
+  // Where no cell is thin none may become so: the first one tells.
+  ThinAngle floor = core_.thin;
+  floor.barred = isSound(u) && isSound(v);
+  if (turnsSameCell(u, v, floor)) return Outcome::kOrientation;
   const bool u_first = isFarther(u, v);
   const auto gather = [&](bool of_u) {
     if (of_u)
@@ -245,7 +275,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     *error = std::max(*error, moved);
   }
   spares = spares && !core_.dear.empty();
-  const ThinAngle& angle = spares ? core_.dear.front() : core_.thin;
+  const ThinAngle& angle = spares ? core_.dear.front() : floor;
   const Star& farther = u_first ? stars_.u : stars_.v;
   const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size(), angle);
   if (!a.positive) return refuseFor(u, v, farther[a.turned]);
@@ -253,9 +283,12 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const Star& nearer = u_first ? stars_.v : stars_.u;
   const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size(), angle);
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
-  if (a.thin + b.thin > 0)
-    if (const Outcome o = thins(u, v, spares, a.thin + b.thin); o != Outcome::kDone) return o;
-  return keepsTopology(u, v, strata) ? Outcome::kDone : Outcome::kTopology;
+  const size_t thin = a.thin + b.thin;
+  if (thin > 0)
+    if (const Outcome o = thins(u, v, spares, thin); o != Outcome::kDone) return o;
+  if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
+  thins_ = thin > 0;
+  return Outcome::kDone;
 }
 
 // What merging two vertices adds to the error of the whole.
@@ -282,7 +315,11 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
     }
   }
   count(outcome);
-  if (outcome == Outcome::kDone) mergeInto(u, v, error);
+  if (outcome == Outcome::kDone) {
+    mergeInto(u, v, error);
+    setSound(u, !thins_);
+    if (thins_) spreadThin();
+  }
   return outcome;
 }
 

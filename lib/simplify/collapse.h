@@ -73,7 +73,10 @@ class Collapser {
   S errorHere(uint32_t u, uint32_t v) const;
   S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);
   bool isFarther(uint32_t u, uint32_t v) const;
-  bool turnsSameCell(uint32_t u, uint32_t v) const;
+  bool turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const;
+  bool isSound(uint32_t v) const { return v < sound_.size() && sound_[v]; }
+  void setSound(uint32_t v, bool sound);
+  void spreadThin();
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
@@ -87,8 +90,8 @@ class Collapser {
   size_t thinAfter(const ThinAngle& angle) const {
     return thinIn(stars_.u, merged_.data(), angle) + thinIn(stars_.v, merged_.data(), angle);
   }
-  bool thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) const;
-  Outcome thins(uint32_t u, uint32_t v, bool spares, size_t after) const;
+  bool thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after);
+  Outcome thins(uint32_t u, uint32_t v, bool spares, size_t after);
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
@@ -113,6 +116,8 @@ class Collapser {
   Mesh& mesh_;
   Tally& tally_;
   Array<Refusal> refusals_;
+  Array<uint8_t> sound_;  // per vertex, where shapes come first: none of its cells is thin, for sure
+  bool thins_ = false;    // the edge that was tested: it leaves thin cells
   LinkCondition link_;
   StrataCondition strata_;
   RegionVolumes volumes_;

@@ -35,6 +35,8 @@ class PatchSweep {
   // Of each vertex with an edge up to the bound, the errors of its edges.
   void evaluateAll(float bound);
   float least(uint32_t v) const { return choices_.least(v); }
+  // In the last sweep.
+  bool hasMoved(uint32_t v) const { return solutions_.hasMoved(v); }
 
   // What was done since it was last asked for.
   Tally takeTally() { return std::exchange(tally_, {}); }
