@@ -112,6 +112,7 @@ class SweepSelector final : public Selector {
   std::vector<Swept> swept_;
   Goal goal_{};
   double unit_ = 1, bound_ = 0;
+  bool is_ready_ = false;  // the only tile is loaded in the first lane, and its edges are evaluated
   unsigned round_ = 0;
 };
 
@@ -232,7 +233,7 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
 template <class S>
 auto SweepSelector<S>::sweepTile(const TilePiece& tile, float bound, Lane& lane) -> Swept {
   Swept swept;
-  onTile(lane, tile, [&] {
+  const auto work = [&] {
     swept.more = lane.sweep.sweep(bound) || swept.more;
     bool reshaped = false;
     if (reshaper_) {
@@ -242,7 +243,13 @@ auto SweepSelector<S>::sweepTile(const TilePiece& tile, float bound, Lane& lane)
     lane.sweep.store();
     lane.sweep.settleAll();
     if (reshaped) reshaper_->unsettleChanged();
-  });
+  };
+  if (is_ready_) {  // of several tiles, which threads share, none is
+    is_ready_ = false;
+    work();
+  } else {
+    onTile(lane, tile, work);
+  }
   swept.tally = lane.sweep.takeTally();
   swept.died = lane.sweep.takeDied();
   return swept;
@@ -258,6 +265,9 @@ double SweepSelector<S>::firstBound() {
         if (std::isfinite(lane().sweep.least(v))) errors.push_back(lane().sweep.least(v));
     });
   }
+  const bool is_whole = tiling_.tiles().size() == 1 &&
+                        lane().sweep.patch().ownedEnd() == tiling_.tiles()[0].vertexCount();
+  is_ready_ = is_whole && lane().sweep.isEvaluated();
   return bounds_.first(errors, goal_);
 }
 
