@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "vector3.h"
+#include "barycentric.h"
 
 namespace tetstream {
 
@@ -27,7 +27,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
 template <class Mesh>
 void Collapser<Mesh>::forget() {
   std::fill_n(refusals_.data(), refusals_.size(), Refusal{kNone, kNone, kNone});
-  std::fill_n(sound_.data(), sound_.size(), uint8_t{0});
+  sound_.forget();
 }
 
 template <class Mesh>
@@ -68,9 +68,9 @@ bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, s
   const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
   const size_t before = thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +
                         thinIn(stars_.v, at_v, angle);
-  if (before == 0) {
-    setSound(u, true);
-    setSound(v, true);
+  if (before == 0 && core_.options.shape == Shape::kSolver) {
+    sound_.add(u);
+    sound_.add(v);
   }
   const size_t left = stars_.u.size() + stars_.v.size();
   return after * (left + stars_.ring.size()) <= before * left;
@@ -85,26 +85,6 @@ Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, bool spares, size_t after
     if (!thinsOut(u, v, core_.dear[i], i > 0 ? thinAfter(core_.dear[i]) : after))
       return Outcome::kDear;
   return Outcome::kDone;
-}
-
-template <class Mesh>
-void Collapser<Mesh>::setSound(uint32_t v, bool sound) {
-  if (core_.options.shape != Shape::kSolver) return;
-  if (v >= sound_.size()) {
-    const size_t before = sound_.size();
-    sound_.resize(size_t{v} + 1024);
-    std::fill(sound_.data() + before, sound_.data() + sound_.size(), uint8_t{0});
-  }
-  sound_[v] = sound;
-}
-
-// A cell of the stars is thin now, so that of their other vertices, too.
-template <class Mesh>
-void Collapser<Mesh>::spreadThin() {
-  for (const Star* star : {&stars_.u, &stars_.v})
-    for (const StarCell& s : *star)
-      for (uint32_t t : s.t)
-        if (isSound(t)) setSound(t, false);
 }
 
 // Whether u is farther from the new place than v is.
@@ -251,7 +231,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     if (!std::isfinite(value)) return Outcome::kNotFinite;
   // Where no cell is thin none may become so: the first one tells.
   ThinAngle floor = core_.thin;
-  floor.barred = isSound(u) && isSound(v);
+  floor.barred = sound_.has(u) && sound_.has(v);
   if (turnsSameCell(u, v, floor)) return Outcome::kOrientation;
   const bool u_first = isFarther(u, v);
   const auto gather = [&](bool of_u) {
@@ -287,7 +267,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (thin > 0)
     if (const Outcome o = thins(u, v, spares, thin); o != Outcome::kDone) return o;
   if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
-  thins_ = thin > 0;
+  leaves_thin_ = thin > 0;
   return Outcome::kDone;
 }
 
@@ -317,8 +297,7 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
   count(outcome);
   if (outcome == Outcome::kDone) {
     mergeInto(u, v, error);
-    setSound(u, !thins_);
-    if (thins_) spreadThin();
+    if (core_.options.shape == Shape::kSolver) sound_.merged(u, stars_, leaves_thin_);
   }
   return outcome;
 }
@@ -396,24 +375,6 @@ void Collapser<Mesh>::trace(uint32_t u, uint32_t v, double error) {
                            merged_.data(), error, traced_before_, traced_after_});
 }
 
-// Barycentric coordinates of x in a cell, clamped to it.
-static void barycentric(const double p[4][3], const double x[3], double out[4]) {
-  double e[3][3], d[3];
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) e[k][i] = p[k + 1][i] - p[0][i];
-    d[i] = x[i] - p[0][i];
-  }
-  const double whole = determinant(e[0], e[1], e[2]);
-  if (whole == 0) return;
-  out[1] = determinant(d, e[1], e[2]) / whole;
-  out[2] = determinant(e[0], d, e[2]) / whole;
-  out[3] = determinant(e[0], e[1], d) / whole;
-  out[0] = 1 - out[1] - out[2] - out[3];
-  double sum = 0;
-  for (int k = 0; k < 4; ++k) sum += out[k] = std::max(out[k], 0.0);
-  for (int k = 0; k < 4; ++k) out[k] /= sum;
-}
-
 // Carried fields take the value that the old cells have at the new position.
 template <class Mesh>
 void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
@@ -434,7 +395,7 @@ void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
   double p[4][3];
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(corners[k])[i]);
-  barycentric(p, x, weights);
+  clampedWeights(p, x, weights);
   for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
     double sum = 0;
     for (int k = 0; k < 4; ++k)

@@ -6,6 +6,7 @@
 #include "link.h"
 #include "patch.h"
 #include "region_volumes.h"
+#include "sound.h"
 #include "star_kernels.h"
 #include "strata.h"
 
@@ -74,9 +75,6 @@ class Collapser {
   S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const;
-  bool isSound(uint32_t v) const { return v < sound_.size() && sound_[v]; }
-  void setSound(uint32_t v, bool sound);
-  void spreadThin();
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
@@ -116,8 +114,8 @@ class Collapser {
   Mesh& mesh_;
   Tally& tally_;
   Array<Refusal> refusals_;
-  Array<uint8_t> sound_;  // per vertex, where shapes come first: none of its cells is thin, for sure
-  bool thins_ = false;    // the edge that was tested: it leaves thin cells
+  SoundVertices sound_;       // where shapes come first
+  bool leaves_thin_ = false;  // the edge that was tested
   LinkCondition link_;
   StrataCondition strata_;
   RegionVolumes volumes_;
