@@ -30,8 +30,8 @@ double Reconnector<S>::thinnessAt(const uint32_t corners[4]) const {
 template <class S>
 double Reconnector<S>::thinnessOfCell(uint32_t c) {
   if (thinness_[c] == kNotKnown) {
-    const uint32_t corners[4] = {patch_.vertexOf(c, 0), patch_.vertexOf(c, 1), patch_.vertexOf(c, 2),
-                                 patch_.vertexOf(c, 3)};
+    const uint32_t corners[4] = {patch_.vertexOf(c, 0), patch_.vertexOf(c, 1),
+                                 patch_.vertexOf(c, 2), patch_.vertexOf(c, 3)};
     thinness_[c] = thinnessAt(corners);
   }
   return thinness_[c];

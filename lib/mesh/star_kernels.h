@@ -12,7 +12,7 @@ namespace tetstream {
 struct ThinAngle {
   explicit ThinAngle(double angle);  // in degrees; 0: no cell is
   double degrees;
-  double cos2;   // squared cosine
+  double cos2;          // squared cosine
   double shape;         // no cell of a better shape (below) is thin
   bool barred = false;  // a thin cell counts as one that is not positive
 };

@@ -13,10 +13,10 @@ double thinnessOfAngle(double degrees) {
   return cosine * cosine;
 }
 
-// e: from its first corner the cell's edges; n: of the face opposite each corner twice the area as a
-// vector, outwards. 6 V = e0 . (e1 x e2) is wrong by no more than kOrientationBound times the sum of
-// its products' sizes, which is at most that of the edges' squares to the power of 3/2. Within the
-// limits nothing over- or underflows; beyond them cells are brought to size.
+// e: from its first corner the cell's edges; n: of the face opposite each corner twice the area as
+// a vector, outwards. 6 V = e0 . (e1 x e2) is wrong by no more than kOrientationBound times the sum
+// of its products' sizes, which is at most that of the edges' squares to the power of 3/2. Within
+// the limits nothing over- or underflows; beyond them cells are brought to size.
 double thinness(const double p[4][3]) {
   constexpr double kSure = 4 * kOrientationBound * kOrientationBound;
   constexpr double kLeastSum = 1e-40, kLargestSum = 1e70;

@@ -35,8 +35,8 @@ constexpr bool isFreeVertex(uint8_t flags) {
 enum CellFlag : uint8_t {
   kNegative = 1,  // stored with negative volume; the order is the user's and is kept
   kDead = 2,
-  kFlat = 4,    // of volume zero in the input
-  kFolded = 8,  // on the same side of a face as the neighbour there, in the input
+  kFlat = 4,     // of volume zero in the input
+  kFolded = 8,   // on the same side of a face as the neighbour there, in the input
   kShaped = 16,  // no flip was found that makes its shape better; none will be while all stays
 };
 

@@ -35,11 +35,11 @@ class Reshaper {
   // Of a vertex; the other marks are those of the vertices of its cells, too.
   enum Mark : uint8_t {
     kMoved = 1,
-    kElsewhere = 2,   // free, but not owned here: flips there are looked for when seams lie
-                      // elsewhere
+    kElsewhere = 2,  // free, but not owned here: flips there are looked for when seams lie
+                     // elsewhere
     kNearMoved = 4,
     kNearSeam = 8,
-    kFlipped = 16,    // cells of it were replaced
+    kFlipped = 16,  // cells of it were replaced
   };
 
   void start();

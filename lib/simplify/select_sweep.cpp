@@ -308,9 +308,8 @@ template <class S>
 template <class HasMoved>
 bool SweepSelector<S>::reshape(HasMoved hasMoved) {
   const bool is_reached = goal_.last && lane().sweep.patch().liveCells() <= goal_.cells;
-  return reshaper_->reshape(goal_.least_cells,
-                            is_reached ? goal_.cells : std::numeric_limits<int64_t>::max(),
-                            hasMoved);
+  return reshaper_->reshape(
+      goal_.least_cells, is_reached ? goal_.cells : std::numeric_limits<int64_t>::max(), hasMoved);
 }
 
 // `any_moved`: vertices since the last time, other than in sweeps.
