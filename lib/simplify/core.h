@@ -12,6 +12,7 @@
 #include "queued_edges.h"
 #include "ranked_cell.h"
 #include "star_kernels.h"
+#include "tasks.h"
 #include "tracer.h"
 #include "window.h"
 
@@ -165,6 +166,11 @@ struct Core {
   CellLabels cellLabels() const {
     return {window.allCellPicks(), static_cast<size_t>(plan.cell_picks), region_picks.data(),
             static_cast<int>(region_picks.size()), nullptr};
+  }
+
+  // Threads for what is done to the window. A memory budget is for one: for a single patch.
+  size_t lanes() const {
+    return options.tasks && options.memory_bytes == 0 ? options.tasks->threads() : 1;
   }
 
   // Whether some collapses have more than the price of their error.

@@ -161,6 +161,15 @@ void Tiling<S>::sortByColour() {
 }
 
 template <class S>
+void Tiling<S>::lookAhead() {
+  ahead_.assign(tiles_.size(), 0);
+  for (size_t i = tiles_.size(); i-- > 0;) {  // all that wait for it come behind it
+    ahead_[i] += tiles_[i].cell_count;
+    for (uint32_t other : earlier_[i]) ahead_[other] = std::max(ahead_[other], ahead_[i]);
+  }
+}
+
+template <class S>
 void Tiling<S>::build(unsigned round, float bound) {
   tiles_.clear();
   markVertices(bound);
@@ -170,6 +179,7 @@ void Tiling<S>::build(unsigned round, float bound) {
   addCells();
   colour();
   sortByColour();
+  lookAhead();
 }
 
 template class Tiling<float>;

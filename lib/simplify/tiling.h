@@ -34,6 +34,8 @@ class Tiling {
   const std::vector<TilePiece>& tiles() const { return tiles_; }
   // Of each tile: those before it that it shares cells with.
   const std::vector<std::vector<uint32_t>>& earlier() const { return earlier_; }
+  // Of each tile: its cells, and of those that wait for it the most that one has ahead.
+  const std::vector<size_t>& ahead() const { return ahead_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
   // Its cells, listed in `room`, which grows if need be.
   const uint32_t* listCells(const TilePiece& t, Array<uint32_t>& room) const;
@@ -48,6 +50,7 @@ class Tiling {
   void meet(uint32_t a, uint32_t b);
   void colour();
   void sortByColour();
+  void lookAhead();
 
   Core<S>& core_;
   Array<uint32_t> vertices_, cells_;
@@ -56,6 +59,7 @@ class Tiling {
   int64_t looking_ = 0;
   bool others_wait_ = false;
   std::vector<std::vector<uint32_t>> earlier_;
+  std::vector<size_t> ahead_;
 };
 
 }  // namespace tetstream
