@@ -1,11 +1,15 @@
 #include "resolve.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "known_cells.h"
 #include "mix.h"
 #include "settled.h"
 
 namespace tetstream {
+
+constexpr uint32_t kCellsAtOnce = 4096;  // are added before the thread that follows is told
 
 // The link of an inner vertex is closed: each of its edges is there once in each direction. With
 // two random numbers to each vertex, (x, y) and (x', y') of an edge, the sum of x y' - x' y over
@@ -63,12 +67,13 @@ void Resolver<S>::addToRegions(uint32_t cell, const unsigned flags[4], const Cel
   }
 }
 
+// Returns how many of the cells are of the front.
 template <class S>
-int64_t Resolver<S>::sumLinks() {
+int64_t Resolver<S>::sumLinks(uint32_t first, uint32_t end) {
   const Topology& mesh = core_.window.mesh;
   const CellLabels labels = core_.cellLabels();
   int64_t front = 0;
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+  for (uint32_t c = first; c < end; ++c) {
     if (!mesh.isLive(c)) continue;
     const uint32_t* v = mesh.corners(c);
     const unsigned f[4] = {mesh.vertexFlags(v[0]), mesh.vertexFlags(v[1]), mesh.vertexFlags(v[2]),
@@ -79,6 +84,41 @@ int64_t Resolver<S>::sumLinks() {
     addToLinks(c, f);
     if (labels.count > 0) addToRegions(c, f, labels);
   }
+  return front;
+}
+
+// The quadrics of the new cells are added, and the links of all are summed. Each has one thread,
+// since sums have an order: the second needs of new cells on which side they are, and follows the
+// first. It samples them, too, for then both have as much to do. Whoever comes first is the one
+// that need not wait.
+template <class S>
+int64_t Resolver<S>::takeNew(uint32_t first) {
+  const uint32_t end = core_.window.mesh.cellEnd();
+  metric_.prepare(first, end);
+  KnownCells known(first);
+  int64_t front = 0;
+  const auto add = [&] {
+    for (uint32_t c = first; c < end;) {
+      const uint32_t next = c + std::min(kCellsAtOnce, end - c);
+      metric_.addCells(c, next);
+      known.tell(c = next);
+    }
+  };
+  const auto follow = [&] {
+    for (uint32_t c = 0, next; c < end; c = next) {
+      next = known.waitFor(c);
+      front += sumLinks(c, next);
+      metric_.sampleAngles(std::clamp(c, first, next), std::max(first, next));
+    }
+  };
+  if (core_.lanes() == 1) {
+    add();
+    follow();
+  } else {
+    std::atomic<bool> added = false;
+    core_.options.tasks->forParts(2, [&](size_t) { added.exchange(true) ? follow() : add(); });
+  }
+  metric_.settle(first, end);
   return front;
 }
 
@@ -119,14 +159,14 @@ size_t Resolver<S>::listStars(size_t count) {
 }
 
 template <class S>
-int64_t Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
+int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_t count) {
   Window<S>& window = core_.window;
   Topology& mesh = window.mesh;
   for (size_t i = 0; i < count; ++i) {
     window.outRank(vertices[i]) = 0;
     window.scratch()[vertices[i]] = kNone;
   }
-  const int64_t front = sumLinks();
+  const int64_t front = takeNew(first_new);
   if (open_.size() < count) open_.resize(count);
   size_t open = 0;
   for (size_t i = 0; i < count; ++i) {

@@ -26,12 +26,13 @@ class Resolver {
         begins_(account, 256),
         edges_(account, 256) {}
 
-  // All cells of these vertices are in the window. Returns the cells of the front: those that touch
-  // a vertex not yet final.
-  int64_t resolve(const uint32_t* vertices, size_t count);
+  // The window's cells from `first_new` on are new: they add their quadrics. All cells of these
+  // vertices are there. Returns the cells of the front: those that touch a vertex not yet final.
+  int64_t resolve(uint32_t first_new, const uint32_t* vertices, size_t count);
 
  private:
-  int64_t sumLinks();
+  int64_t takeNew(uint32_t first);
+  int64_t sumLinks(uint32_t first, uint32_t end);
   void addToLinks(uint32_t cell, const unsigned flags[4]);
   void addToRegions(uint32_t cell, const unsigned flags[4], const CellLabels& labels);
   size_t listStars(size_t count);
