@@ -168,9 +168,20 @@ struct Core {
             static_cast<int>(region_picks.size()), nullptr};
   }
 
-  // Threads for what is done to the window. A memory budget is for one: for a single patch.
-  size_t lanes() const {
-    return options.tasks && options.memory_bytes == 0 ? options.tasks->threads() : 1;
+  // For what is done to the window; null: by one thread. A memory budget is for one, for a single
+  // patch.
+  const Tasks* tasks() const {
+    const bool several = options.tasks && options.tasks->threads() > 1;
+    return several && options.memory_bytes == 0 ? options.tasks : nullptr;
+  }
+
+  // Calls work(first, end, half) for the first cells of the window and for the others: half is 0
+  // and 1. Where one thread works all are of the first half.
+  template <class Work>
+  void forHalves(Work work) const {
+    const uint32_t end = window.mesh.cellEnd(), middle = tasks() ? end / 2 : end;
+    doBoth(
+        tasks(), [&] { work(0u, middle, 0u); }, [&] { work(middle, end, 1u); });
   }
 
   // Whether some collapses have more than the price of their error.

@@ -111,13 +111,9 @@ int64_t Resolver<S>::takeNew(uint32_t first) {
       metric_.sampleAngles(std::clamp(c, first, next), std::max(first, next));
     }
   };
-  if (core_.lanes() == 1) {
-    add();
-    follow();
-  } else {
-    std::atomic<bool> added = false;
-    core_.options.tasks->forParts(2, [&](size_t) { added.exchange(true) ? follow() : add(); });
-  }
+  std::atomic<bool> taken = false;
+  const auto next = [&] { taken.exchange(true) ? follow() : add(); };
+  doBoth(core_.tasks(), next, next);
   metric_.settle(first, end);
   return front;
 }
@@ -126,35 +122,45 @@ int64_t Resolver<S>::takeNew(uint32_t first) {
 // there are interfaces: bounds the memory where all vertices are on the boundary.
 constexpr size_t kCornersAtOnce = 1 << 16;
 
+// visit(place, corner): of the window's live cells, those corners whose vertex has a place.
+template <class S>
+template <class Visit>
+void Resolver<S>::forPlaced(uint32_t first, uint32_t end, Visit visit) const {
+  const Topology& mesh = core_.window.mesh;
+  const uint32_t* place = core_.window.scratch();
+  for (uint32_t c = first; c < end; ++c)
+    if (mesh.isLive(c))
+      for (uint32_t j = 0; j < 4; ++j)
+        if (const uint32_t p = place[mesh.corners(c)[j]]) visit(p - 1, 4 * c + j);
+}
+
 // Lists the corners of the first vertices, as many as fit; scratch holds a vertex's place in the
-// list plus one, 0 for others. Returns their number.
+// list plus one, 0 for others. Returns their number. Each half of the cells has its part of a star.
 template <class S>
 size_t Resolver<S>::listStars(size_t count) {
-  const Topology& mesh = core_.window.mesh;
-  uint32_t* place = core_.window.scratch();
-  if (begins_.size() < count + 1) begins_.resize(count + 1);
-  std::fill_n(begins_.data(), count + 1, 0u);
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
-    if (mesh.isLive(c))
-      for (int j = 0; j < 4; ++j)
-        if (const uint32_t p = place[mesh.corners(c)[j]]) ++begins_[p];
-  const size_t most =
-      std::max<size_t>(kCornersAtOnce, core_.region_picks.empty() ? 0 : mesh.cellEnd() / 4);
-  size_t fitting = 0;
-  while (fitting < count && (fitting == 0 || begins_[fitting] + begins_[fitting + 1] <= most)) {
-    begins_[fitting + 1] += begins_[fitting];
-    ++fitting;
+  const size_t cells = core_.window.mesh.cellEnd();
+  for (Array<uint32_t>& next : next_) {
+    if (next.size() < count) next.resize(count);
+    std::fill_n(next.data(), count, 0u);
   }
-  if (corners_.size() < begins_[fitting]) corners_.resize(begins_[fitting]);
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
-    if (!mesh.isLive(c)) continue;
-    for (uint32_t j = 0; j < 4; ++j) {
-      const uint32_t p = place[mesh.corners(c)[j]];
-      if (p > 0 && p <= fitting) corners_[begins_[p - 1]++] = 4 * c + j;
-    }
+  core_.forHalves([this](uint32_t first, uint32_t end, unsigned half) {
+    forPlaced(first, end, [next = next_[half].data()](uint32_t p, uint32_t) { ++next[p]; });
+  });
+  const size_t most = std::max<size_t>(kCornersAtOnce, core_.region_picks.empty() ? 0 : cells / 4);
+  uint32_t fitting = 0, listed = 0;
+  for (; fitting < count; ++fitting) {
+    const uint32_t before = next_[0][fitting], all = before + next_[1][fitting];
+    if (fitting > 0 && listed + all > most) break;
+    next_[0][fitting] = listed;
+    next_[1][fitting] = listed + before;
+    listed += all;
   }
-  for (size_t i = fitting; i > 0; --i) begins_[i] = begins_[i - 1];
-  begins_[0] = 0;
+  if (corners_.size() < listed) corners_.resize(listed);
+  core_.forHalves([this, fitting](uint32_t first, uint32_t end, unsigned half) {
+    forPlaced(first, end, [&, next = next_[half].data()](uint32_t p, uint32_t corner) {
+      if (p < fitting) corners_[next[p]++] = corner;
+    });
+  });
   return fitting;
 }
 
@@ -183,7 +189,8 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
       window.scratch()[open_[i]] = static_cast<uint32_t>(i - done + 1);
     const size_t listed = listStars(open - done);
     for (size_t i = 0; i < listed; ++i) {
-      resolveOpen(open_[done + i], corners_.data() + begins_[i], begins_[i + 1] - begins_[i]);
+      const uint32_t begin = i > 0 ? next_[1][i - 1] : 0;
+      resolveOpen(open_[done + i], corners_.data() + begin, next_[1][i] - begin);
       window.scratch()[open_[done + i]] = 0;
     }
     done += listed;

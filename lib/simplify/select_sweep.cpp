@@ -197,7 +197,8 @@ template <class S>
 void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
                                   const std::function<void()>& tick) {
   swept_.assign(end - first, {});
-  const size_t lanes = std::min(end - first, core_.lanes());
+  const Tasks* const tasks = core_.tasks();
+  const size_t lanes = tasks ? std::min(end - first, tasks->threads()) : 1;
   while (lanes_.size() < lanes) addLane();
   TileQueue queue(tiling_.earlier(), tiling_.ahead(), first, end);
   const std::thread::id caller = std::this_thread::get_id();
@@ -216,7 +217,7 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
   if (lanes == 1)
     work(0);
   else
-    core_.options.tasks->forParts(lanes, work);
+    tasks->forParts(lanes, work);
 }
 
 template <class S>

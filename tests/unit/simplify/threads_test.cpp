@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "faces.h"
+#include "strange_workers.h"
 #include "tasks.h"
 #include "ways_testing.h"
 
@@ -19,15 +20,22 @@ TestMesh wavyGrid(int n, ScalarType type) {
   return mesh;
 }
 
+// Flat cells in every third layer.
+TestMesh flattenedGrid(int n) {
+  TestMesh mesh = wavyGrid(n, ScalarType::kFloat64);
+  for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    if (std::lround(mesh.position(v, 2)) % 3 == 2) mesh.setPosition(v, 2, mesh.position(v, 2) - 1);
+  return mesh;
+}
+
 struct Outcomes {
   Recorder out;
   Report report;
 };
 
-Outcomes ran(const TestMesh& mesh, SimplifyOptions options, size_t threads,
+Outcomes ran(const TestMesh& mesh, SimplifyOptions options, const Tasks& tasks,
              const FaceLabels& faces = {}) {
-  const Tasks tasks(threads);
-  options.tasks = threads > 1 ? &tasks : nullptr;
+  options.tasks = tasks.threads() > 1 ? &tasks : nullptr;
   options.tile_vertices = kFewVertices;
   Outcomes run;
   Simplifier simplifier(options, run.out, {});
@@ -36,6 +44,11 @@ Outcomes ran(const TestMesh& mesh, SimplifyOptions options, size_t threads,
   run.report = simplifier.report();
   EXPECT_EQ(run.out.problem, "");
   return run;
+}
+
+Outcomes ran(const TestMesh& mesh, const SimplifyOptions& options, size_t threads,
+             const FaceLabels& faces = {}) {
+  return ran(mesh, options, Tasks(threads), faces);
 }
 
 void expectSame(const TestMesh& mesh, const SimplifyOptions& options,
@@ -78,6 +91,35 @@ TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
   SimplifyOptions options = toRatio(0.2);
   options.shape = Shape::kSolver;
   expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+}
+
+TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlat) {
+  for (int64_t window : {0, 2500}) expectSame(flattenedGrid(side()), toRatio(0.2, window));
+}
+
+TEST(SweepThreads, GiveTheSameBytesInOtherModes) {
+  for (Mode mode : {Mode::kPaper, Mode::kQueue})
+    expectSame(wavyGrid(side(), ScalarType::kFloat32), toRatio(0.2, 2500, mode));
+}
+
+TEST(SweepThreads, GiveTheSameBytesWhereDistancesAreMeasured) {
+  SimplifyOptions options = toRatio(0.2, 2500);
+  options.quadric = QuadricForm::kGarlandZhou;
+  expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+}
+
+// They may refuse, work at once, or come late: nobody waits for what is not begun.
+TEST(SweepThreads, GiveTheSameBytesWhateverTheWorkersThatWereBrought) {
+  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  const Outcomes one = ran(mesh, toRatio(0.2, 2500), 1);
+  NoWorkers none;
+  HastyWorkers hasty;
+  LazyWorkers lazy;
+  for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
+    const Tasks tasks(3, workers);
+    EXPECT_TRUE(ran(mesh, toRatio(0.2, 2500), tasks).out.allBytes() == one.out.allBytes());
+  }
+  lazy.workAll();
 }
 
 TEST(SweepThreads, GiveTheSameBytesWithWhatVerticesAndCellsCarry) {
