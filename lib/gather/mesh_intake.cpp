@@ -109,7 +109,8 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
   } else {
     int64_t made[kMostSplit][4];
     count = splitCell(kind.shape, corners, made);
-    held_cells_.insert(held_cells_.end(), made[0], made[0] + 4 * count);
+    for (size_t i = 0; i < count; ++i)
+      held_cells_.insert(held_cells_.end(), std::begin(made[i]), std::end(made[i]));
     ++split_;
   }
   quadratic_ += kind.nodes > cornersOf(kind.shape);

@@ -71,7 +71,7 @@ class SlabValues final : public Values {
   uint64_t held_first_ = 0;
   size_t held_count_ = 0;
   ScalarType held_type_ = ScalarType::kFloat64;
-  unsigned char held_[kRowsAtOnce * sizeof(double)];
+  alignas(double) unsigned char held_[kRowsAtOnce * sizeof(double)];
 };
 
 }  // namespace
