@@ -16,9 +16,15 @@ class Metric {
  public:
   explicit Metric(Core<S>& core);
 
-  // Cells [first, end) of the window are new: their orientation is settled, their quadrics are
-  // added; flat ones are marked and their vertices locked.
+  // Cells [first, end) of the window are new. First the units are chosen.
+  void prepare(uint32_t first, uint32_t end);
+  // Then all of them, some at a time: their orientation is settled, flat ones are marked, and their
+  // quadrics are added.
   void addCells(uint32_t first, uint32_t end);
+  // Then the same: how thin they are is looked at, which another thread may do beside it.
+  void sampleAngles(uint32_t first, uint32_t end);
+  // In the end the vertices of flat ones are locked, and the floor is chosen.
+  void settle(uint32_t first, uint32_t end);
   // A face of the boundary or of an interface adds its quadric to its three vertices.
   void addFace(uint32_t a, uint32_t b, uint32_t c, bool interface);
   // An edge of a curve adds one to its two ends.
@@ -38,7 +44,7 @@ class Metric {
   bool addLanes(uint32_t first);
   void countVolume(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);
-  void sampleAngles(uint32_t first, uint32_t end);
+  void chooseFloor();
 
   Core<S>& core_;
   std::vector<ThinAngle> floors_;  // falling

@@ -84,7 +84,6 @@ class SweepSelector final : public Selector {
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
   size_t groupEnd(size_t first) const;
-  size_t laneLimit() const;
   void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
   Swept sweepTile(const TilePiece& tile, float bound, Lane& lane);
   bool add(const Swept& swept);
@@ -197,20 +196,14 @@ size_t SweepSelector<S>::groupEnd(size_t first) const {
   return end;
 }
 
-// A memory budget is for a single patch: with one there are no others.
-template <class S>
-size_t SweepSelector<S>::laneLimit() const {
-  const SimplifyOptions& o = core_.options;
-  return o.tasks && o.memory_bytes == 0 ? o.tasks->threads() : 1;
-}
-
 template <class S>
 void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
                                   const std::function<void()>& tick) {
   swept_.assign(end - first, {});
-  const size_t lanes = std::min(end - first, laneLimit());
+  const Tasks* const tasks = core_.tasks();
+  const size_t lanes = tasks ? std::min(end - first, tasks->threads()) : 1;
   while (lanes_.size() < lanes) addLane();
-  TileQueue queue(tiling_.earlier(), first, end);
+  TileQueue queue(tiling_.earlier(), tiling_.ahead(), first, end);
   const std::thread::id caller = std::this_thread::get_id();
   const auto work = [&](size_t l) {
     try {
@@ -227,7 +220,7 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
   if (lanes == 1)
     work(0);
   else
-    core_.options.tasks->forParts(lanes, work);
+    tasks->forParts(lanes, work);
 }
 
 template <class S>
