@@ -154,6 +154,7 @@ void Metric<S>::updateScales() {
     core_.inverse_scale[i] = usable ? inverse : scale;
   }
   used_range_ = range;
+  fields_together_ = fieldsTogether();
   core_.extent = extent() > 0 ? extent() / length_unit_ : 1;
   const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;
   core_.error_unit = unit_share * unit_share * unit_share * unit_share * unit_share;
@@ -305,10 +306,24 @@ void Metric<S>::settle(uint32_t first, uint32_t end) {
   chooseFloor();
 }
 
+// The weights of the fields that are not constant, in the largest of them: 1 for one.
+template <class S>
+double Metric<S>::fieldsTogether() const {
+  double sum = 0, largest = 0;
+  for (size_t i = 0; i < core_.plan.weights.size(); ++i) {
+    const std::vector<int>& column = core_.plan.measured_column;
+    if ((i > 0 && column[i] == column[i - 1]) || !(core_.scale[i + 3] > 0)) continue;
+    sum += core_.plan.weights[i];
+    largest = std::max(largest, core_.plan.weights[i]);
+  }
+  return largest > 0 ? sum / largest : 1;
+}
+
+// Errors of several fields are added up: the boundary counts as much beside them as beside one.
 template <class S>
 double Metric<S>::faceWeight(bool interface) const {
   const double share = interface && core_.plan.dimension > 3 ? kInterfaceShare : 1;
-  return share * core_.options.boundary_weight * extent() / length_unit_;
+  return share * fields_together_ * core_.options.boundary_weight * extent() / length_unit_;
 }
 
 template <class S>

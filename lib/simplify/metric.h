@@ -34,6 +34,7 @@ class Metric {
   void growBox(uint32_t first, uint32_t end);
   double rangeOf(size_t component) const;  // of the field it belongs to
   double extent() const;
+  double fieldsTogether() const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
   void rescaleQuadrics(const std::vector<S>& factor);
@@ -51,7 +52,7 @@ class Metric {
   std::vector<int64_t> below_, below_dear_;  // of the cells sampled: those below each angle
   int64_t sampled_ = 0, seen_ = 0;           // cells
   bool box_known_, unit_known_ = false;
-  double length_unit_ = 1;
+  double length_unit_ = 1, fields_together_ = 1;
   std::vector<double> low_, high_;  // x y z, then measured components
   std::vector<double> used_range_;  // that the scales were made for; [0]: the extent
 };
