@@ -86,7 +86,10 @@ Tasks::Tasks(size_t threads, Workers* brought)
       workers_(brought ? brought : own_.get()),
       parts_(new Parts) {}
 
-Tasks::~Tasks() = default;
+// The threads end first: one of them may be on its way to find that nothing is left to do.
+Tasks::~Tasks() {
+  own_.reset();
+}
 
 void Tasks::forParts(size_t count, const std::function<void(size_t)>& work) const {
   if (count == 0) return;

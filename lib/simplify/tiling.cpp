@@ -1,7 +1,6 @@
 #include "tiling.h"
 
 #include <algorithm>
-#include <atomic>
 #include <numeric>
 
 #include "median_cut.h"
@@ -37,11 +36,6 @@ void TileCells::copy(size_t tile, uint32_t* to) const {
   }
 }
 
-// A mark that several threads may set, always to the same.
-static std::atomic_ref<uint32_t> shared(uint32_t& mark) {
-  return std::atomic_ref<uint32_t>(mark);
-}
-
 // In scratch: 1 for a vertex with an edge to be looked at, 2 for its neighbours.
 template <class S>
 void Tiling<S>::markVertices(float bound) {
@@ -56,16 +50,12 @@ void Tiling<S>::markVertices(float bound) {
     looking_ += mark[v];
     others_wait_ |= free && least > bound && least < std::numeric_limits<float>::infinity();
   }
-  core_.forHalves([&mesh, mark](uint32_t first, uint32_t end, unsigned) {
-    for (uint32_t c = first; c < end; ++c) {
-      if (!mesh.isLive(c)) continue;
-      const uint32_t* v = mesh.corners(c);
-      const uint32_t marks[4] = {shared(mark[v[0]]), shared(mark[v[1]]), shared(mark[v[2]]),
-                                 shared(mark[v[3]])};
-      if (((marks[0] | marks[1] | marks[2] | marks[3]) & 1) == 0) continue;
-      for (int j = 0; j < 4; ++j) shared(mark[v[j]]).store(marks[j] | 2, std::memory_order_relaxed);
-    }
-  });
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+    if (!mesh.isLive(c)) continue;
+    const uint32_t* v = mesh.corners(c);
+    if (((mark[v[0]] | mark[v[1]] | mark[v[2]] | mark[v[3]]) & 1) == 0) continue;
+    for (int j = 0; j < 4; ++j) mark[v[j]] |= 2;
+  }
 }
 
 template <class S>
