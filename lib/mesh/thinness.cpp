@@ -5,12 +5,24 @@
 
 #include "orient.h"
 #include "topology.h"
+#include "vector3.h"
 
 namespace tetstream {
 
 double thinnessOfAngle(double degrees) {
   const double cosine = std::cos(degrees * std::acos(-1.0) / 180);
   return cosine * cosine;
+}
+
+double regularity(const double p[4][3], double scale) {
+  double e[3][3], sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) e[k][i] = (p[k + 1][i] - p[0][i]) * scale;
+    const double a = e[0][i], b = e[1][i], c = e[2][i];
+    sum += a * a + b * b + c * c + (b - a) * (b - a) + (c - a) * (c - a) + (c - b) * (c - b);
+  }
+  const double volume = determinant(e[0], e[1], e[2]);
+  return 432 * (volume * volume) / (sum * sum * sum);
 }
 
 double thinness(const double p[4][3]) {

@@ -37,6 +37,7 @@ class Metric {
   bool addLanes(uint32_t first);
   void countVolume(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);
+  bool isRegular(uint32_t cell) const;
   void sampleAngles(uint32_t first, uint32_t end);
 
   Core<S>& core_;
