@@ -21,7 +21,14 @@
   }
 }
 
-// ------------------------------------------------------------------------------------ paths
+// ------------------------------------------------------------------------------------ texts
+// Names out of files may be in another encoding; None stands for none.
+%typemap(in) const char * (PyObject *encoded = nullptr) {
+  if (!tetstream::swig::textOf($input, encoded)) SWIG_fail;
+  if (encoded) $1 = PyBytes_AS_STRING(encoded);
+}
+%typemap(freearg) const char * "Py_XDECREF(encoded$argnum);"
+
 // What os.fsencode takes, and os.PathLike.
 %typemap(in) const char *path (PyObject *encoded = nullptr) {
   if (!PyUnicode_FSConverter($input, &encoded)) SWIG_fail;

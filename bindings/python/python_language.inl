@@ -90,11 +90,15 @@ void checkInterrupt() {
 
 // ---------------------------------------------------------------------------------- exceptions
 
-// tetstream.errors makes the exception that belongs to a status.
+// tetstream.errors makes the exception that belongs to a status. A sentence may name a file or a
+// field that is not in UTF-8.
 static void raiseStatus(tetstream_status status, const char* sentence) {
   PyObject* const module = PyImport_ImportModule("tetstream.errors");
   if (!module) return;
-  PyObject* const exception = PyObject_CallMethod(module, "_from_status", "is", status, sentence);
+  PyObject* const exception = PyObject_CallMethod(
+      module, "_from_status", "iN", status,
+      PyUnicode_DecodeUTF8(sentence, static_cast<Py_ssize_t>(std::strlen(sentence)),
+                           "surrogateescape"));
   if (exception) PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(exception)), exception);
   Py_XDECREF(exception);
   Py_DECREF(module);
@@ -113,6 +117,24 @@ static void raise() {
   } catch (const std::exception& other) {
     raiseStatus(TETSTREAM_INTERNAL, other.what());
   }
+}
+
+// --------------------------------------------------------------------------------------- texts
+
+// A str as bytes, which the caller gives up; the other way it was decoded alike. None leaves them
+// null. False with an exception set for what is no text.
+static bool textOf(PyObject* object, PyObject*& encoded) {
+  if (object == Py_None) return true;
+  if (!PyUnicode_Check(object)) {
+    PyErr_Format(PyExc_TypeError, "a str is wanted, not %s", Py_TYPE(object)->tp_name);
+    return false;
+  }
+  encoded = PyUnicode_AsEncodedString(object, "utf-8", "surrogateescape");
+  if (!encoded) return false;
+  const auto size = static_cast<size_t>(PyBytes_GET_SIZE(encoded));
+  if (std::strlen(PyBytes_AS_STRING(encoded)) == size) return true;
+  PyErr_Format(PyExc_ValueError, "there is a null character in %R", object);
+  return false;
 }
 
 // -------------------------------------------------------------------------------------- arrays

@@ -15,11 +15,19 @@ MeshCollector::MeshCollector(int32_t cell_type)
       faces_(TETSTREAM_TYPE_INT64, 3),
       face_labels_(TETSTREAM_TYPE_INT64, 1),
       locked_faces_(kBytes, 1),
-      locked_edges_(TETSTREAM_TYPE_INT64, 2) {}
+      locked_edges_(TETSTREAM_TYPE_INT64, 2) {
+  if (cell_type != TETSTREAM_TYPE_INT32 && cell_type != TETSTREAM_TYPE_INT64)
+    failArgument("cells: int32 or int64 is wanted");
+}
 
 const StreamInfo& MeshCollector::info() const {
   if (!info_) throw Failure(TETSTREAM_BAD_STATE, "no stream has been collected");
   return *info_;
+}
+
+OwnedArray& MeshCollector::positions() {
+  (void)info();  // which has their type
+  return positions_;
 }
 
 static OwnedArray& arrayAt(std::vector<OwnedArray>& arrays, int32_t index) {
@@ -57,6 +65,8 @@ static void appendFlags(OwnedArray& flags, const uint8_t* rows, int64_t count, i
 }
 
 void MeshCollector::putCells(const tetstream_batch& batch) {
+  if (cell_type_ == TETSTREAM_TYPE_INT32 && positions_.rows() > INT32_MAX)
+    failArgument("cells: int32 does not hold the numbers of more than 2147483647 points");
   if (cell_type_ == TETSTREAM_TYPE_INT32)
     cells_.appendNarrowed(batch.cells, batch.cell_count);
   else

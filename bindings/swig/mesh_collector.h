@@ -12,11 +12,11 @@ namespace tetstream::swig {
 // Takes what a writer is given. The arrays can be taken once, when the stream is complete.
 class MeshCollector {
  public:
-  // `cell_type`: of the cells' ids; an int32 mesh must have fewer than 2^31 vertices.
+  // `cell_type`: of the cells' ids, int32 or int64.
   explicit MeshCollector(int32_t cell_type);
 
   const StreamInfo& info() const;  // Throws Failure before the stream has begun
-  OwnedArray& positions() { return positions_; }
+  OwnedArray& positions();
   OwnedArray& field(int32_t index);
   OwnedArray& cells() { return cells_; }
   OwnedArray& cellData(int32_t index);

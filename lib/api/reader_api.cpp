@@ -46,41 +46,53 @@ tetstream_status tetstream_reader_create(const tetstream_reader_callbacks* callb
   });
 }
 
-tetstream_status tetstream_reader_open_file_with(const char* path, const char* format,
-                                                 const tetstream_options* options,
-                                                 tetstream_reader** reader) {
-  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+// The three below are two functions each, with options and without; `function` is the caller's
+// name.
+static tetstream_status openFileFor(const char* function, const char* path, const char* format,
+                                    const tetstream_options* options, tetstream_reader** reader) {
+  return guardCreate(function, reader, [&](tetstream_reader& r) {
     needPlace(path, "path");
     const Format& found = needFormat(textOrEmpty(format), path);
     openBytes(r, found, openFile(path), options, path);
   });
 }
 
-tetstream_status tetstream_reader_open_file(const char* path, const char* format,
-                                            tetstream_reader** reader) {
-  return tetstream_reader_open_file_with(path, format, nullptr, reader);
+tetstream_status tetstream_reader_open_file_with(const char* path, const char* format,
+                                                 const tetstream_options* options,
+                                                 tetstream_reader** reader) {
+  return openFileFor(__func__, path, format, options, reader);
 }
 
-tetstream_status tetstream_reader_open_fd_with(int32_t fd, const char* format,
-                                               const tetstream_options* options,
-                                               tetstream_reader** reader) {
-  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+tetstream_status tetstream_reader_open_file(const char* path, const char* format,
+                                            tetstream_reader** reader) {
+  return openFileFor(__func__, path, format, nullptr, reader);
+}
+
+static tetstream_status openDescriptorFor(const char* function, int32_t fd, const char* format,
+                                          const tetstream_options* options,
+                                          tetstream_reader** reader) {
+  return guardCreate(function, reader, [&](tetstream_reader& r) {
     needPlace(format, "format");
     const Format& found = needFormat(format, "");
     openBytes(r, found, openDescriptor(fd, textOf("descriptor %d", fd)), options);
   });
 }
 
-tetstream_status tetstream_reader_open_fd(int32_t fd, const char* format,
-                                          tetstream_reader** reader) {
-  return tetstream_reader_open_fd_with(fd, format, nullptr, reader);
+tetstream_status tetstream_reader_open_fd_with(int32_t fd, const char* format,
+                                               const tetstream_options* options,
+                                               tetstream_reader** reader) {
+  return openDescriptorFor(__func__, fd, format, options, reader);
 }
 
-tetstream_status tetstream_reader_open_memory_with(const void* data, size_t size,
-                                                   const char* format,
-                                                   const tetstream_options* options,
-                                                   tetstream_reader** reader) {
-  return guardCreate(__func__, reader, [&](tetstream_reader& r) {
+tetstream_status tetstream_reader_open_fd(int32_t fd, const char* format,
+                                          tetstream_reader** reader) {
+  return openDescriptorFor(__func__, fd, format, nullptr, reader);
+}
+
+static tetstream_status openMemoryFor(const char* function, const void* data, size_t size,
+                                      const char* format, const tetstream_options* options,
+                                      tetstream_reader** reader) {
+  return guardCreate(function, reader, [&](tetstream_reader& r) {
     needPlace(format, "format");
     if (size > 0) needPlace(data, "data");
     const Format& found = needFormat(format, "");
@@ -88,9 +100,16 @@ tetstream_status tetstream_reader_open_memory_with(const void* data, size_t size
   });
 }
 
+tetstream_status tetstream_reader_open_memory_with(const void* data, size_t size,
+                                                   const char* format,
+                                                   const tetstream_options* options,
+                                                   tetstream_reader** reader) {
+  return openMemoryFor(__func__, data, size, format, options, reader);
+}
+
 tetstream_status tetstream_reader_open_memory(const void* data, size_t size, const char* format,
                                               tetstream_reader** reader) {
-  return tetstream_reader_open_memory_with(data, size, format, nullptr, reader);
+  return openMemoryFor(__func__, data, size, format, nullptr, reader);
 }
 
 tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,

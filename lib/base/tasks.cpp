@@ -96,4 +96,14 @@ void Tasks::forParts(size_t count, const std::function<void(size_t)>& work) cons
   parts_->finish();
 }
 
+void doBoth(const Tasks* tasks, const std::function<void()>& one,
+            const std::function<void()>& other) {
+  if (tasks) {
+    tasks->forParts(2, [&](size_t part) { part == 0 ? one() : other(); });
+    return;
+  }
+  one();
+  other();
+}
+
 }  // namespace tetstream

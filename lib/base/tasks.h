@@ -35,4 +35,8 @@ class Tasks {
   Kept<Parts> parts_;
 };
 
+// Both, at the same time where there are tasks; without, the first one before the other.
+void doBoth(const Tasks* tasks, const std::function<void()>& one,
+            const std::function<void()>& other);
+
 }  // namespace tetstream

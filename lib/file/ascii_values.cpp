@@ -7,6 +7,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "plain_number.h"
 #include "status.h"
 #include "values.h"
 
@@ -36,6 +37,15 @@ bool parseWord(std::string_view word, T* value) {
     }
   }
   return false;
+}
+
+using tetstream::readPlain;
+
+const char* readPlain(const char* at, uint64_t* value) {
+  int64_t found;
+  const char* end = readPlain(at, &found);
+  if (end) *value = static_cast<uint64_t>(found);
+  return end;
 }
 
 class AsciiValues final : public Values {
@@ -81,9 +91,13 @@ class AsciiValues final : public Values {
   template <class In, class Out>
   void readWords(size_t count, Out* out) {
     for (size_t i = 0; i < count; ++i) {
-      const std::string_view word = nextWord();
       In value;
-      bool good = parseWord(word, &value);
+      std::string_view word;
+      bool good = nextPlain(&value);
+      if (!good) {
+        word = nextWord();
+        good = parseWord(word, &value);
+      }
       if constexpr (std::is_integral_v<In> && std::is_integral_v<Out>)
         good = good && std::in_range<Out>(value);
       if (!good) failWord(word);
@@ -111,9 +125,22 @@ class AsciiValues final : public Values {
          static_cast<unsigned long long>(place()), static_cast<unsigned long long>(count_));
   }
 
+  // The next word as nearly all are; false, with nothing taken, if it is another one.
+  template <class In>
+  bool nextPlain(In* value) {
+    if (next_ == marks_.size() * stride_) return false;  // to be marked
+    while (at_ < filled_ && isBlank(text_[at_])) ++at_;
+    if (filled_ - at_ < kPlainNumberBytes) return false;
+    const char* end = readPlain(text_.data() + at_, value);
+    if (!end || !isBlank(*end)) return false;
+    at_ = static_cast<size_t>(end - text_.data());
+    ++next_;
+    return true;
+  }
+
   // The next word, empty at the end; it lives until the next call.
   std::string_view nextWord() {
-    if (next_ % stride_ == 0 && next_ / stride_ == marks_.size()) mark();
+    if (next_ == marks_.size() * stride_) mark();
     if (!findWord()) return {};
     size_t size = 0;
     for (;;) {

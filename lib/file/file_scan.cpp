@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "plain_number.h"
 #include "text_number.h"
 
 namespace tetstream {
@@ -17,7 +18,10 @@ constexpr size_t kBufferBytes = 1 << 18;
 constexpr size_t kAhead = 1024;
 
 inline bool isSpace(char c) {
-  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
+  constexpr uint64_t spaces =
+      uint64_t{1} << ' ' | uint64_t{1} << '\n' | uint64_t{1} << '\t' | uint64_t{1} << '\r';
+  const auto code = static_cast<unsigned char>(c);
+  return code <= ' ' && (spaces >> code & 1);
 }
 
 std::string countText(uint64_t count) {
@@ -135,32 +139,63 @@ int64_t FileScan::integer(const char* what) {
   return value;
 }
 
-// Plain digits are read here, within what is in the buffer; all else takes the longer way.
-void FileScan::integers(int64_t* out, size_t count, const char* what) {
-  constexpr std::ptrdiff_t kMostDigits = 18;
-  for (size_t i = 0; i < count; ++i) {
-    while (isSpace(buffer_[at_])) line_ += buffer_[at_++] == '\n';
-    const char* begin = buffer_.data() + at_;
-    const char* digit = begin;
-    uint64_t value = 0;
-    for (unsigned d; (d = static_cast<unsigned>(*digit - '0')) < 10; ++digit)
-      value = 10 * value + d;
-    if (filled_ - at_ < kAhead || digit == begin || digit - begin > kMostDigits ||
-        !isSpace(*digit)) {
-      out[i] = integer(what);
-      continue;
-    }
-    at_ += static_cast<size_t>(digit - begin);
-    out[i] = static_cast<int64_t>(value);
+// Plain numbers, each with a blank behind it, within what is in the buffer. Returns how many.
+template <class Number>
+size_t FileScan::plainNumbers(Number* out, size_t count) {
+  if (filled_ - at_ < kPlainNumberBytes) return 0;
+  const char* at = buffer_.data() + at_;
+  const char* const last = buffer_.data() + filled_ - kPlainNumberBytes;
+  uint64_t lines = 0;
+  size_t done = 0;
+  for (; done < count; ++done) {
+    while (isSpace(*at)) lines += *at++ == '\n';
+    if (at > last) break;
+    const char* end = readPlain(at, out + done);
+    if (!end || !isSpace(*end)) break;
+    at = end;
   }
+  at_ = static_cast<size_t>(at - buffer_.data());
+  line_ += lines;
+  return done;
+}
+
+void FileScan::integers(int64_t* out, size_t count, const char* what) {
+  while (count > 0) {
+    const size_t plain = plainNumbers(out, count);
+    out += plain;
+    count -= plain;
+    if (count == 0) break;
+    *out++ = integer(what);
+    --count;
+  }
+}
+
+void FileScan::reals(double* out, size_t count, const char* what) {
+  while (count > 0) {
+    const size_t plain = plainNumbers(out, count);
+    out += plain;
+    count -= plain;
+    if (count == 0) break;
+    *out++ = real(what);
+    --count;
+  }
+}
+
+void FileScan::checkRange(int64_t value, const char* what, int64_t least, int64_t most) const {
+  if (value < least || value > most)
+    failBad(textOf("%s is %lld, not %lld to %lld", what, static_cast<long long>(value),
+                   static_cast<long long>(least), static_cast<long long>(most)));
 }
 
 int64_t FileScan::integer(const char* what, int64_t least, int64_t most) {
   const int64_t value = integer(what);
-  if (value < least || value > most)
-    failBad(textOf("%s is %lld, not %lld to %lld", what, static_cast<long long>(value),
-                   static_cast<long long>(least), static_cast<long long>(most)));
+  checkRange(value, what, least, most);
   return value;
+}
+
+void FileScan::integers(int64_t* out, size_t count, const char* what, int64_t least, int64_t most) {
+  integers(out, count, what);
+  for (size_t i = 0; i < count; ++i) checkRange(out[i], what, least, most);
 }
 
 double FileScan::real(const char* what) {

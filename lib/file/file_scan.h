@@ -34,6 +34,8 @@ class FileScan {
   double real(const char* what);
   // Many in a row, which is faster.
   void integers(int64_t* out, size_t count, const char* what);
+  void integers(int64_t* out, size_t count, const char* what, int64_t least, int64_t most);
+  void reals(double* out, size_t count, const char* what);
   // A text between quotes, or a word.
   std::string text(const char* what);
   void expect(const char* word);
@@ -59,7 +61,10 @@ class FileScan {
 
  private:
   bool refill();  // adds to the buffer; false at the end of the file
+  void checkRange(int64_t value, const char* what, int64_t least, int64_t most) const;
   bool passBlanks();
+  template <class Number>
+  size_t plainNumbers(Number* out, size_t count);
   size_t wordSize();
   [[noreturn]] void failWord(std::string_view word, const char* what) const;
 

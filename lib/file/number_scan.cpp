@@ -45,7 +45,7 @@ void NumberScan::integers(int64_t* out, size_t count, size_t width, const char* 
 
 void NumberScan::reals(double* out, size_t count, size_t width, const char* what) {
   if (binary_) return readBinary<float, double>(file_, swapped_, out, count, width, what);
-  for (size_t i = 0; i < count; ++i) out[i] = file_.real(what);
+  file_.reals(out, count, what);
 }
 
 uint64_t NumberScan::count(size_t width, size_t least_bytes, const char* what) {

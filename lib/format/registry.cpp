@@ -61,7 +61,7 @@ static const Format kFormats[] = {
      nullptr},
     {"xdmf",
      ".xdmf .xmf",
-     "XDMF 2 and 3, values in its text or in HDF5; one time step",
+     "XDMF 2 and 3, values in its text, in HDF5 or raw; one time step",
      {true, -1, true},
      false,
      false,

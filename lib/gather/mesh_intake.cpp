@@ -25,34 +25,61 @@ MeshIntake::MeshIntake(const FileScan& file, const ReadOptions& options, ScalarT
       mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir)),
       faces_(sizeof(int64_t[4]), options.temp_dir, {2, 256 << 10}) {}
 
-void MeshIntake::addLabels(const char* name, bool wide) {
+void MeshIntake::addLabels(const char* name, bool wide, bool sure) {
   const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;
-  labels_.push_back({mesh_->addCellData({name, 1, type}), wide, false, {}});
+  labels_.push_back({mesh_->addCellData({name, 1, type}), false, wide, sure});
 }
 
 void MeshIntake::addPointLabels(const char* name, bool wide) {
   const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;
-  point_labels_.push_back({mesh_->addField({name, 1, type}), wide, false, {}});
+  point_labels_.push_back({mesh_->addField({name, 1, type}), true, wide, false});
 }
 
-void MeshIntake::takeLabel(Labels& labels, int64_t label, size_t count, const char* of,
-                           int64_t number) {
-  const auto narrow = static_cast<int32_t>(label);
-  if (!labels.wide && narrow != label)
-    file_.failHere(Status::kUnsupported, "label " + std::to_string(label) + " of " + of + " " +
+void MeshIntake::takeLabel(Labels& labels, int64_t label, size_t count, int64_t number) {
+  if (label == 0 && !labels.any) {
+    labels.zeros += count;
+    return;
+  }
+  if (!labels.any) countZeros(labels);
+  if (!labels.wide && static_cast<int32_t>(label) != label)
+    file_.failHere(Status::kUnsupported, "label " + std::to_string(label) + " of " +
+                                             (labels.of_points ? "point " : "cell ") +
                                              std::to_string(number) + " has more than 32 bits");
-  labels.any = labels.any || label != 0;
-  const auto* bytes = reinterpret_cast<const unsigned char*>(&label);
-  if (!labels.wide) bytes = reinterpret_cast<const unsigned char*>(&narrow);
-  for (size_t i = 0; i < count; ++i)
-    labels.held.insert(labels.held.end(), bytes, bytes + (labels.wide ? 8 : 4));
+  labels.held.insert(labels.held.end(), count, label);
+  if (labels.held.size() >= kRowsAtOnce) writeLabels(labels);
+}
+
+// The first that is not 0 has come: those before it are rows now.
+void MeshIntake::countZeros(Labels& labels) {
+  constexpr int64_t none[kRowsAtOnce] = {};
+  labels.any = true;
+  for (; labels.zeros > 0; labels.zeros -= std::min<uint64_t>(labels.zeros, kRowsAtOnce))
+    appendLabels(labels, none, static_cast<size_t>(std::min<uint64_t>(labels.zeros, kRowsAtOnce)));
+}
+
+void MeshIntake::writeLabels(Labels& labels) {
+  appendLabels(labels, labels.held.data(), labels.held.size());
+  labels.held.clear();
+}
+
+void MeshIntake::appendLabels(Labels& labels, const int64_t* rows, size_t count) {
+  const auto append = [&](const void* stored, size_t n) {
+    if (labels.of_points)
+      mesh_->appendField(labels.column, stored, n);
+    else
+      mesh_->appendCellData(labels.column, stored, n);
+  };
+  if (labels.wide) return append(rows, count);
+  int32_t narrow[kRowsAtOnce];
+  for (size_t n; count > 0; rows += n, count -= n) {
+    n = std::min(count, kRowsAtOnce);
+    for (size_t i = 0; i < n; ++i) narrow[i] = static_cast<int32_t>(rows[i]);
+    append(narrow, n);
+  }
 }
 
 void MeshIntake::labelPoint(int64_t label) {
-  Labels& labels = point_labels_.front();
-  takeLabel(labels, label, 1, "point", static_cast<int64_t>(mesh_->pointCount()));
-  mesh_->appendField(labels.column, labels.held.data(), 1);
-  labels.held.clear();
+  takeLabel(point_labels_.front(), label, 1, static_cast<int64_t>(mesh_->pointCount()));
 }
 
 void MeshIntake::note(const std::string& text) {
@@ -76,28 +103,26 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
   if (kind.shape != CellShape::kTetra && !options_.split)
     file_.failHere(Status::kUnsupported, "cell " + std::to_string(number) + " is a " +
                                              nameOf(kind.shape) + "; " + kOnlyTetrahedra);
-  int64_t made[kMostSplit][4];
-  const size_t count = splitCell(kind.shape, corners, made);
+  size_t count = 1;
+  if (kind.shape == CellShape::kTetra) {
+    held_cells_.insert(held_cells_.end(), corners, corners + 4);
+  } else {
+    int64_t made[kMostSplit][4];
+    count = splitCell(kind.shape, corners, made);
+    held_cells_.insert(held_cells_.end(), made[0], made[0] + 4 * count);
+    ++split_;
+  }
   quadratic_ += kind.nodes > cornersOf(kind.shape);
-  split_ += kind.shape != CellShape::kTetra;
   for (int c = 0; c < cornersOf(kind.shape); ++c)
     largest_corner_ = std::max(largest_corner_, corners[c]);
-  for (size_t i = 0; i < count; ++i)
-    held_cells_.insert(held_cells_.end(), std::begin(made[i]), std::end(made[i]));
-  for (size_t k = 0; k < labels_.size(); ++k)
-    takeLabel(labels_[k], labels[k], count, "cell", number);
+  for (size_t k = 0; k < labels_.size(); ++k) takeLabel(labels_[k], labels[k], count, number);
   if (held_cells_.size() >= 4 * kRowsAtOnce) writeHeld();
   return count;
 }
 
 void MeshIntake::writeHeld() {
-  const size_t count = held_cells_.size() / 4;
-  mesh_->appendCells(held_cells_.data(), count);
+  mesh_->appendCells(held_cells_.data(), held_cells_.size() / 4);
   held_cells_.clear();
-  for (Labels& labels : labels_) {
-    mesh_->appendCellData(labels.column, labels.held.data(), count);
-    labels.held.clear();
-  }
 }
 
 void MeshIntake::addFace(CellKind kind, const int64_t* corners, int64_t label) {
@@ -232,6 +257,8 @@ void MeshIntake::takeFaces() {
 
 std::unique_ptr<IndexedSource> MeshIntake::finish() {
   writeHeld();
+  for (Labels& labels : labels_) writeLabels(labels);
+  for (Labels& labels : point_labels_) writeLabels(labels);
   copyData();
   for (size_t k = labels_.size(); k-- > 0;)  // a label that nobody has
     if (!labels_[k].any) mesh_->removeCellData(labels_[k].column);

@@ -21,8 +21,9 @@ class MeshIntake {
 
   MeshSpool& mesh() { return *mesh_; }
   uint64_t cellCount() const { return mesh_->cellCount() + held_cells_.size() / 4; }
-  // Integer cell data, int32 unless `wide`; before the first cell.
-  void addLabels(const char* name, bool wide = false);
+  // Integer cell data, int32 unless `wide`; before the first cell. Not there if all are 0, unless
+  // they are `sure` to have been.
+  void addLabels(const char* name, bool wide = false, bool sure = false);
 
   // The same of points, all of one column; before the first point.
   void addPointLabels(const char* name, bool wide = false);
@@ -50,10 +51,12 @@ class MeshIntake {
   std::unique_ptr<IndexedSource> finish();
 
  private:
+  // Those of a column that nobody has yet are only counted.
   struct Labels {
     size_t column;
-    bool wide, any;                   // any: not all are 0
-    std::vector<unsigned char> held;  // rows, as they are stored
+    bool of_points, wide, any;  // any: not all are 0, or it is sure to be there
+    uint64_t zeros = 0;         // that came while there was none
+    std::vector<int64_t> held = {};
   };
   struct Data {
     Data(const Column& c, bool cells, const std::string& temp_dir)
@@ -62,7 +65,10 @@ class MeshIntake {
     bool of_cells, maybe_integers = false;
     ScatteredRows rows;
   };
-  void takeLabel(Labels& labels, int64_t label, size_t count, const char* of, int64_t number);
+  void takeLabel(Labels& labels, int64_t label, size_t count, int64_t number);
+  void appendLabels(Labels& labels, const int64_t* rows, size_t count);
+  void writeLabels(Labels& labels);
+  void countZeros(Labels& labels);
   void writeHeld();
   void checkCorners();
   void takeFaces();

@@ -102,4 +102,21 @@ double CellFrame::set(const double* corners) {
   return det;
 }
 
+void clampedWeights(const double p[4][3], const double x[3], double w[4]) {
+  double e[3][3], d[3];
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) e[k][i] = p[k + 1][i] - p[0][i];
+    d[i] = x[i] - p[0][i];
+  }
+  const double whole = determinant(e[0], e[1], e[2]);
+  if (whole == 0) return;
+  w[1] = determinant(d, e[1], e[2]) / whole;
+  w[2] = determinant(e[0], d, e[2]) / whole;
+  w[3] = determinant(e[0], e[1], d) / whole;
+  w[0] = 1 - w[1] - w[2] - w[3];
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) sum += w[k] = std::max(w[k], 0.0);
+  for (int k = 0; k < 4; ++k) w[k] /= sum;
+}
+
 }  // namespace tetstream

@@ -13,6 +13,10 @@ void barycentricWeights(const double p[4][3], const double x[3], double w[4]);
 
 constexpr double kLeastOutside = 1e-13;
 
+// Faster and less exact: those of x, or of a point of the cell where x lies outside; of a flat cell
+// they stay as they are.
+void clampedWeights(const double p[4][3], const double x[3], double w[4]);
+
 // The same for many points, faster and less exact: w_k = row_k . (x - o), k = 1 to 3, the rows
 // those of the inverse of the edges from o, corner 0.
 struct CellFrame {

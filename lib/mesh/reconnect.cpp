@@ -5,6 +5,20 @@
 
 namespace tetstream {
 
+constexpr double kNotKnown = -2;
+
+template <class S>
+void Reconnector<S>::start() {
+  if (thinness_.size() < patch_.cellEnd()) thinness_.resize(patch_.cellEnd() + 1024);
+  std::fill_n(thinness_.data(), patch_.cellEnd(), kNotKnown);
+}
+
+template <class S>
+void Reconnector<S>::replace(const Reconnection& r, uint32_t* slots) {
+  patch_.replace(r.gone, r.gone_count, r.made, r.made_count, slots);
+  for (uint32_t m = 0; m < r.made_count; ++m) thinness_[slots[m]] = kNotKnown;
+}
+
 template <class S>
 double Reconnector<S>::thinnessAt(const uint32_t corners[4]) const {
   double p[4][3];
@@ -14,14 +28,17 @@ double Reconnector<S>::thinnessAt(const uint32_t corners[4]) const {
 }
 
 template <class S>
-double Reconnector<S>::thinnessOfCell(uint32_t c) const {
-  const uint32_t corners[4] = {patch_.vertexOf(c, 0), patch_.vertexOf(c, 1), patch_.vertexOf(c, 2),
-                               patch_.vertexOf(c, 3)};
-  return thinnessAt(corners);
+double Reconnector<S>::thinnessOfCell(uint32_t c) {
+  if (thinness_[c] == kNotKnown) {
+    const uint32_t corners[4] = {patch_.vertexOf(c, 0), patch_.vertexOf(c, 1),
+                                 patch_.vertexOf(c, 2), patch_.vertexOf(c, 3)};
+    thinness_[c] = thinnessAt(corners);
+  }
+  return thinness_[c];
 }
 
 template <class S>
-void Reconnector<S>::addGone(uint32_t c, Reconnection& out) const {
+void Reconnector<S>::addGone(uint32_t c, Reconnection& out) {
   out.gone[out.gone_count++] = c;
   out.before = std::max(out.before, thinnessOfCell(c));
 }

@@ -21,11 +21,17 @@ struct Reconnection {
   bool improves() const { return after < before; }
 };
 
-// Finds flips in a patch; Patch::replace does them.
+// Finds flips in a patch, and does them.
 template <class S>
 class Reconnector {
  public:
-  Reconnector(Patch<S>& patch, Account& account) : patch_(patch), star_(account), ring_(account) {}
+  Reconnector(Patch<S>& patch, Account& account)
+      : patch_(patch), star_(account), ring_(account), thinness_(account) {}
+
+  // Another patch, or one that was changed otherwise.
+  void start();
+  // As Patch::replace.
+  void replace(const Reconnection& r, uint32_t* slots);
 
   // The face opposite corner j of cell c makes way for an edge: two cells become three. False where
   // it is on the boundary or the cell beyond is not known.
@@ -34,18 +40,19 @@ class Reconnector {
   // become 2 (n - 2), by the best triangulation. False where it is on the boundary, its ring is not
   // known or has more than kMostRing cells.
   bool removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out);
-  double thinnessOfCell(uint32_t c) const;
+  double thinnessOfCell(uint32_t c);
 
  private:
   double thinnessAt(const uint32_t corners[4]) const;
   bool hasEdge(uint32_t a, uint32_t b);
   bool hasFace(const uint32_t corners[3]);
   bool orderRing(uint32_t v, uint32_t* ring) const;
-  void addGone(uint32_t c, Reconnection& out) const;
+  void addGone(uint32_t c, Reconnection& out);
   void triangulate(uint32_t u, uint32_t v, const uint32_t* ring, Reconnection& out);
 
   Patch<S>& patch_;
   Star star_, ring_;
+  Array<double> thinness_;  // per cell of the patch, below -1 where not known
 };
 
 }  // namespace tetstream

@@ -136,9 +136,10 @@ inline unsigned bitsOf(const M& mask) {
 #endif
 }
 
-inline size_t countThin(const Corner<LanesOf<double>>& p, const Corner<LanesOf<double>>& q,
-                        const Corner<LanesOf<double>>& r, const ThinAngle& thin, unsigned lanes) {
-  return static_cast<size_t>(__builtin_popcount(bitsOf(thinCells(p, q, r, thin.cos2)) & lanes));
+// Those of the lanes whose bits are set.
+inline unsigned thinLanes(const Corner<LanesOf<double>>& p, const Corner<LanesOf<double>>& q,
+                          const Corner<LanesOf<double>>& r, const ThinAngle& thin, unsigned lanes) {
+  return bitsOf(thinCells(p, q, r, thin.cos2)) & lanes;
 }
 // Angles need doubles: 1 - cos^2 of the smallest floor is no more than float32 resolves.
 template <int first>
@@ -149,10 +150,10 @@ inline Corner<LanesOf<double>> halfOf(const Corner<LanesOf<float>>& c) {
   };
   return {half(c.x), half(c.y), half(c.z)};
 }
-inline size_t countThin(const Corner<LanesOf<float>>& p, const Corner<LanesOf<float>>& q,
-                        const Corner<LanesOf<float>>& r, const ThinAngle& thin, unsigned lanes) {
-  return countThin(halfOf<0>(p), halfOf<0>(q), halfOf<0>(r), thin, lanes & 15) +
-         countThin(halfOf<4>(p), halfOf<4>(q), halfOf<4>(r), thin, lanes >> 4);
+inline unsigned thinLanes(const Corner<LanesOf<float>>& p, const Corner<LanesOf<float>>& q,
+                          const Corner<LanesOf<float>>& r, const ThinAngle& thin, unsigned lanes) {
+  return thinLanes(halfOf<0>(p), halfOf<0>(q), halfOf<0>(r), thin, lanes & 15) |
+         thinLanes(halfOf<4>(p), halfOf<4>(q), halfOf<4>(r), thin, lanes >> 4) << 4;
 }
 
 // One cell that the filter could not decide, or of a size whose products it cannot hold.
@@ -169,8 +170,9 @@ inline bool carefully(const double x[3], const S* values, size_t stride, const S
     c[i] = {LanesOf<double>{} + (t[i][0] - x[0]) * scale,
             LanesOf<double>{} + (t[i][1] - x[1]) * scale,
             LanesOf<double>{} + (t[i][2] - x[2]) * scale};
-  *count += countThin(c[0], c[1], c[2], thin, 1);
-  return true;
+  const unsigned is_thin = thinLanes(c[0], c[1], c[2], thin, 1);
+  *count += is_thin;
+  return !(is_thin && thin.barred);
 }
 
 // As many cells as a vector has lanes, and the bits of those that were not met before.
@@ -217,8 +219,12 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
       return {false, 0, begin + static_cast<size_t>(__builtin_ctz(turned))};
     const auto sure = (det > 0) & held;
     const auto suspect = sure & (S(kRegular) * det2 < shape * sum3);
-    if (const unsigned which = bitsOf(suspect) & fresh)
-      thin_cells += countThin(p, q, r, thin, which);
+    if (const unsigned which = bitsOf(suspect) & fresh) {
+      const unsigned is_thin = thinLanes(p, q, r, thin, which);
+      if (is_thin && thin.barred)
+        return {false, 0, begin + static_cast<size_t>(__builtin_ctz(is_thin))};
+      thin_cells += static_cast<size_t>(__builtin_popcount(is_thin));
+    }
     const unsigned unsure = ~bitsOf(sure) & fresh;
     for (size_t k = 0; unsure >> k; ++k)
       if ((unsure >> k & 1) && !carefully(x, values, stride, c[k], thin, &thin_cells))

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "orient.h"
-#include "topology.h"
 #include "vector3.h"
 
 namespace tetstream {
@@ -25,25 +24,40 @@ double regularity(const double p[4][3], double scale) {
   return 432 * (volume * volume) / (sum * sum * sum);
 }
 
+// e: from its first corner the cell's edges; n: of the face opposite each corner twice the area as
+// a vector, outwards. 6 V = e0 . (e1 x e2) is wrong by no more than kOrientationBound times the sum
+// of its products' sizes, which is at most that of the edges' squares to the power of 3/2. Within
+// the limits nothing over- or underflows; beyond them cells are brought to size.
 double thinness(const double p[4][3]) {
-  if (orientation(p[0], p[1], p[2], p[3]) <= 0) return kTurned;
-  const double unit = 1 / largestDifference(p[0], p[1], p[2], p[3]);
-  double e[4][3], n[4][3], n2[4];
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 3; ++i) e[k][i] = (p[k][i] - p[0][i]) * unit;
-  for (int k = 0; k < 4; ++k) {  // twice the area of the face opposite k, as a vector
-    const double *a = e[kOpposite[k][0]], *b = e[kOpposite[k][1]], *c = e[kOpposite[k][2]];
-    for (int i = 0; i < 3; ++i) {
-      const int y = (i + 1) % 3, z = (i + 2) % 3;
-      n[k][i] = (b[y] - a[y]) * (c[z] - a[z]) - (b[z] - a[z]) * (c[y] - a[y]);
-    }
-    n2[k] = n[k][0] * n[k][0] + n[k][1] * n[k][1] + n[k][2] * n[k][2];
+  constexpr double kSure = 4 * kOrientationBound * kOrientationBound;
+  constexpr double kLeastSum = 1e-40, kLargestSum = 1e70;
+  double e[3][3], n[4][3], n2[4];
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) e[k][i] = p[k + 1][i] - p[0][i];
+  const double sum = dot(e[0], e[0]) + dot(e[1], e[1]) + dot(e[2], e[2]);
+  const bool fits = sum > kLeastSum && sum < kLargestSum;
+  if (!fits) {
+    const double unit = 1 / largestDifference(p[0], p[1], p[2], p[3]);
+    for (auto& edge : e)
+      for (double& x : edge) x *= unit;
   }
+  cross(e[2], e[1], n[1]);
+  cross(e[0], e[2], n[2]);
+  cross(e[1], e[0], n[3]);
+  for (int i = 0; i < 3; ++i) {
+    e[1][i] -= e[0][i];
+    e[2][i] -= e[0][i];
+  }
+  cross(e[1], e[2], n[0]);
+  const double six = -dot(e[0], n[1]);
+  if (!(fits && six > 0 && six * six > kSure * (sum * sum * sum)) &&
+      orientation(p[0], p[1], p[2], p[3]) <= 0)
+    return kTurned;
+  for (int k = 0; k < 4; ++k) n2[k] = dot(n[k], n[k]);
   double worst = -1;
   for (int k = 0; k < 4; ++k)
     for (int l = 0; l < k; ++l) {
-      const double c = n[k][0] * n[l][0] + n[k][1] * n[l][1] + n[k][2] * n[l][2];
-      const double size = n2[k] * n2[l];
+      const double c = dot(n[k], n[l]), size = n2[k] * n2[l];
       if (!(size > 0)) return 1;
       worst = std::max(worst, (c < 0 ? c : -c) * c / size);
     }

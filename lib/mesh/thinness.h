@@ -1,4 +1,4 @@
-// mesh: how thin a cell is, as a number to compare. Depends on orient.h, topology.h.
+// mesh: how thin a cell is, as a number to compare. Depends on orient.h.
 #pragma once
 
 namespace tetstream {

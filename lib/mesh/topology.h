@@ -35,8 +35,9 @@ constexpr bool isFreeVertex(uint8_t flags) {
 enum CellFlag : uint8_t {
   kNegative = 1,  // stored with negative volume; the order is the user's and is kept
   kDead = 2,
-  kFlat = 4,    // of volume zero in the input
-  kFolded = 8,  // on the same side of a face as the neighbour there, in the input
+  kFlat = 4,     // of volume zero in the input
+  kFolded = 8,   // on the same side of a face as the neighbour there, in the input
+  kShaped = 16,  // no flip was found that makes its shape better; none will be while all stays
 };
 
 // One cell round a centre: the triangle opposite, ordered so that det(t0 - x, t1 - x, t2 - x) > 0
@@ -105,6 +106,7 @@ class Topology {
   void flagVertex(uint32_t v, uint8_t flags) { vertex_flags_[v] |= flags; }
   uint8_t cellFlags(uint32_t c) const { return cell_flags_[c]; }
   void flagCell(uint32_t c, uint8_t flags) { cell_flags_[c] |= flags; }
+  void unflagCell(uint32_t c, uint8_t flags) { cell_flags_[c] &= static_cast<uint8_t>(~flags); }
   bool isLive(uint32_t c) const { return !(cell_flags_[c] & kDead); }
   // May be merged with another such vertex, as far as the vertex itself goes.
   bool isFree(uint32_t v) const { return isFreeVertex(vertex_flags_[v]); }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tasks.h"
+
 namespace tetstream {
 
 template <class S>
@@ -68,8 +70,8 @@ static void moveRow(T* array, size_t stride, uint32_t from, uint32_t to) {
 }
 
 template <class S>
-void Window<S>::moveVertices() {
-  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
+void Window<S>::moveVertices(uint32_t end) {
+  for (uint32_t v = 0; v < end; ++v) {
     const uint32_t to = remap_[v];
     if (to == kNone || to == v) continue;
     moveRow(values_.data(), static_cast<size_t>(shape_.values), v, to);
@@ -81,20 +83,28 @@ void Window<S>::moveVertices() {
 }
 
 template <class S>
-uint64_t Window<S>::pack(Front& front) {
-  uint64_t unused = 0;
-  const uint32_t kept = chooseVertices(&unused);
-  moveVertices();
-  front.remap(remap_.data());
-  curves.remap(remap_.data());
+void Window<S>::packCells(uint32_t kept_vertices) {
   faces.remapVertices(remap_.data());
-  mesh.pack(remap_.data(), kept, [this](uint32_t from, uint32_t to) {
+  mesh.pack(remap_.data(), kept_vertices, [this](uint32_t from, uint32_t to) {
     if (from == to) return;
     if (faces.anyPlaced()) faces.moveCell(from, to);
     moveRow(cell_means_.data(), static_cast<size_t>(meansStride()), from, to);
     moveRow(cell_picks_.data(), static_cast<size_t>(shape_.cell_picks), from, to);
     if (shape_.points) first_points_[to] = first_points_[from];
   });
+}
+
+template <class S>
+uint64_t Window<S>::pack(Front& front, const Tasks* tasks) {
+  uint64_t unused = 0;
+  const uint32_t kept = chooseVertices(&unused);
+  const uint32_t end = mesh.vertexEnd();
+  const auto pack_rows = [&] {
+    moveVertices(end);
+    front.remap(remap_.data());
+    curves.remap(remap_.data());
+  };
+  doBoth(tasks, pack_rows, [this, kept] { packCells(kept); });
   return unused;
 }
 

@@ -14,6 +14,8 @@
 
 namespace tetstream {
 
+class Tasks;
+
 // What one row carries, fixed for a run. Values are kept in the user's units.
 struct WindowShape {
   int values = 3;        // S per vertex: x y z, then components that are interpolated
@@ -106,15 +108,16 @@ class Window {
 
   // Drops dead cells, and the vertices that are final and in no cell; tells the front. Scratch
   // holds, per vertex, its live cells. Returns how many vertices were dropped that no cell ever
-  // used.
-  uint64_t pack(Front& front);
+  // used. `tasks`: null, or for rows and cells at the same time.
+  uint64_t pack(Front& front, const Tasks* tasks);
 
  private:
   int meansStride() const { return shape_.cell_means ? 1 + shape_.cell_means : 0; }
   void sizeVertices();
   void sizeCells();
   uint32_t chooseVertices(uint64_t* unused);
-  void moveVertices();
+  void moveVertices(uint32_t end);
+  void packCells(uint32_t kept_vertices);
 
   WindowShape shape_;
   Array<S> values_, quadrics_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "vector3.h"
+#include "barycentric.h"
 
 namespace tetstream {
 
@@ -18,6 +18,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
       mesh_(mesh),
       tally_(tally),
       refusals_(account),
+      sound_(account),
       link_(account),
       stars_(account),
       merged_(static_cast<size_t>(core.plan.values)),
@@ -26,6 +27,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
 template <class Mesh>
 void Collapser<Mesh>::forget() {
   std::fill_n(refusals_.data(), refusals_.size(), Refusal{kNone, kNone, kNone});
+  sound_.forget();
 }
 
 template <class Mesh>
@@ -61,18 +63,22 @@ StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size
 // Whether the share of thin cells in the two stars would not grow, so that in the end it is no
 // larger than in the input.
 template <class Mesh>
-bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) const {
+bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) {
   if (after == 0) return true;
   const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
   const size_t before = thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +
                         thinIn(stars_.v, at_v, angle);
+  if (before == 0 && core_.options.shape == Shape::kSolver) {
+    sound_.add(u);
+    sound_.add(v);
+  }
   const size_t left = stars_.u.size() + stars_.v.size();
   return after * (left + stars_.ring.size()) <= before * left;
 }
 
 // `after`: cells that would be below the largest angle in question.
 template <class Mesh>
-Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, bool spares, size_t after) const {
+Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, bool spares, size_t after) {
   if (!thinsOut(u, v, core_.thin, spares ? thinAfter(core_.thin) : after))
     return Outcome::kOrientation;
   for (size_t i = 0; spares && i < core_.dear.size(); ++i)
@@ -104,10 +110,11 @@ Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turne
   return Outcome::kOrientation;
 }
 
-// Whether the cell that the edge was refused for is still there and would be turned over now, too.
+// Whether the cell that the edge was refused for is still there and would be turned over now, too,
+// or thin.
 // Slots may have changed hands since: any cell of one end tells.
 template <class Mesh>
-bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
+bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const {
   if (refusals_.size() == 0) return false;
   if (u > v) std::swap(u, v);
   const Refusal& last = refusals_[placeOf(u, v)];
@@ -122,7 +129,7 @@ bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v) const {
   }
   if (ends != 1) return false;
   const StarCell cell = mesh_.starCell(at);
-  return !shapeFrom(merged_.data(), &cell, 1, core_.thin).positive;
+  return !shapeFrom(merged_.data(), &cell, 1, angle).positive;
 }
 
 template <class Mesh>
@@ -222,7 +229,10 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
-  if (turnsSameCell(u, v)) return Outcome::kOrientation;
+  // Where no cell is thin none may become so: the first one tells.
+  ThinAngle floor = core_.thin;
+  floor.barred = sound_.has(u) && sound_.has(v);
+  if (turnsSameCell(u, v, floor)) return Outcome::kOrientation;
   const bool u_first = isFarther(u, v);
   const auto gather = [&](bool of_u) {
     if (of_u)
@@ -245,7 +255,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     *error = std::max(*error, moved);
   }
   spares = spares && !core_.dear.empty();
-  const ThinAngle& angle = spares ? core_.dear.front() : core_.thin;
+  const ThinAngle& angle = spares ? core_.dear.front() : floor;
   const Star& farther = u_first ? stars_.u : stars_.v;
   const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size(), angle);
   if (!a.positive) return refuseFor(u, v, farther[a.turned]);
@@ -253,9 +263,12 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const Star& nearer = u_first ? stars_.v : stars_.u;
   const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size(), angle);
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
-  if (a.thin + b.thin > 0)
-    if (const Outcome o = thins(u, v, spares, a.thin + b.thin); o != Outcome::kDone) return o;
-  return keepsTopology(u, v, strata) ? Outcome::kDone : Outcome::kTopology;
+  const size_t thin = a.thin + b.thin;
+  if (thin > 0)
+    if (const Outcome o = thins(u, v, spares, thin); o != Outcome::kDone) return o;
+  if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
+  leaves_thin_ = thin > 0;
+  return Outcome::kDone;
 }
 
 // What merging two vertices adds to the error of the whole.
@@ -282,7 +295,10 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
     }
   }
   count(outcome);
-  if (outcome == Outcome::kDone) mergeInto(u, v, error);
+  if (outcome == Outcome::kDone) {
+    mergeInto(u, v, error);
+    if (core_.options.shape == Shape::kSolver) sound_.merged(u, stars_, leaves_thin_);
+  }
   return outcome;
 }
 
@@ -359,24 +375,6 @@ void Collapser<Mesh>::trace(uint32_t u, uint32_t v, double error) {
                            merged_.data(), error, traced_before_, traced_after_});
 }
 
-// Barycentric coordinates of x in a cell, clamped to it.
-static void barycentric(const double p[4][3], const double x[3], double out[4]) {
-  double e[3][3], d[3];
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) e[k][i] = p[k + 1][i] - p[0][i];
-    d[i] = x[i] - p[0][i];
-  }
-  const double whole = determinant(e[0], e[1], e[2]);
-  if (whole == 0) return;
-  out[1] = determinant(d, e[1], e[2]) / whole;
-  out[2] = determinant(e[0], d, e[2]) / whole;
-  out[3] = determinant(e[0], e[1], d) / whole;
-  out[0] = 1 - out[1] - out[2] - out[3];
-  double sum = 0;
-  for (int k = 0; k < 4; ++k) sum += out[k] = std::max(out[k], 0.0);
-  for (int k = 0; k < 4; ++k) out[k] /= sum;
-}
-
 // Carried fields take the value that the old cells have at the new position.
 template <class Mesh>
 void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
@@ -397,7 +395,7 @@ void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
   double p[4][3];
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(corners[k])[i]);
-  barycentric(p, x, weights);
+  clampedWeights(p, x, weights);
   for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
     double sum = 0;
     for (int k = 0; k < 4; ++k)

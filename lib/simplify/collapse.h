@@ -6,6 +6,7 @@
 #include "link.h"
 #include "patch.h"
 #include "region_volumes.h"
+#include "sound.h"
 #include "star_kernels.h"
 #include "strata.h"
 
@@ -73,7 +74,7 @@ class Collapser {
   S errorHere(uint32_t u, uint32_t v) const;
   S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);
   bool isFarther(uint32_t u, uint32_t v) const;
-  bool turnsSameCell(uint32_t u, uint32_t v) const;
+  bool turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
@@ -87,8 +88,8 @@ class Collapser {
   size_t thinAfter(const ThinAngle& angle) const {
     return thinIn(stars_.u, merged_.data(), angle) + thinIn(stars_.v, merged_.data(), angle);
   }
-  bool thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) const;
-  Outcome thins(uint32_t u, uint32_t v, bool spares, size_t after) const;
+  bool thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after);
+  Outcome thins(uint32_t u, uint32_t v, bool spares, size_t after);
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
@@ -113,6 +114,8 @@ class Collapser {
   Mesh& mesh_;
   Tally& tally_;
   Array<Refusal> refusals_;
+  SoundVertices sound_;       // where shapes come first
+  bool leaves_thin_ = false;  // the edge that was tested
   LinkCondition link_;
   StrataCondition strata_;
   RegionVolumes volumes_;

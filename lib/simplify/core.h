@@ -12,6 +12,7 @@
 #include "queued_edges.h"
 #include "ranked_cell.h"
 #include "star_kernels.h"
+#include "tasks.h"
 #include "tracer.h"
 #include "window.h"
 
@@ -165,6 +166,22 @@ struct Core {
   CellLabels cellLabels() const {
     return {window.allCellPicks(), static_cast<size_t>(plan.cell_picks), region_picks.data(),
             static_cast<int>(region_picks.size()), nullptr};
+  }
+
+  // For what is done to the window; null: by one thread. A memory budget is for one, for a single
+  // patch.
+  const Tasks* tasks() const {
+    const bool several = options.tasks && options.tasks->threads() > 1;
+    return several && options.memory_bytes == 0 ? options.tasks : nullptr;
+  }
+
+  // Calls work(first, end, half) for the first cells of the window and for the others: half is 0
+  // and 1. Where one thread works all are of the first half.
+  template <class Work>
+  void forHalves(Work work) const {
+    const uint32_t end = window.mesh.cellEnd(), middle = tasks() ? end / 2 : end;
+    doBoth(
+        tasks(), [&] { work(0u, middle, 0u); }, [&] { work(middle, end, 1u); });
   }
 
   // Whether some collapses have more than the price of their error.

@@ -154,6 +154,7 @@ void Metric<S>::updateScales() {
     core_.inverse_scale[i] = usable ? inverse : scale;
   }
   used_range_ = range;
+  fields_together_ = fieldsTogether();
   core_.extent = extent() > 0 ? extent() / length_unit_ : 1;
   const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;
   core_.error_unit = unit_share * unit_share * unit_share * unit_share * unit_share;
@@ -187,7 +188,6 @@ void Metric<S>::countVolume(uint32_t cell, double determinant) {
 template <class S>
 void Metric<S>::lockFlat(uint32_t cell) {
   Window<S>& window = core_.window;
-  window.mesh.flagCell(cell, kFlat);
   for (int j = 0; j < 4; ++j) window.mesh.flagVertex(window.mesh.corners(cell)[j], kLocked);
   if (core_.plan.cell_means) window.cellMeans(cell)[0] = 0;
   ++core_.report.locked_cells;
@@ -208,7 +208,7 @@ void Metric<S>::addCell(uint32_t cell) {
   }
   const int side = orientation(p[0], p[1], p[2], p[3]);
   if (side == 0) {
-    lockFlat(cell);
+    window.mesh.flagCell(cell, kFlat);
     return;
   }
   if (side < 0) window.mesh.flagCell(cell, kNegative);
@@ -272,6 +272,10 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
     count(floors_, below_);
     count(dear_, below_dear_);
   }
+}
+
+template <class S>
+void Metric<S>::chooseFloor() {
   size_t i = 0;
   while (i + 1 < floors_.size() &&
          static_cast<double>(below_[i]) > kShareBelow * static_cast<double>(sampled_))
@@ -288,24 +292,49 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
 }
 
 template <class S>
-void Metric<S>::addCells(uint32_t first, uint32_t end) {
+void Metric<S>::prepare(uint32_t first, uint32_t end) {
   if (first == end) return;
   if (!box_known_) growBox(first, end);
   if (!unit_known_) chooseLengthUnit(first, end);
   updateScales();
+}
+
+template <class S>
+void Metric<S>::addCells(uint32_t first, uint32_t end) {
   for (uint32_t c = first; c < end;) {
     if (end - c >= kCellLanes && addLanes(c))
       c += kCellLanes;
     else
       addCell(c++);
   }
-  sampleAngles(first, end);
 }
 
 template <class S>
+void Metric<S>::settle(uint32_t first, uint32_t end) {
+  if (first == end) return;
+  for (uint32_t c = first; c < end; ++c)
+    if (core_.window.mesh.cellFlags(c) & kFlat) lockFlat(c);
+  chooseFloor();
+}
+
+// The weights of the fields that are not constant, in the largest of them: 1 for one.
+template <class S>
+double Metric<S>::fieldsTogether() const {
+  double sum = 0, largest = 0;
+  for (size_t i = 0; i < core_.plan.weights.size(); ++i) {
+    const std::vector<int>& column = core_.plan.measured_column;
+    if ((i > 0 && column[i] == column[i - 1]) || !(core_.scale[i + 3] > 0)) continue;
+    sum += core_.plan.weights[i];
+    largest = std::max(largest, core_.plan.weights[i]);
+  }
+  return largest > 0 ? sum / largest : 1;
+}
+
+// Errors of several fields are added up: the boundary counts as much beside them as beside one.
+template <class S>
 double Metric<S>::faceWeight(bool interface) const {
   const double share = interface && core_.plan.dimension > 3 ? kInterfaceShare : 1;
-  return share * core_.options.boundary_weight * extent() / length_unit_;
+  return share * fields_together_ * core_.options.boundary_weight * extent() / length_unit_;
 }
 
 template <class S>

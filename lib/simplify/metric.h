@@ -16,9 +16,15 @@ class Metric {
  public:
   explicit Metric(Core<S>& core);
 
-  // Cells [first, end) of the window are new: their orientation is settled, their quadrics are
-  // added; flat ones are marked and their vertices locked.
+  // Cells [first, end) of the window are new. First the units are chosen.
+  void prepare(uint32_t first, uint32_t end);
+  // Then all of them, some at a time: their orientation is settled, flat ones are marked, and their
+  // quadrics are added.
   void addCells(uint32_t first, uint32_t end);
+  // Then the same: how thin they are is looked at, which another thread may do beside it.
+  void sampleAngles(uint32_t first, uint32_t end);
+  // In the end the vertices of flat ones are locked, and the floor is chosen.
+  void settle(uint32_t first, uint32_t end);
   // A face of the boundary or of an interface adds its quadric to its three vertices.
   void addFace(uint32_t a, uint32_t b, uint32_t c, bool interface);
   // An edge of a curve adds one to its two ends.
@@ -28,6 +34,7 @@ class Metric {
   void growBox(uint32_t first, uint32_t end);
   double rangeOf(size_t component) const;  // of the field it belongs to
   double extent() const;
+  double fieldsTogether() const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
   void rescaleQuadrics(const std::vector<S>& factor);
@@ -38,7 +45,7 @@ class Metric {
   void countVolume(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);
   bool isRegular(uint32_t cell) const;
-  void sampleAngles(uint32_t first, uint32_t end);
+  void chooseFloor();
 
   Core<S>& core_;
   std::vector<ThinAngle> floors_;  // falling
@@ -46,7 +53,7 @@ class Metric {
   std::vector<int64_t> below_, below_dear_;  // of the cells sampled: those below each angle
   int64_t sampled_ = 0, seen_ = 0;           // cells
   bool box_known_, unit_known_ = false;
-  double length_unit_ = 1;
+  double length_unit_ = 1, fields_together_ = 1;
   std::vector<double> low_, high_;  // x y z, then measured components
   std::vector<double> used_range_;  // that the scales were made for; [0]: the extent
 };

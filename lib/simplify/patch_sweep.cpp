@@ -34,6 +34,7 @@ template <class S>
 bool PatchSweep<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
                          size_t cell_count) {
   collapser_.forget();
+  evaluated_ = false;
   return owned_count <= Choices::kMostVertices &&
          patch_.load(owned, owned_count, cells, cell_count, core_.window.liveCells() - died_);
 }
@@ -88,6 +89,7 @@ void PatchSweep<S>::addEdges(uint32_t v) {
 
 template <class S>
 void PatchSweep<S>::evaluateAll(float bound) {
+  evaluated_ = true;
   choices_.reset(patch_.ownedEnd());
   solutions_.reset(patch_.ownedEnd());
   if (looks_.size() < patch_.ownedEnd()) {
@@ -98,6 +100,7 @@ void PatchSweep<S>::evaluateAll(float bound) {
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
     const Settled s = settledOf(core_.window, patch_.slotOf(v));
     looks_[v] = s.least <= bound;
+    evaluated_ = evaluated_ && s.least == 0;
     if (!looks_[v])
       choices_.know(v, s.least, s.refused);
     else if (s.least > 0 && !s.spared)
@@ -204,7 +207,8 @@ void PatchSweep<S>::sweepSpared(float level) {
 
 template <class S>
 bool PatchSweep<S>::sweep(float bound) {
-  evaluateAll(bound);
+  if (!evaluated_) evaluateAll(bound);
+  evaluated_ = false;
   float level = bound * kFirstLevel, least;
   for (;;) {
     choices_.reconsider();

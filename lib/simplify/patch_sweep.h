@@ -34,7 +34,11 @@ class PatchSweep {
   void settleAll();
   // Of each vertex with an edge up to the bound, the errors of its edges.
   void evaluateAll(float bound);
+  // For any bound, as where all vertices are new: a sweep that follows need not do it again.
+  bool isEvaluated() const { return evaluated_; }
   float least(uint32_t v) const { return choices_.least(v); }
+  // In the last sweep.
+  bool hasMoved(uint32_t v) const { return solutions_.hasMoved(v); }
 
   // What was done since it was last asked for.
   Tally takeTally() { return std::exchange(tally_, {}); }
@@ -68,6 +72,7 @@ class PatchSweep {
   Core<S>& core_;
   Tally tally_;
   int64_t died_ = 0;
+  bool evaluated_ = false;
   Patch<S> patch_;
   Collapser<Patch<S>> collapser_;
   Choices choices_;

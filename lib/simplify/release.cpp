@@ -50,14 +50,22 @@ bool Release<S>::mustGo(uint32_t keep) const {
 template <class S>
 void Release<S>::countUses() {
   const Topology& mesh = core_.window.mesh;
-  uint32_t* const uses = core_.window.scratch();
-  std::memset(uses, 0, mesh.vertexEnd() * sizeof(uint32_t));
-  front_ = 0;
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
-    if (!mesh.isLive(c)) continue;
-    for (int j = 0; j < 4; ++j) ++uses[mesh.corners(c)[j]];
-    front_ += !mayGo(c);
-  }
+  const size_t vertices = mesh.vertexEnd();
+  if (core_.tasks() && other_uses_.size() < vertices) other_uses_.resize(mesh.vertexCapacity());
+  uint32_t* const uses[2] = {core_.window.scratch(), other_uses_.data()};
+  int64_t front[2] = {0, 0};
+  core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
+    if (!uses[half]) return;  // one thread counts them all
+    std::memset(uses[half], 0, vertices * sizeof(uint32_t));
+    for (uint32_t c = first; c < end; ++c) {
+      if (!mesh.isLive(c)) continue;
+      for (int j = 0; j < 4; ++j) ++uses[half][mesh.corners(c)[j]];
+      front[half] += !mayGo(c);
+    }
+  });
+  front_ = front[0] + front[1];
+  if (core_.tasks())
+    for (size_t v = 0; v < vertices; ++v) uses[0][v] += uses[1][v];
 }
 
 template <class S>
@@ -178,7 +186,8 @@ void Release<S>::write(uint32_t keep) {
   if (core_.options.release == ReleaseOrder::kError) writeDearest(keep);
   for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(keep); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
-  core_.report.unused_vertices += static_cast<int64_t>(core_.window.pack(core_.front));
+  core_.report.unused_vertices +=
+      static_cast<int64_t>(core_.window.pack(core_.front, core_.tasks()));
 }
 
 template class Release<float>;

@@ -18,27 +18,72 @@ Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, Account& account)
     : core_(core),
       patch_(patch),
       reconnector_(patch, account),
-      changed_(account),
+      marks_(account),
       means_(static_cast<size_t>(core.plan.cell_means)) {}
 
 template <class S>
-bool Reshaper<S>::reshape(int64_t least_cells, int64_t most_cells) {
-  least_cells_ = least_cells;
-  most_cells_ = most_cells;
+void Reshaper<S>::start() {
   allowed_change_ = core_.volume > 0 ? kMostChange * core_.tally.error / core_.volume : 0;
   patch_.listGone();
-  if (changed_.size() < patch_.vertexEnd()) changed_.resize(patch_.vertexEnd() + 1024);
-  std::fill_n(changed_.data(), patch_.vertexEnd(), uint8_t{0});
+  reconnector_.start();
+  if (marks_.size() < patch_.vertexEnd()) marks_.resize(patch_.vertexEnd() + 1024);
+  for (uint32_t v = patch_.ownedEnd(); v < patch_.vertexEnd(); ++v)
+    marks_[v] = patch_.isFreeElsewhere(v) ? kElsewhere : 0;
+}
+
+template <class S>
+uint8_t Reshaper<S>::marksOf(uint32_t c) const {
+  uint32_t marks = 0;
+  for (uint32_t j = 0; j < 4; ++j) marks |= marks_[patch_.vertexOf(c, j)];
+  return static_cast<uint8_t>(marks);
+}
+
+// Whether a flip is found at a cell hangs on the cells that share an edge with it: on the vertices
+// of the cells of its vertices.
+template <class S>
+void Reshaper<S>::markNear() {
+  for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
+    if (!patch_.isLive(c)) continue;
+    const uint8_t marks = marksOf(c);
+    const auto near = static_cast<uint8_t>((marks & kMoved ? kNearMoved : 0) |
+                                           (marks & kElsewhere ? kNearSeam : 0));
+    if (near)
+      for (uint32_t j = 0; j < 4; ++j) marks_[patch_.vertexOf(c, j)] |= near;
+  }
+}
+
+template <class S>
+bool Reshaper<S>::flipAll(int64_t least_cells, int64_t most_cells) {
+  least_cells_ = least_cells;
+  most_cells_ = most_cells;
+  markNear();
   bool any = false;
-  for (uint32_t c = 0; c < patch_.cellEnd(); ++c)
-    if (patch_.isLive(c) && reconnector_.thinnessOfCell(c) > core_.poor) any = flipAt(c) || any;
+  for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
+    if (!patch_.isLive(c)) continue;
+    const bool is_as_before = !(marksOf(c) & (kNearMoved | kFlipped)) &&
+                              core_.window.mesh.cellFlags(patch_.cellSlotOf(c)) & kShaped;
+    if (is_as_before || !(reconnector_.thinnessOfCell(c) > core_.poor)) continue;
+    any = flipAt(c) || any;
+  }
+  rememberShaped();
   return any;
+}
+
+template <class S>
+void Reshaper<S>::rememberShaped() {
+  for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
+    if (!patch_.isLive(c)) continue;
+    if (marksOf(c) & (kNearSeam | kFlipped))
+      core_.window.mesh.unflagCell(patch_.cellSlotOf(c), kShaped);
+    else
+      core_.window.mesh.flagCell(patch_.cellSlotOf(c), kShaped);
+  }
 }
 
 template <class S>
 void Reshaper<S>::unsettleChanged() {
   for (uint32_t v = 0; v < patch_.vertexEnd(); ++v)
-    if (changed_[v] && core_.window.isFree(patch_.slotOf(v)))
+    if ((marks_[v] & kFlipped) && core_.window.isFree(patch_.slotOf(v)))
       unsettle(core_.window, patch_.slotOf(v));
 }
 
@@ -153,9 +198,9 @@ double Reshaper<S>::change(const Reconnection& r) const {
 template <class S>
 void Reshaper<S>::apply(const Reconnection& r) {
   uint32_t slots[Reconnection::kMostCells];
-  patch_.replace(r.gone, r.gone_count, r.made, r.made_count, slots);
+  reconnector_.replace(r, slots);
   for (uint32_t m = 0; m < r.made_count; ++m)
-    for (uint32_t v : r.made[m]) changed_[v] = 1;
+    for (uint32_t v : r.made[m]) marks_[v] |= kFlipped;
   handOverCellData(r, slots);
   if (observer_) tell(r, slots);
   ++core_.report.flips;

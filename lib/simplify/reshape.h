@@ -19,13 +19,34 @@ class Reshaper {
   void observe(FlipObserver* observer) { observer_ = observer; }
 
   // Flips at each cell with a dihedral angle not much above the floor, while the window's cells
-  // stay between the limits. Returns whether there was one.
-  bool reshape(int64_t least_cells, int64_t most_cells);
+  // stay between the limits. Returns whether there was one. Cells are passed over that had no flip
+  // before, with all as it was: hasMoved(v) says of an owned vertex whether it has moved since.
+  template <class HasMoved>
+  bool reshape(int64_t least_cells, int64_t most_cells, HasMoved hasMoved) {
+    start();
+    for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) marks_[v] = hasMoved(v) ? kMoved : 0;
+    return flipAll(least_cells, most_cells);
+  }
   // After the patch was stored: the next sweep looks again at the edges of the vertices whose cells
   // were replaced.
   void unsettleChanged();
 
  private:
+  // Of a vertex; the other marks are those of the vertices of its cells, too.
+  enum Mark : uint8_t {
+    kMoved = 1,
+    kElsewhere = 2,  // free, but not owned here: flips there are looked for when seams lie
+                     // elsewhere
+    kNearMoved = 4,
+    kNearSeam = 8,
+    kFlipped = 16,  // cells of it were replaced
+  };
+
+  void start();
+  bool flipAll(int64_t least_cells, int64_t most_cells);
+  void markNear();
+  uint8_t marksOf(uint32_t c) const;
+  void rememberShaped();
   bool flipAt(uint32_t c);
   bool isLockedByCaller(uint32_t c, uint32_t j) const;
   bool hasLabelledFace(uint32_t slot) const;
@@ -40,7 +61,7 @@ class Reshaper {
   Core<S>& core_;
   Patch<S>& patch_;
   Reconnector<S> reconnector_;
-  Array<uint8_t> changed_;     // per vertex of the patch: its cells were replaced
+  Array<uint8_t> marks_;       // per vertex of the patch
   std::vector<double> means_;  // of float cell data
   int64_t least_cells_ = 0, most_cells_ = 0;
   double allowed_change_ = 0;

@@ -1,11 +1,15 @@
 #include "resolve.h"
 
 #include <algorithm>
+#include <atomic>
 
+#include "known_cells.h"
 #include "settled.h"
 #include "star_kernels.h"
 
 namespace tetstream {
+
+constexpr uint32_t kCellsAtOnce = 4096;  // are added before the thread that follows is told
 
 // A vertex that is final and not resolved, without a branch: kResolved is 32 times kFinal.
 static unsigned isNew(unsigned flags) {
@@ -37,12 +41,13 @@ void Resolver<S>::addToRegions(uint32_t cell, const unsigned flags[4], const Cel
   }
 }
 
+// Returns how many of the cells are of the front.
 template <class S>
-int64_t Resolver<S>::sumLinks() {
+int64_t Resolver<S>::sumLinks(uint32_t first, uint32_t end) {
   const Topology& mesh = core_.window.mesh;
   const CellLabels labels = core_.cellLabels();
   int64_t front = 0;
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+  for (uint32_t c = first; c < end; ++c) {
     if (!mesh.isLive(c)) continue;
     const uint32_t* v = mesh.corners(c);
     const unsigned f[4] = {mesh.vertexFlags(v[0]), mesh.vertexFlags(v[1]), mesh.vertexFlags(v[2]),
@@ -56,51 +61,92 @@ int64_t Resolver<S>::sumLinks() {
   return front;
 }
 
+// The quadrics of the new cells are added, and the links of all are summed. Each has one thread,
+// since sums have an order: the second needs of new cells on which side they are, and follows the
+// first. It samples them, too, for then both have as much to do. Whoever comes first is the one
+// that need not wait.
+template <class S>
+int64_t Resolver<S>::takeNew(uint32_t first) {
+  const uint32_t end = core_.window.mesh.cellEnd();
+  metric_.prepare(first, end);
+  KnownCells known(first);
+  int64_t front = 0;
+  const auto add = [&] {
+    for (uint32_t c = first; c < end;) {
+      const uint32_t next = c + std::min(kCellsAtOnce, end - c);
+      metric_.addCells(c, next);
+      known.tell(c = next);
+    }
+  };
+  const auto follow = [&] {
+    for (uint32_t c = 0, next; c < end; c = next) {
+      next = known.waitFor(c);
+      front += sumLinks(c, next);
+      metric_.sampleAngles(std::clamp(c, first, next), std::max(first, next));
+    }
+  };
+  std::atomic<bool> taken = false;
+  const auto next = [&] { taken.exchange(true) ? follow() : add(); };
+  doBoth(core_.tasks(), next, next);
+  metric_.settle(first, end);
+  return front;
+}
+
 // Stars are listed for as many vertices as fit this many corners, or a share of the window's where
 // there are interfaces: bounds the memory where all vertices are on the boundary.
 constexpr size_t kCornersAtOnce = 1 << 16;
 
+// visit(place, corner): of the window's live cells, those corners whose vertex has a place.
+template <class S>
+template <class Visit>
+void Resolver<S>::forPlaced(uint32_t first, uint32_t end, Visit visit) const {
+  const Topology& mesh = core_.window.mesh;
+  const uint32_t* place = core_.window.scratch();
+  for (uint32_t c = first; c < end; ++c)
+    if (mesh.isLive(c))
+      for (uint32_t j = 0; j < 4; ++j)
+        if (const uint32_t p = place[mesh.corners(c)[j]]) visit(p - 1, 4 * c + j);
+}
+
 // Lists the corners of the first vertices, as many as fit; scratch holds a vertex's place in the
-// list plus one, 0 for others. Returns their number.
+// list plus one, 0 for others. Returns their number. Each half of the cells has its part of a star.
 template <class S>
 size_t Resolver<S>::listStars(size_t count) {
-  const Topology& mesh = core_.window.mesh;
-  uint32_t* place = core_.window.scratch();
-  if (begins_.size() < count + 1) begins_.resize(count + 1);
-  std::fill_n(begins_.data(), count + 1, 0u);
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
-    if (mesh.isLive(c))
-      for (int j = 0; j < 4; ++j)
-        if (const uint32_t p = place[mesh.corners(c)[j]]) ++begins_[p];
-  const size_t most =
-      std::max<size_t>(kCornersAtOnce, core_.region_picks.empty() ? 0 : mesh.cellEnd() / 4);
-  size_t fitting = 0;
-  while (fitting < count && (fitting == 0 || begins_[fitting] + begins_[fitting + 1] <= most)) {
-    begins_[fitting + 1] += begins_[fitting];
-    ++fitting;
+  const size_t cells = core_.window.mesh.cellEnd();
+  for (Array<uint32_t>& next : next_) {
+    if (next.size() < count) next.resize(count);
+    std::fill_n(next.data(), count, 0u);
   }
-  if (corners_.size() < begins_[fitting]) corners_.resize(begins_[fitting]);
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
-    if (!mesh.isLive(c)) continue;
-    for (uint32_t j = 0; j < 4; ++j) {
-      const uint32_t p = place[mesh.corners(c)[j]];
-      if (p > 0 && p <= fitting) corners_[begins_[p - 1]++] = 4 * c + j;
-    }
+  core_.forHalves([this](uint32_t first, uint32_t end, unsigned half) {
+    forPlaced(first, end, [next = next_[half].data()](uint32_t p, uint32_t) { ++next[p]; });
+  });
+  const size_t most = std::max<size_t>(kCornersAtOnce, core_.region_picks.empty() ? 0 : cells / 4);
+  uint32_t fitting = 0, listed = 0;
+  for (; fitting < count; ++fitting) {
+    const uint32_t before = next_[0][fitting], all = before + next_[1][fitting];
+    if (fitting > 0 && listed + all > most) break;
+    next_[0][fitting] = listed;
+    next_[1][fitting] = listed + before;
+    listed += all;
   }
-  for (size_t i = fitting; i > 0; --i) begins_[i] = begins_[i - 1];
-  begins_[0] = 0;
+  if (corners_.size() < listed) corners_.resize(listed);
+  core_.forHalves([this, fitting](uint32_t first, uint32_t end, unsigned half) {
+    forPlaced(first, end, [&, next = next_[half].data()](uint32_t p, uint32_t corner) {
+      if (p < fitting) corners_[next[p]++] = corner;
+    });
+  });
   return fitting;
 }
 
 template <class S>
-int64_t Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
+int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_t count) {
   Window<S>& window = core_.window;
   Topology& mesh = window.mesh;
   for (size_t i = 0; i < count; ++i) {
     window.outRank(vertices[i]) = 0;
     window.scratch()[vertices[i]] = kNone;
   }
-  const int64_t front = sumLinks();
+  const int64_t front = takeNew(first_new);
   if (open_.size() < count) open_.resize(count);
   size_t open = 0;
   for (size_t i = 0; i < count; ++i) {
@@ -117,7 +163,8 @@ int64_t Resolver<S>::resolve(const uint32_t* vertices, size_t count) {
       window.scratch()[open_[i]] = static_cast<uint32_t>(i - done + 1);
     const size_t listed = listStars(open - done);
     for (size_t i = 0; i < listed; ++i) {
-      resolveOpen(open_[done + i], corners_.data() + begins_[i], begins_[i + 1] - begins_[i]);
+      const uint32_t begin = i > 0 ? next_[1][i - 1] : 0;
+      resolveOpen(open_[done + i], corners_.data() + begin, next_[1][i] - begin);
       window.scratch()[open_[done + i]] = 0;
     }
     done += listed;

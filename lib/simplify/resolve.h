@@ -23,17 +23,20 @@ class Resolver {
         star_(account),
         corners_(account, 256),
         open_(account),
-        begins_(account, 256),
+        next_{Array<uint32_t>(account, 256), Array<uint32_t>(account, 256)},
         edges_(account, 256) {}
 
-  // All cells of these vertices are in the window. Returns the cells of the front: those that touch
-  // a vertex not yet final.
-  int64_t resolve(const uint32_t* vertices, size_t count);
+  // The window's cells from `first_new` on are new: they add their quadrics. All cells of these
+  // vertices are there. Returns the cells of the front: those that touch a vertex not yet final.
+  int64_t resolve(uint32_t first_new, const uint32_t* vertices, size_t count);
 
  private:
-  int64_t sumLinks();
+  int64_t takeNew(uint32_t first);
+  int64_t sumLinks(uint32_t first, uint32_t end);
   void addToLinks(uint32_t cell, const unsigned flags[4]);
   void addToRegions(uint32_t cell, const unsigned flags[4], const CellLabels& labels);
+  template <class Visit>
+  void forPlaced(uint32_t first, uint32_t end, Visit visit) const;
   size_t listStars(size_t count);
   void resolveOpen(uint32_t v, const uint32_t* corners, size_t count);
   void resolveFaces(uint32_t v);
@@ -50,7 +53,7 @@ class Resolver {
   Star star_;
   Array<uint32_t> corners_;  // of the stars that are looked at
   Array<uint32_t> open_;     // vertices whose link is not closed, or of several labels
-  Array<uint32_t> begins_;   // of each star among the corners
+  Array<uint32_t> next_[2];  // of each star among the corners, by halves; in the end, its end
   struct LinkEdge {
     uint64_t key;  // directed, as (low, high, direction)
     uint32_t cell;

@@ -43,9 +43,10 @@ class SweepSelector final : public Selector {
     core_.tally.error_reached = false;
     if (reshaper_ && core_.tracer && core_.tracer->tracesPoints()) reshaper_->observe(core_.tracer);
     sweep(tick);
-    if (goal.last && core_.options.last_resort && !mustStop()) sweepOut(tick);
+    const bool sweeps_out = goal.last && core_.options.last_resort && !mustStop();
+    if (sweeps_out) sweepOut(tick);
     // Twice, with seams that lie elsewhere.
-    for (int round = 0; reshaper_ && round < 2; ++round) reshapeAll(tick);
+    for (int round = 0; reshaper_ && round < 2; ++round) reshapeAll(sweeps_out && round == 0, tick);
   }
 
   double bound() const override { return bound_ / unit_; }
@@ -83,7 +84,6 @@ class SweepSelector final : public Selector {
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
   size_t groupEnd(size_t first) const;
-  size_t laneLimit() const;
   void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
   Swept sweepTile(const TilePiece& tile, float bound, Lane& lane);
   bool add(const Swept& swept);
@@ -97,8 +97,9 @@ class SweepSelector final : public Selector {
     onPatch(lane, tiling_.vertices(tile), tile.vertexCount(), cells, tile.cell_count, work);
   }
   void tryEverything(const std::function<void()>& tick);
-  bool reshape();
-  void reshapeAll(const std::function<void()>& tick);
+  template <class HasMoved>
+  bool reshape(HasMoved hasMoved);
+  void reshapeAll(bool any_moved, const std::function<void()>& tick);
 
   Core<S>& core_;
   Account& account_;
@@ -110,6 +111,7 @@ class SweepSelector final : public Selector {
   std::vector<Swept> swept_;
   Goal goal_{};
   double unit_ = 1, bound_ = 0;
+  bool is_ready_ = false;  // the only tile is loaded in the first lane, and its edges are evaluated
   unsigned round_ = 0;
 };
 
@@ -194,20 +196,14 @@ size_t SweepSelector<S>::groupEnd(size_t first) const {
   return end;
 }
 
-// A memory budget is for a single patch: with one there are no others.
-template <class S>
-size_t SweepSelector<S>::laneLimit() const {
-  const SimplifyOptions& o = core_.options;
-  return o.tasks && o.memory_bytes == 0 ? o.tasks->threads() : 1;
-}
-
 template <class S>
 void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
                                   const std::function<void()>& tick) {
   swept_.assign(end - first, {});
-  const size_t lanes = std::min(end - first, laneLimit());
+  const Tasks* const tasks = core_.tasks();
+  const size_t lanes = tasks ? std::min(end - first, tasks->threads()) : 1;
   while (lanes_.size() < lanes) addLane();
-  TileQueue queue(tiling_.earlier(), first, end);
+  TileQueue queue(tiling_.earlier(), tiling_.ahead(), first, end);
   const std::thread::id caller = std::this_thread::get_id();
   const auto work = [&](size_t l) {
     try {
@@ -224,23 +220,29 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
   if (lanes == 1)
     work(0);
   else
-    core_.options.tasks->forParts(lanes, work);
+    tasks->forParts(lanes, work);
 }
 
 template <class S>
 auto SweepSelector<S>::sweepTile(const TilePiece& tile, float bound, Lane& lane) -> Swept {
   Swept swept;
-  onTile(lane, tile, [&] {
+  const auto work = [&] {
     swept.more = lane.sweep.sweep(bound) || swept.more;
     bool reshaped = false;
     if (reshaper_) {
       addOf(lane);
-      reshaped = reshape();
+      reshaped = reshape([&](uint32_t v) { return lane.sweep.hasMoved(v); });
     }
     lane.sweep.store();
     lane.sweep.settleAll();
     if (reshaped) reshaper_->unsettleChanged();
-  });
+  };
+  if (is_ready_) {  // of several tiles, which threads share, none is
+    is_ready_ = false;
+    work();
+  } else {
+    onTile(lane, tile, work);
+  }
   swept.tally = lane.sweep.takeTally();
   swept.died = lane.sweep.takeDied();
   return swept;
@@ -256,6 +258,9 @@ double SweepSelector<S>::firstBound() {
         if (std::isfinite(lane().sweep.least(v))) errors.push_back(lane().sweep.least(v));
     });
   }
+  const bool is_whole = tiling_.tiles().size() == 1 &&
+                        lane().sweep.patch().ownedEnd() == tiling_.tiles()[0].vertexCount();
+  is_ready_ = is_whole && lane().sweep.isEvaluated();
   return bounds_.first(errors, goal_);
 }
 
@@ -284,7 +289,7 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
   tryEverything(tick);
   while (!mustStop()) {
     const double floor = core_.thin.degrees;
-    if (reshaper_) reshapeAll(tick);
+    if (reshaper_) reshapeAll(true, tick);
     core_.thin = ThinAngle(reshaper_ ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
     tryEverything(tick);
     if (!reshaper_ || floor == kLeastFloor) return;
@@ -293,18 +298,20 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
 
 // A target that is reached stays so.
 template <class S>
-bool SweepSelector<S>::reshape() {
+template <class HasMoved>
+bool SweepSelector<S>::reshape(HasMoved hasMoved) {
   const bool is_reached = goal_.last && lane().sweep.patch().liveCells() <= goal_.cells;
-  return reshaper_->reshape(goal_.least_cells,
-                            is_reached ? goal_.cells : std::numeric_limits<int64_t>::max());
+  return reshaper_->reshape(
+      goal_.least_cells, is_reached ? goal_.cells : std::numeric_limits<int64_t>::max(), hasMoved);
 }
 
+// `any_moved`: vertices since the last time, other than in sweeps.
 template <class S>
-void SweepSelector<S>::reshapeAll(const std::function<void()>& tick) {
+void SweepSelector<S>::reshapeAll(bool any_moved, const std::function<void()>& tick) {
   tiling_.build(round_++, std::numeric_limits<float>::infinity());
   for (const TilePiece& tile : tiling_.tiles()) {
     onTile(lane(), tile, [&] {
-      if (!reshape()) return;
+      if (!reshape([&](uint32_t) { return any_moved; })) return;
       lane().sweep.store();
       reshaper_->unsettleChanged();
     });

@@ -228,11 +228,11 @@ class WindowedEngine final : public Simplifier::Engine {
   // Everything that the cells read since the last turn made known.
   void resolveNew() {
     if (mesh().cellEnd() > resolved_cells_) regions_.decide();
-    metric_.addCells(resolved_cells_, mesh().cellEnd());
+    front_cells_ =
+        resolver_.resolve(resolved_cells_, intake_.finalized(), intake_.finalizedCount());
+    intake_.clearFinalized();
     if (options_.error > 0) core_.error_limit = errorOf(core_, options_.error);
     resolved_cells_ = mesh().cellEnd();
-    front_cells_ = resolver_.resolve(intake_.finalized(), intake_.finalizedCount());
-    intake_.clearFinalized();
   }
 
   Ledger ledger() {

@@ -17,11 +17,13 @@ std::optional<size_t> TileQueue::take() {
     while (taken_before_ < state_.size() && state_[taken_before_] != State::kWaiting)
       ++taken_before_;
     if (given_up_ || taken_before_ == state_.size()) return std::nullopt;
-    for (size_t tile = first_ + taken_before_; tile < first_ + state_.size(); ++tile) {
-      if (!mayStart(tile)) continue;
-      state_[tile - first_] = State::kTaken;
-      return tile;
-    }
+    const size_t end = first_ + state_.size();
+    size_t best = end;
+    for (size_t tile = first_ + taken_before_; tile < end; ++tile)
+      if (mayStart(tile) && (best == end || ahead_[tile] > ahead_[best])) best = tile;
+    if (best == end) continue;
+    state_[best - first_] = State::kTaken;
+    return best;
   }
 }
 

@@ -15,12 +15,14 @@ namespace tetstream {
 // ask kept waiting: the first tile that nobody has is free when nothing is being worked on.
 class TileQueue {
  public:
-  // Tiles [first, end); `earlier`: of each tile of all, those before it that it shares cells with.
-  TileQueue(const std::vector<std::vector<uint32_t>>& earlier, size_t first, size_t end)
-      : earlier_(earlier), first_(first), state_(end - first, State::kWaiting) {}
+  // Tiles [first, end); of each tile of all: those before it that it shares cells with, and how
+  // much is to be done from its beginning to the end of the last that waits for it.
+  TileQueue(const std::vector<std::vector<uint32_t>>& earlier, const std::vector<size_t>& ahead,
+            size_t first, size_t end)
+      : earlier_(earlier), ahead_(ahead), first_(first), state_(end - first, State::kWaiting) {}
 
-  // The next tile that may be worked on; waits for one. None when all were given out, or somebody
-  // gave up.
+  // Of the tiles that may be worked on, the first of those with most ahead; waits for one. None
+  // when all were given out, or somebody gave up.
   std::optional<size_t> take();
   void finish(size_t tile);
   void giveUp();
@@ -30,6 +32,7 @@ class TileQueue {
   bool mayStart(size_t tile) const;
 
   const std::vector<std::vector<uint32_t>>& earlier_;
+  const std::vector<size_t>& ahead_;
   const size_t first_;
   std::vector<State> state_;
   size_t taken_before_ = 0;  // no tile below that place is waiting

@@ -1,6 +1,7 @@
 #include "tiling.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
 #include "median_cut.h"
@@ -9,6 +10,37 @@
 namespace tetstream {
 
 constexpr size_t kBlockCells = 256;
+
+void TileCells::reset(size_t tiles) {
+  lists_.assign(tiles, {0, 0});
+  block_before_.clear();
+}
+
+void TileCells::add(uint32_t tile, uint32_t cell) {
+  List& list = lists_[tile];
+  const size_t place = list.count++ % kBlockCells;
+  if (place == 0) {
+    block_before_.push_back(list.last_block);
+    list.last_block = static_cast<uint32_t>(block_before_.size() - 1);
+    const size_t size = kBlockCells * block_before_.size();
+    if (cells_.size() < size) cells_.resize(size + size / 8);
+  }
+  cells_[kBlockCells * list.last_block + place] = cell;
+}
+
+void TileCells::copy(size_t tile, uint32_t* to) const {
+  uint32_t block = lists_[tile].last_block;
+  for (size_t end = lists_[tile].count; end > 0; block = block_before_[block]) {
+    const size_t begin = (end - 1) / kBlockCells * kBlockCells;
+    std::copy_n(&cells_[kBlockCells * block], end - begin, to + begin);
+    end = begin;
+  }
+}
+
+// A mark that several threads may set, always to the same.
+static std::atomic_ref<uint32_t> shared(uint32_t& mark) {
+  return std::atomic_ref<uint32_t>(mark);
+}
 
 // In scratch: 1 for a vertex with an edge to be looked at, 2 for its neighbours.
 template <class S>
@@ -24,12 +56,16 @@ void Tiling<S>::markVertices(float bound) {
     looking_ += mark[v];
     others_wait_ |= free && least > bound && least < std::numeric_limits<float>::infinity();
   }
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
-    if (!mesh.isLive(c)) continue;
-    const uint32_t* v = mesh.corners(c);
-    if (((mark[v[0]] | mark[v[1]] | mark[v[2]] | mark[v[3]]) & 1) == 0) continue;
-    for (int j = 0; j < 4; ++j) mark[v[j]] |= 2;
-  }
+  core_.forHalves([&mesh, mark](uint32_t first, uint32_t end, unsigned) {
+    for (uint32_t c = first; c < end; ++c) {
+      if (!mesh.isLive(c)) continue;
+      const uint32_t* v = mesh.corners(c);
+      const uint32_t marks[4] = {shared(mark[v[0]]), shared(mark[v[1]]), shared(mark[v[2]]),
+                                 shared(mark[v[3]])};
+      if (((marks[0] | marks[1] | marks[2] | marks[3]) & 1) == 0) continue;
+      for (int j = 0; j < 4; ++j) shared(mark[v[j]]).store(marks[j] | 2, std::memory_order_relaxed);
+    }
+  });
 }
 
 template <class S>
@@ -56,7 +92,7 @@ void Tiling<S>::cut(size_t count, unsigned round) {
   pieces.cut(0, count, [this](size_t begin, size_t end) {
     const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
     for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = tile;
-    tiles_.push_back({begin, end, 0, 0, 0});
+    tiles_.push_back({begin, end, 0, tile - 1, 0});
   });
 }
 
@@ -76,56 +112,51 @@ size_t Tiling<S>::tilesOf(uint32_t cell, uint32_t tiles[4]) const {
 }
 
 template <class S>
-void Tiling<S>::meet(uint32_t a, uint32_t b) {
-  std::vector<uint32_t>& of = earlier_[std::max(a, b)];
+void Tiling<S>::meet(uint32_t a, uint32_t b, Earlier& earlier) {
+  std::vector<uint32_t>& of = earlier[std::max(a, b)];
   const uint32_t other = std::min(a, b);
   if (std::find(of.begin(), of.end(), other) == of.end()) of.push_back(other);
 }
 
 template <class S>
-void Tiling<S>::addCell(uint32_t tile, uint32_t cell) {
-  TilePiece& t = tiles_[tile];
-  const size_t place = t.cell_count++ % kBlockCells;
-  if (place == 0) {
-    block_before_.push_back(t.last_block);
-    t.last_block = static_cast<uint32_t>(block_before_.size() - 1);
-    const size_t size = kBlockCells * block_before_.size();
-    if (cells_.size() < size) cells_.resize(size + size / 8);
-  }
-  cells_[kBlockCells * t.last_block + place] = cell;
-}
-
-// In one pass: how many cells a tile will have is not known before.
-template <class S>
-void Tiling<S>::addCells() {
+void Tiling<S>::addCells(uint32_t first, uint32_t end, Part& part) const {
   const Topology& mesh = core_.window.mesh;
-  earlier_.assign(tiles_.size(), {});
-  block_before_.clear();
   const uint32_t* of = core_.window.scratch();
   uint32_t tiles[4];
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
+  for (uint32_t c = first; c < end; ++c) {
     if (!mesh.isLive(c)) continue;
     const uint32_t* v = mesh.corners(c);
     if (of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]]) {
-      if (of[v[0]] != 0) addCell(of[v[0]] - 1, c);  // most cells are in one tile or in none
+      if (of[v[0]] != 0) part.cells.add(of[v[0]] - 1, c);  // most cells are in one tile or in none
       continue;
     }
     const size_t count = tilesOf(c, tiles);
-    for (size_t k = 0; k < count; ++k) addCell(tiles[k], c);
+    for (size_t k = 0; k < count; ++k) part.cells.add(tiles[k], c);
     for (size_t k = 1; k < count; ++k)
-      for (size_t l = 0; l < k; ++l) meet(tiles[k], tiles[l]);
+      for (size_t l = 0; l < k; ++l) meet(tiles[k], tiles[l], part.earlier);
+  }
+}
+
+template <class S>
+void Tiling<S>::addCells() {
+  for (Part& part : parts_) {
+    part.cells.reset(tiles_.size());
+    part.earlier.assign(tiles_.size(), {});
+  }
+  core_.forHalves(
+      [this](uint32_t first, uint32_t end, unsigned half) { addCells(first, end, parts_[half]); });
+  earlier_ = parts_[0].earlier;
+  for (uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+    for (uint32_t other : parts_[1].earlier[tile]) meet(tile, other, earlier_);
+    tiles_[tile].cell_count = parts_[0].cells.count(tile) + parts_[1].cells.count(tile);
   }
 }
 
 template <class S>
 const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) const {
   if (room.size() < t.cell_count) room.resize(t.cell_count + t.cell_count / 4);
-  uint32_t block = t.last_block;
-  for (size_t end = t.cell_count; end > 0; block = block_before_[block]) {
-    const size_t begin = (end - 1) / kBlockCells * kBlockCells;
-    std::copy_n(&cells_[kBlockCells * block], end - begin, &room[begin]);
-    end = begin;
-  }
+  parts_[0].cells.copy(t.number, room.data());
+  parts_[1].cells.copy(t.number, room.data() + parts_[0].cells.count(t.number));
   return room.data();
 }
 
@@ -161,6 +192,15 @@ void Tiling<S>::sortByColour() {
 }
 
 template <class S>
+void Tiling<S>::lookAhead() {
+  ahead_.assign(tiles_.size(), 0);
+  for (size_t i = tiles_.size(); i-- > 0;) {  // all that wait for it come behind it
+    ahead_[i] += tiles_[i].cell_count;
+    for (uint32_t other : earlier_[i]) ahead_[other] = std::max(ahead_[other], ahead_[i]);
+  }
+}
+
+template <class S>
 void Tiling<S>::build(unsigned round, float bound) {
   tiles_.clear();
   markVertices(bound);
@@ -170,6 +210,7 @@ void Tiling<S>::build(unsigned round, float bound) {
   addCells();
   colour();
   sortByColour();
+  lookAhead();
 }
 
 template class Tiling<float>;

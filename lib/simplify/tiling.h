@@ -6,20 +6,40 @@
 
 namespace tetstream {
 
-// A piece of the tiling's list of vertices; its cells lie in blocks, each of which knows the one
-// before it. Tiles of one colour share no cell.
+// A piece of the tiling's list of vertices. Tiles of one colour share no cell.
 struct TilePiece {
   size_t vertex_begin, vertex_end;
   size_t cell_count;
-  uint32_t last_block;
+  uint32_t number;  // as they were cut
   uint32_t colour;
   size_t vertexCount() const { return vertex_end - vertex_begin; }
+};
+
+// Of each tile the cells that were added. They lie in blocks, each of which knows the one before
+// it: how many cells a tile will have is not known before.
+class TileCells {
+ public:
+  explicit TileCells(Account& account) : cells_(account) {}
+  void reset(size_t tiles);
+  void add(uint32_t tile, uint32_t cell);
+  size_t count(size_t tile) const { return lists_[tile].count; }
+  void copy(size_t tile, uint32_t* to) const;  // in the order in which they were added
+
+ private:
+  struct List {
+    size_t count;
+    uint32_t last_block;
+  };
+  std::vector<List> lists_;
+  Array<uint32_t> cells_;
+  std::vector<uint32_t> block_before_;
 };
 
 template <class S>
 class Tiling {
  public:
-  Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account), cells_(account) {}
+  Tiling(Core<S>& core, Account& account)
+      : core_(core), vertices_(account), parts_{Part(account), Part(account)} {}
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
@@ -34,6 +54,8 @@ class Tiling {
   const std::vector<TilePiece>& tiles() const { return tiles_; }
   // Of each tile: those before it that it shares cells with.
   const std::vector<std::vector<uint32_t>>& earlier() const { return earlier_; }
+  // Of each tile: its cells, and of those that wait for it the most that one has ahead.
+  const std::vector<size_t>& ahead() const { return ahead_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
   // Its cells, listed in `room`, which grows if need be.
   const uint32_t* listCells(const TilePiece& t, Array<uint32_t>& room) const;
@@ -42,20 +64,30 @@ class Tiling {
   void markVertices(float bound);
   size_t listVertices();
   void cut(size_t count, unsigned round);
+  using Earlier = std::vector<std::vector<uint32_t>>;
+  // What was found in a part of the window's cells.
+  struct Part {
+    explicit Part(Account& account) : cells(account) {}
+    TileCells cells;
+    Earlier earlier;
+  };
+
   void addCells();
+  void addCells(uint32_t first, uint32_t end, Part& part) const;
   size_t tilesOf(uint32_t cell, uint32_t tiles[4]) const;
-  void addCell(uint32_t tile, uint32_t cell);
-  void meet(uint32_t a, uint32_t b);
+  static void meet(uint32_t a, uint32_t b, Earlier& earlier);
   void colour();
   void sortByColour();
+  void lookAhead();
 
   Core<S>& core_;
-  Array<uint32_t> vertices_, cells_;
-  std::vector<uint32_t> block_before_;
+  Array<uint32_t> vertices_;
+  Part parts_[2];  // the second is empty where one thread works
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
   bool others_wait_ = false;
-  std::vector<std::vector<uint32_t>> earlier_;
+  Earlier earlier_;
+  std::vector<size_t> ahead_;
 };
 
 }  // namespace tetstream

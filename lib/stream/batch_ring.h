@@ -1,4 +1,4 @@
-// stream: batches on their way from one thread to another. Depends on batch_copy.h.
+// stream: places for batches that wait. Depends on batch_copy.h.
 #pragma once
 
 #include <deque>

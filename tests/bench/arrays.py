@@ -38,8 +38,10 @@ def arguments():
     parser.add_argument("--slower", type=float, default=1.05, metavar="TIMES")
     parser.add_argument("--base", type=float, default=0, metavar="MB",
                         help="allowed besides, for buffers that do not grow with the mesh")
+    parser.add_argument("--threads", type=int, default=1, help="of both; 0 as by default")
     parser.add_argument("--types", nargs="+", default=["int64", "int32"], help="of the cells")
-    parser.add_argument("--call", nargs=3, metavar=("ARRAYS", "RATIO", "OUT"), help=argparse.SUPPRESS)
+    parser.add_argument("--call", nargs=4, metavar=("ARRAYS", "RATIO", "THREADS", "OUT"),
+                        help=argparse.SUPPRESS)
     return parser.parse_args()
 
 
@@ -50,7 +52,7 @@ def memory(name):
         return next(1024 * int(line.split()[1]) for line in file if line.startswith(name))
 
 
-def call(path, ratio, out):
+def call(path, ratio, threads, out):
     """One call, in this process; prints what it took."""
     import numpy
     import tetstream
@@ -61,7 +63,8 @@ def call(path, ratio, out):
     with open("/proc/self/clear_refs", "w", encoding="ascii") as file:
         file.write("5")  # the peak counts from here
     before, clock, cpu = memory("VmRSS"), time.perf_counter(), resource.getrusage(0)
-    result = tetstream.simplify(points, cells, arrays, ratio=float(ratio), threads=1)
+    result = tetstream.simplify(points, cells, arrays, ratio=float(ratio),
+                                threads=int(threads))
     after = resource.getrusage(0)
     seconds, peak = time.perf_counter() - clock, memory("VmHWM")
     kept = sum(a.nbytes for a in (result.points, result.cells, *result.fields.values()))
@@ -77,6 +80,7 @@ class Arrays:
     def __init__(self, args):
         self.args = args
         self.tetstream, _ = harness.bench_programs(args.build)
+        self.tetstream.threads = args.threads
         self.environment = dict(os.environ)
         self.environment.setdefault("PYTHONPATH", os.path.join(args.build, "bindings", "python"))
         sys.path[:0] = self.environment["PYTHONPATH"].split(os.pathsep)
@@ -96,7 +100,7 @@ class Arrays:
                                             self.args.ratio)["measured"]
             theirs.append((taken["wall"], taken["user"] + taken["system"]))
             text = subprocess.run([sys.executable, __file__, "--call", arrays, self.args.ratio,
-                                   out + ".npz"], env=self.environment, check=True,
+                                   str(self.args.threads), out + ".npz"], env=self.environment, check=True,
                                   stdout=subprocess.PIPE, text=True).stdout
             ours.append(json.loads(text))
         stored, read = numpy.load(out + ".npz"), tetstream.read(out + ".tets", cell_type=kind)

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""How fast the indexed formats are read: `open_file` of this folder, which scans a file and puts
-its points, cells and data into temporary files, beside the readings of meshio and of gmsh in turn,
-where those are installed. Processor seconds, medians; MB is 10^6 bytes of the file. Ordering comes
-later and is not in it."""
+"""How fast the indexed formats are read: `reading --once` of this folder beside the readings of
+meshio, gmsh and VTK in turn, where those are installed and read the format. Processor seconds,
+medians; MB is 10^6 bytes of the file. "s" is the scan, after which points, cells and data are arrays
+in temporary files; of what is such where it lies (vtu, vtk, vtkhdf) it is the reading of all columns.
+"and columns s": with their reading in any case. Ordering comes later and is not in it."""
 import contextlib
 import io
 import os
@@ -14,17 +15,23 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import harness  # noqa: E402
 
-HEAD = ("file", "MB", "s", "MB/s", "wall s", "meshio s", "times meshio", "gmsh s", "times gmsh")
+HEAD = ("file", "MB", "s", "MB/s", "and columns s", "meshio s", "times meshio", "gmsh s", "times gmsh",
+        "VTK s", "times VTK")
 WAYS = (("4.1 text.msh", "--encoding", "text"),
         ("2.2 text.msh", "--msh-version", "2.2", "--encoding", "text"),
         ("4.1 binary.msh",), ("2.2 binary.msh", "--msh-version", "2.2"),
-        ("text.mesh",), ("binary.meshb",))
+        ("text.mesh",), ("binary.meshb",), ("tetgen.node",), ("text.su2",),
+        ("raw.vtu", "--compress", "no"), ("zlib.vtu",), ("text.vtu",), ("binary.vtk",),
+        ("text.vtk",), ("raw.vtkhdf", "--compress", "no"))
 
 
 def read_by_meshio(path):
     import meshio
     with contextlib.redirect_stdout(io.StringIO()):
-        meshio.read(path)
+        try:
+            meshio.read(path)
+        except meshio.ReadError as error:
+            raise ValueError(path) from error
 
 
 def read_by_gmsh(path):
@@ -40,7 +47,97 @@ def read_by_gmsh(path):
         gmsh.finalize()
 
 
-OTHERS = (read_by_meshio, read_by_gmsh)
+def vtk_reader(vtk, path):
+    if path.endswith(".vtu"):
+        return vtk.vtkXMLUnstructuredGridReader()
+    if path.endswith(".vtk"):
+        return vtk.vtkUnstructuredGridReader()
+    if path.endswith(".vtkhdf"):
+        return vtk.vtkHDFReader()
+    raise ValueError(path)
+
+
+def read_by_vtk(path):
+    import vtk
+    reader = vtk_reader(vtk, path)
+    reader.SetFileName(path)
+    reader.Update()
+    if reader.GetOutput().GetNumberOfCells() == 0:
+        raise ValueError("nothing was read")
+
+
+OTHERS = (read_by_meshio, read_by_gmsh, read_by_vtk)
+
+
+# ---------------------------------------------------------- what we do not write, made of a .vtk
+
+
+def write_text_vtk(source, target):
+    import vtk
+    reader = vtk_reader(vtk, source)
+    reader.SetFileName(source)
+    reader.ReadAllScalarsOn()
+    reader.ReadAllVectorsOn()
+    writer = vtk.vtkXMLUnstructuredGridWriter() if target.endswith(".vtu") \
+        else vtk.vtkUnstructuredGridWriter()
+    writer.SetInputConnection(reader.GetOutputPort())
+    if target.endswith(".vtu"):
+        writer.SetDataModeToAscii()
+    writer.SetFileName(target)
+    writer.Write()
+
+
+def points_and_cells(source):
+    import vtk
+    from vtk.util.numpy_support import vtk_to_numpy
+    reader = vtk_reader(vtk, source)
+    reader.SetFileName(source)
+    reader.Update()
+    grid = reader.GetOutput()
+    return (vtk_to_numpy(grid.GetPoints().GetData()).tolist(),
+            vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4).tolist())
+
+
+def write_tetgen(source, target):
+    points, cells = points_and_cells(source)
+    with open(target, "w", encoding="ascii") as file:
+        file.write(f"{len(points)} 3 0 0\n")
+        file.writelines(f"{i} {x} {y} {z}\n" for i, (x, y, z) in enumerate(points))
+    with open(target[:-5] + ".ele", "w", encoding="ascii") as file:
+        file.write(f"{len(cells)} 4 0\n")
+        file.writelines(f"{i} {a} {b} {c} {d}\n" for i, (a, b, c, d) in enumerate(cells))
+
+
+def write_su2(source, target):
+    points, cells = points_and_cells(source)
+    with open(target, "w", encoding="ascii") as file:
+        file.write(f"NDIME= 3\nNELEM= {len(cells)}\n")
+        file.writelines(f"10 {a} {b} {c} {d} {i}\n" for i, (a, b, c, d) in enumerate(cells))
+        file.write(f"NPOIN= {len(points)}\n")
+        file.writelines(f"{x} {y} {z} {i}\n" for i, (x, y, z) in enumerate(points))
+        file.write("NMARK= 0\n")
+
+
+MADE = {"tetgen.node": write_tetgen, "text.su2": write_su2, "text.vtu": write_text_vtk,
+        "text.vtk": write_text_vtk}
+
+
+def make(tetstream, name, words):
+    """The file, or None if that takes a module that is not there, and its bytes."""
+    path = tetstream.path(name.replace(" ", "-"))
+    if name not in MADE:
+        tetstream.run("convert", tetstream.path("mesh.tets"), path, "--quiet", *words)
+    else:
+        try:
+            MADE[name](tetstream.path("made.vtk"), path)
+        except ImportError:
+            return None, 0
+    for ending in (".sol", ".solb"):  # what others do not read
+        beside = os.path.splitext(path)[0] + ending
+        if os.path.exists(beside):
+            os.remove(beside)
+    both = [path] + [path[:-5] + ".ele"] * path.endswith(".node")
+    return path, sum(map(os.path.getsize, both)) / 1e6
 
 
 def seconds(read, path):
@@ -48,22 +145,22 @@ def seconds(read, path):
     before = time.process_time()
     try:
         read(path)
-    except (ImportError, ValueError):
+    except (ImportError, ValueError, KeyError, SystemExit):
         return None
     return time.process_time() - before
 
 
 def measure(program, path, rounds):
-    """Medians of our processor and wall seconds and of the others', in turn."""
-    ours, walls, theirs = [], [], [[] for _ in OTHERS]
+    """Medians of our two times and of the others', in turn."""
+    ours, columns, theirs = [], [], [[] for _ in OTHERS]
     for _ in range(rounds):
-        words = subprocess.run([program, path], check=True, stdout=subprocess.PIPE,
+        words = subprocess.run([program, "--once", path], check=True, stdout=subprocess.PIPE,
                                text=True).stdout.split()
-        ours.append(float(words[0]))
-        walls.append(float(words[1]))
+        ours.append(float(words[path.endswith((".vtu", ".vtk", ".vtkhdf"))]))
+        columns.append(float(words[1]))
         for read, taken in zip(OTHERS, theirs):
             taken.append(seconds(read, path))
-    return (statistics.median(ours), statistics.median(walls),
+    return (statistics.median(ours), statistics.median(columns),
             [None if None in taken else statistics.median(taken) for taken in theirs])
 
 
@@ -73,19 +170,20 @@ def main():
     parser.add_argument("--rounds", type=int, default=3)
     options = parser.parse_args()
     tetstream = harness.bench_programs(options.build)[0]
-    program = harness.bench_path(options.build, "open_file")
+    program = harness.bench_path(options.build, "reading")
     tetstream.run("generate", "fluid", "--cells", str(int(options.cells)),
                   tetstream.path("mesh.tets"))
+    tetstream.run("convert", tetstream.path("mesh.tets"), tetstream.path("made.vtk"), "--quiet")
     print("| " + " | ".join(HEAD) + " |")
     print("|" + " --- |" * len(HEAD))
     for name, *words in WAYS:
-        path = tetstream.path(name.replace(" ", "-"))
-        tetstream.run("convert", tetstream.path("mesh.tets"), path, "--quiet", *words)
-        size = os.path.getsize(path) / 1e6
-        ours, wall, theirs = measure(program, path, options.rounds)
-        cells = [name, f"{size:.1f}", f"{ours:.2f}", f"{size / max(ours, 1e-4):.0f}", f"{wall:.2f}"]
+        path, size = make(tetstream, name, words)
+        if not path:
+            continue
+        ours, columns, theirs = measure(program, path, options.rounds)
+        cells = [name, f"{size:.1f}", f"{ours:.3f}", f"{size / max(ours, 1e-4):.0f}", f"{columns:.3f}"]
         for other in theirs:
-            cells += [f"{other:.2f}", f"{other / max(ours, 1e-4):.1f}"] if other else ["-", "-"]
+            cells += [f"{other:.3f}", f"{other / max(ours, 1e-4):.1f}"] if other else ["-", "-"]
         print("| " + " | ".join(cells) + " |", flush=True)
 
 

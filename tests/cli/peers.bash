@@ -1,4 +1,4 @@
-# What is written, read by meshio and by Gmsh: the same arrays.
+# What is written, read by meshio and by Gmsh: the same arrays. What meshio writes as XDMF, read by us.
 source "${BASH_SOURCE%/*}/common.bash"
 peers=${BASH_SOURCE%/*}/peers.py
 
@@ -24,3 +24,14 @@ for format in mesh meshb; do
   "$TETSTREAM_PYTHON" "$peers" meshio "a.$format" mesh.vtu >"$logs/peer" 2>&1 ||
     fail "meshio reads a.$format otherwise"
 done
+
+"$TETSTREAM_PYTHON" "$peers" xdmf theirs mesh.vtu >"$logs/peer" 2>&1 || fail "meshio writes no XDMF"
+expect 0 --version
+for way in XML Binary HDF; do
+  [[ -e theirs-$way.xdmf ]] || continue
+  [[ $way == HDF && $out != *", hdf5,"* ]] && continue
+  expect 0 convert "theirs-$way.xdmf" ours.vtu --compress no --order none
+  "$TETSTREAM_PYTHON" "$peers" same ours.vtu "theirs-$way.xdmf" >"$logs/peer" 2>&1 ||
+    fail "values in the way $way are read otherwise"
+done
+[[ -s theirs-Binary.xdmf ]] || fail "meshio wrote no raw files"

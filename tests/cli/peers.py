@@ -1,5 +1,6 @@
 """Reads a file with meshio, and with Gmsh where that is asked for, and compares it with the same mesh
-as .vtu: points, cells, fields and regions. Exit code 77: the module is not there."""
+as .vtu: points, cells, fields and regions; or (xdmf FILE MESH) writes MESH with meshio as XDMF, with
+values in each way that it has. Exit code 77: the module is not there."""
 
 import sys
 
@@ -73,6 +74,26 @@ def with_gmsh(path, wanted):
     gmsh.finalize()
 
 
+def write_xdmf(name, mesh):
+    """name-XML.xdmf, name-Binary.xdmf and, where h5py is there, name-HDF.xdmf."""
+    for way in ("XML", "Binary", "HDF"):
+        try:
+            meshio.xdmf.write(f"{name}-{way}.xdmf", mesh, data_format=way)
+        except ImportError:
+            print("not written:", way)
+
+
+def same(path, wanted):
+    """All arrays, by name; those of points cell by cell, as the points may come in another order."""
+    mesh = meshio.read(path)
+    mine, theirs = tetrahedra(mesh)[0], tetrahedra(wanted)[0]
+    check("points of cells", mesh.points[mine], wanted.points[theirs])
+    for name, values in wanted.point_data.items():
+        check(name, numpy.squeeze(mesh.point_data[name])[mine], numpy.squeeze(values)[theirs])
+    for name, values in wanted.cell_data.items():
+        check(name, numpy.squeeze(mesh.cell_data[name][0]), numpy.squeeze(values[0]))
+
+
 if __name__ == "__main__":
     reference = meshio.read(sys.argv[3])
-    {"meshio": with_meshio, "gmsh": with_gmsh}[sys.argv[1]](sys.argv[2], reference)
+    {"meshio": with_meshio, "gmsh": with_gmsh, "xdmf": write_xdmf, "same": same}[sys.argv[1]](sys.argv[2], reference)

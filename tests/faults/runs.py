@@ -54,8 +54,8 @@ def table(tool):
 class Bench:
     """Folders with the inputs, the command, and the fault library."""
 
-    def __init__(self, tool, library, cells):
-        self.tool, self.library = tool, library
+    def __init__(self, tool, preloaded, cells):
+        self.tool, self.preloaded = tool, preloaded
         self.root = tempfile.mkdtemp(prefix="tetstream-faults-")
         os.chmod(self.root, 0o755)
         self.inputs = os.path.join(self.root, "in")
@@ -81,7 +81,7 @@ class Bench:
     def environment(self, fault=None, counts=None):
         env = dict(os.environ, TMPDIR=self.spool)
         if fault or counts:
-            env["LD_PRELOAD"] = self.library
+            env["LD_PRELOAD"] = self.preloaded
             options = env.get("ASAN_OPTIONS", "")
             env["ASAN_OPTIONS"] = (options + ":" if options else "") + "verify_asan_link_order=0"
         if fault:

@@ -159,6 +159,25 @@ cat >../xdmf/mixed <<'END'
 <Geometry><DataItem Dimensions="5 3" Format="XML">1 0 0 2 0 0 1 1 0 1 0 1 1 1 1</DataItem>
 </Geometry></Grid></Grid></Domain></Xdmf>
 END
+cat >raw.xdmf <<'END'
+<Xdmf Version="3.0"><Domain><Grid Name="mesh"><Topology TopologyType="Tetrahedron"><DataItem
+ Dimensions="1 4" NumberType="UChar" Format="Binary" Seek="2">a.bin</DataItem></Topology>
+<Geometry GeometryType="XYZ"><DataItem ItemType="HyperSlab" Dimensions="4 3"><DataItem
+ Dimensions="3 2">0 1 1 1 4 3</DataItem><DataItem Dimensions="4 4" NumberType="Short" Precision="2"
+ Endian="Big" Format="Binary" Seek="6">a.bin</DataItem></DataItem></Geometry><Attribute Name="p"
+ Center="Node"><DataItem ItemType="HyperSlab" Dimensions="4"><DataItem Dimensions="3 1">1 2 4
+</DataItem><DataItem Dimensions="8" Format="XML">0 1 0 2 0 3 0 4</DataItem></DataItem></Attribute>
+</Grid></Domain></Xdmf>
+END
+: >none
+{
+  printf '..\0\1\2\3'
+  for row in '\0\0\0' '\1\0\0' '\0\1\0' '\0\0\1'; do
+    for value in '\5' ${row//\\/ \\}; do printf "\\0$value"; done
+  done
+} >raw.bin
+join ../xdmf/raw raw.xdmf none raw.bin
+
 if has vtkhdf; then
   cat >hdf.xdmf <<'END'
 <Xdmf Version="3.0"><Domain><Grid Name="mesh"><Topology TopologyType="Tetrahedron"><DataItem

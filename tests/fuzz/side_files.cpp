@@ -25,7 +25,7 @@ const std::vector<FileNames>& table() {
                                               {"tetgen", {"a.node", "a.ele", "a.face"}},
                                               {"pvtu", {"a.pvtu", "0.vtu", "1.vtu"}},
                                               {"pvd", {"a.pvd", "0.vtu", "1.vtu", "a.pvtu"}},
-                                              {"xdmf", {"a.xdmf", "a.h5"}}};
+                                              {"xdmf", {"a.xdmf", "a.h5", "a.bin"}}};
   return rows;
 }
 

@@ -88,6 +88,18 @@ else()
   message(STATUS "pkg-config is not here: its part was not run")
 endif()
 
+# ----------------------------------------------------------------------------------- Octave
+# As tetstream-octave(3) says it for a prefix that is not Octave's own. (Python: python.wheel.)
+if(OCTAVE)
+  file(WRITE ${WORK}/client.m [=[
+    [P, T] = tetstream_simplify ([eye(3); 0, 0, 0], 1:4, [], "ratio", 1);
+    assert (rows (T), 1);
+]=])
+  must(${OCTAVE} --no-init-file --no-site-file --eval
+    "addpath (genpath ('${prefix}/${DATADIR}/octave/site/m')), \
+addpath (genpath ('${prefix}/${LIBDIR}/octave/site/oct')), run ('${WORK}/client.m')")
+endif()
+
 # ------------------------------------------------------------------------------------ CMake
 foreach(linkage shared static any)
   must(${CMAKE_COMMAND} -S ${here}/project -B ${WORK}/${linkage} -G ${GENERATOR}

@@ -87,5 +87,18 @@ fails ("tetstream:bad-argument", "field has 3 rows", ...
        @() tetstream_simplify (points, cells, field(1:3), "ratio", 0.1));
 fails ("tetstream:bad-argument", "a function handle", ...
        @() tetstream_simplify (points, cells, field, "ratio", 0.1, "progress", 4));
+refused = @(part, points, cells, field, varargin) fails ("tetstream:bad-argument", part, ...
+  @() tetstream_simplify (points, cells, field, "ratio", 0.5, varargin{:}));
+refused ("points is a complex double", points * i, cells, field);
+refused ("points is a double of size [8 3 2]", zeros (8, 3, 2), cells, field);
+refused ("points is a cell", {points}, cells, field);
+refused ("field is a complex double", points, cells, field * i);
+refused ("field is logical", points, cells, field > 0);
+refused ("weights: a struct", points, cells, field, "weights", 3);
+refused ("the weight of \"field\"", points, cells, field, "weights", struct ("field", "x"));
+refused ("regions is a cell", points, cells, field, "regions", {1});
+refused ("locked is a cell", points, cells, field, "locked", {1, 2});
+refused ("face_labels and locked_faces", points, cells, field, "face_labels", 1);
+refused ("option \"ratio\"", points, cells, field, "ratio", 0.5i);
 fails ("tetstream:target-missed", "are left", @() tetstream_simplify ...
        (points, cells, field, "ratio", 0.1, "locked", true (rows (points), 1)));

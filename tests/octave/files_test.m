@@ -49,5 +49,8 @@ figures = tetstream_compare (mesh, mesh);
 assert (figures.fields.von_mises.largest_percent, 0, 1e-9);
 
 fails ("tetstream:io", "nothing.vtu", @() tetstream_info (at ("nothing.vtu")));
+fails ("tetstream:bad-argument", "not a double", @() tetstream_convert (mesh, 3));
+fails ("tetstream:bad-argument", "\"compress\" is a text", ...
+       @() tetstream_convert (mesh, at ("x.vtu"), "properties", struct ("compress", 3)));
 fails ("tetstream:unsupported", "x.xyz", @() tetstream_convert (mesh, at ("x.xyz")));
 fails ("tetstream:bad-argument", "no member \"point\"", @() tetstream_info (struct ("point", 1)));

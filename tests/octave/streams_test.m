@@ -62,7 +62,12 @@ assert (state("result_points"), P);
 assert (double (state("result_cells")), T);
 assert (state("result_field"), F.f);
 
-## Errors of either function come out as they are.
+## Errors of either function come out as they are; what is none is refused.
+fails ("tetstream:bad-argument", "function handles, not a double", ...
+       @() tetstream_simplify_stream (3, @(batch) 0, "ratio", 0.3));
+fails ("tetstream:bad-argument", "last_uses: 4 columns", @() tetstream_simplify_stream ...
+       (@() struct ("points", points, "cells", cells, "last_uses", true (rows (cells), 1)), ...
+        @(batch) 0, "ratio", 0.3));
 fails ("my:reader", "no more", @() tetstream_simplify_stream (@() error ("my:reader", "no more"), ...
                                                                @(batch) 0, "ratio", 0.3));
 state = fresh_state ();

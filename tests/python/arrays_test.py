@@ -141,6 +141,8 @@ class Arrays(unittest.TestCase):
         there = result.points @ [1.0, -2, 3]
         numpy.testing.assert_allclose(result.vertex_map.prolong(there), linear, atol=1e-9)
         numpy.testing.assert_allclose(result.vertex_map.prolong(result.points), points, atol=1e-9)
+        with self.assertRaisesRegex(tetstream.BadArgument, "values: the shape is"):
+            result.vertex_map.prolong(field)  # which is the original's
         plain = tetstream.simplify(points, cells, {"f": field}, ratio=0.2)
         self.assertIsNone(plain.vertex_map)
         numpy.testing.assert_array_equal(plain.cells, result.cells)
@@ -201,7 +203,11 @@ class Refused(unittest.TestCase):
         self.refused(tetstream.BadArgument, r"10 numbers in a row", p, c,
                      {"f": numpy.zeros((len(p), 10))})
         self.refused(tetstream.BadArgument, "locked", p, c, locked=[True])
-        self.refused(tetstream.BadArgument, r'"region"', p, c, regions=[1, 2])
+        self.refused(tetstream.BadArgument, r"regions: the shape is \[2\]", p, c, regions=[1, 2])
+        self.refused(tetstream.BadArgument, r"regions: the shape is \[\d+\]\[2\]", p, c,
+                     regions=c[:, :2])
+        self.refused(tetstream.BadArgument, "face_labels", p, c, face_labels=[1])
+        self.refused(tetstream.BadArgument, "locked_faces", p, c, locked_faces=[True])
         self.refused(ValueError, "points", numpy.float64(3), c)
 
     def test_types(self):
@@ -214,6 +220,10 @@ class Refused(unittest.TestCase):
                      {"id": numpy.full(len(p), 2 ** 63, dtype=numpy.uint64)})
         self.refused(TypeError, "name is 3", p, c, {3: f})
         self.refused(TypeError, "progress", p, c, progress="yes")
+        self.refused(TypeError, "fields: a dict is wanted, not ndarray", p, c, f)
+        self.refused(TypeError, "weights: a dict is wanted, not list", p, c, {"f": f}, weights=["f"])
+        self.refused(TypeError, 'the weight of "f": a number', p, c, {"f": f}, weights={"f": "x"})
+        self.refused(ValueError, r"null character in 'f\\x00g'", p, c, {"f\0g": f})
 
     def test_values(self):
         p, c, f = self.points, self.cells, self.field
@@ -227,6 +237,8 @@ class Refused(unittest.TestCase):
         wrong[5, 1] = numpy.nan
         self.refused(tetstream.BadData, "vertex 5|point 5", wrong, c)
         self.refused(tetstream.BadArgument, "nowhere", p, c, {"f": f}, weights={"nowhere": 1})
+        self.refused(tetstream.BadArgument, "points: 1 of its numbers are masked",
+                     numpy.ma.masked_invalid(wrong), c)
 
     def test_options(self):
         p, c = self.points, self.cells
@@ -235,6 +247,9 @@ class Refused(unittest.TestCase):
         self.refused(TypeError, "there is no option quality; there are ratio, cells", p, c, quality=3)
         self.refused(TypeError, "window: an int is wanted, not float", p, c, window=3.5)
         self.refused(TypeError, "axis: a str", p, c, axis=1)
+        self.refused(TypeError, "ratio: a number is wanted, not ndarray", p, c, ratio=p[0])
+        with self.assertRaisesRegex(AttributeError, "rato"):
+            tetstream.Options().rato = 0.1
         self.refused(tetstream.BadArgument, "seed: .*64 bits", p, c, seed=2 ** 63)
         with self.assertRaisesRegex(TypeError, "a target is missing"):
             tetstream.simplify(p, c)

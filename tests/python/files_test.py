@@ -55,6 +55,20 @@ class Files(unittest.TestCase):
         for kind in ("tets", "tetmap", "tetlog"):
             self.same_bytes("a." + kind, "b." + kind)
 
+    def test_names_that_are_not_utf8_go_through(self):
+        named = self.path("named.vtk")
+        tetstream.Mesh(self.points, self.cells, {"NAME": self.field}).write(named)
+        named.write_bytes(named.read_bytes().replace(b"NAME", b"N\xe9e."))
+        mesh = tetstream.read(named)
+        self.assertEqual(list(mesh.fields), ["N\udce9e."])  # as Python has such names of files
+        small = mesh.simplify(ratio=0.5, weights={"N\udce9e.": 1})
+        small.write(self.path("small.vtk"))
+        self.assertEqual(list(tetstream.read(self.path("small.vtk")).fields), ["N\udce9e."])
+        with self.assertRaisesRegex(tetstream.BadArgument, "the stream has: N\udce9e\\."):
+            mesh.simplify(ratio=0.5, weights={"other": 1})
+        with self.assertRaisesRegex(tetstream.InputOutput, "no\udce9.vtk: cannot open"):
+            tetstream.read(os.fsencode(self.folder) + b"/no\xe9.vtk")
+
     def test_weights_are_those_of_the_command(self):
         command("simplify", self.path("in.vtu"), self.path("a.tets"), "--ratio", 0.1,
                 "--field", "f:3")

@@ -11,6 +11,7 @@ import tetstream
 
 SOURCE = os.environ["TETSTREAM_SOURCE"]
 BRACKET = os.path.join(SOURCE, "tests", "data", "bracket", "bracket.vtu")
+EXAMPLE = os.path.join(SOURCE, "bindings", "python", "examples", "before_after.py")
 
 
 class Pictures(unittest.TestCase):
@@ -29,9 +30,7 @@ class Pictures(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "bracket.png")
             done = subprocess.run(
-                [sys.executable, os.path.join(SOURCE, "bindings", "python", "examples",
-                                              "before_after.py"),
-                 BRACKET, path, "--field", "von_mises", "--axis", "x", "--ratio", "0.05"],
+                [sys.executable, EXAMPLE, BRACKET, path, "--field", "von_mises", "--ratio", "0.05"],
                 stdout=subprocess.PIPE, text=True, check=True)
             self.assertIn("75232 -> 37", done.stdout)
             picture = image.imread(path)
@@ -40,6 +39,12 @@ class Pictures(unittest.TestCase):
         for panel in (picture[:, :width * 45 // 100], picture[:, width // 2:width * 9 // 10]):
             coloured = (panel[..., :3].max(axis=2) - panel[..., :3].min(axis=2) > 0.2).mean()
             self.assertGreater(coloured, 0.1)
+
+    def test_a_field_that_is_not_there_is_named(self):
+        done = subprocess.run([sys.executable, EXAMPLE, BRACKET, "x.png", "--field", "nonsense"],
+                              stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("no field nonsense; there are", done.stderr)
 
 
 if __name__ == "__main__":

@@ -155,6 +155,23 @@ class Generators(unittest.TestCase):
             with self.subTest(sentence), self.assertRaisesRegex((TypeError, ValueError), sentence):
                 self.simplified(Reader.batches(iter([batch]), kind, fields))
 
+    def test_what_takes_batches_takes_all(self):
+        def first_only():
+            yield
+
+        with self.assertRaisesRegex(RuntimeError, "ended before they did"):
+            tetstream.convert(reader(*self.mesh), Writer.batches(first_only()))
+        with self.assertRaisesRegex(TypeError, "a function or a generator is wanted, not NoneType"):
+            Writer.batches(None)
+
+    def test_arrays_are_given_each_time(self):
+        writer = Writer.arrays()
+        with self.assertRaisesRegex(tetstream.BadState, "no stream"):
+            writer.getmesh()
+        tetstream.convert(reader(*self.mesh), writer)
+        self.assertEqual(len(writer.getmesh().cells), len(self.mesh[1]))
+        self.assertIs(writer.getmesh(), writer.getmesh())
+
     def test_a_reader_serves_one_run(self):
         source = reader(*self.mesh)
         self.simplified(source)

@@ -98,16 +98,25 @@ contains
     call grow(this%mesh%points, this%point_count, batch%points, stat)
     call grow(this%mesh%cells, this%cell_count, batch%cells, stat)
     do i = 1, size(this%mesh%fields)
-      call this%mesh%fields(i)%add(this%point_count, batch%fields(i)%location(), batch%fields(i)%rows(), stat)
+      call append(this%mesh%fields(i), this%point_count, batch%fields(i), stat)
     end do
     do i = 1, size(this%mesh%cell_data)
-      call this%mesh%cell_data(i)%add(this%cell_count, batch%cell_data(i)%location(), &
-                                      batch%cell_data(i)%rows(), stat)
+      call append(this%mesh%cell_data(i), this%cell_count, batch%cell_data(i), stat)
     end do
     this%point_count = this%point_count + size(batch%points, 2)
     this%cell_count = this%cell_count + size(batch%cells, 2)
     call add_marks(this%mesh, batch)
     if (stat /= 0) errmsg = "there is no memory for the result"
+  end subroutine
+
+  ! The rows of another array behind those that are there.
+  subroutine append(array, count, more, stat)
+    type(tetstream_array), intent(inout) :: array
+    integer(c_int64_t), intent(in) :: count
+    type(tetstream_array), intent(in), target :: more  ! whose place in memory is taken
+    integer, intent(inout) :: stat
+
+    call array%add(count, more%location(), more%rows(), stat)
   end subroutine
 
   ! Labelled faces and locked edges: few, beside the cells.

@@ -42,10 +42,10 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
                 "face_labels", [], "locked_faces", [], "locked_edges", [], "vertex_map", false,
                 "progress", []);
   [options, own] = parsed (caller, own, varargin);
-  mesh = struct ("points", points, "cells", cells, "fields", {named(fields)},
-                 "cell_data", {own.cell_data}, "locked", own.locked, "faces", own.faces,
-                 "face_labels", own.face_labels, "locked_faces", own.locked_faces,
-                 "locked_edges", own.locked_edges);
+  mesh = struct ("points", {points}, "cells", {cells}, "fields", {named(fields)},
+                 "cell_data", {own.cell_data}, "locked", {own.locked}, "faces", {own.faces},
+                 "face_labels", {own.face_labels}, "locked_faces", {own.locked_faces},
+                 "locked_edges", {own.locked_edges});
   mesh = complete_mesh (caller, mesh);
   [mesh, label] = with_regions (caller, mesh, own.regions);
   tetstream_core;
@@ -91,7 +91,7 @@ function fields = named (fields)
   if (isempty (fields) && ! isstruct (fields))
     fields = struct ();
   elseif (! isstruct (fields))
-    fields = struct ("field", fields);
+    fields = struct ("field", {fields});
   endif
 endfunction
 
@@ -105,6 +105,7 @@ function [mesh, label] = with_regions (caller, mesh, regions)
   while (isfield (mesh.cell_data, label))
     label = [label "_"];
   endwhile
+  need_rows (caller, "regions", regions);
   if (any (regions(:) != fix (regions(:))))
     error ("tetstream:bad-argument", "%s: regions: labels are integers", caller);
   endif

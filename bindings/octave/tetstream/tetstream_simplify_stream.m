@@ -25,6 +25,12 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   endif
   caller = "tetstream_simplify_stream";
   need_target (caller, varargin);
+  for given = {reader, writer}
+    if (! is_function_handle (given{1}))
+      error ("tetstream:bad-argument", "%s: reader and writer are function handles, not a %s", caller,
+             class (given{1}));
+    endif
+  endfor
   own = struct ("cell_count", -1, "vertex_count", -1, "front_width", -1, "front_span", -1,
                 "front_cells", -1, "indexed", false, "weights", [], "progress", []);
   [options, own] = parsed (caller, own, varargin);

@@ -13,11 +13,14 @@ import matplotlib
 matplotlib.use("Agg")  # into a file, without a screen
 
 import numpy  # noqa: E402
-from matplotlib import collections, pyplot  # noqa: E402
+from matplotlib import cm, collections, colors, pyplot  # noqa: E402
 
 import tetstream  # noqa: E402
 
 AXES = "xyz"
+
+# viridis without its darkest part, on which edges would not be seen.
+PALE = colors.ListedColormap(cm.viridis(numpy.linspace(0.25, 1, 256)))
 
 
 def cut(mesh, values, axis, place):
@@ -44,13 +47,27 @@ def cut(mesh, values, axis, place):
     return polygons, numpy.concatenate(colours)
 
 
+def middle(mesh, axis):
+    """Where the plane of a normal is."""
+    return (mesh.points[:, axis].min() + mesh.points[:, axis].max()) / 2
+
+
+def area(polygons):
+    """Of all polygons together."""
+    return sum(abs(p[:, 0] @ numpy.roll(p[:, 1], 1) - p[:, 1] @ numpy.roll(p[:, 0], 1)) / 2
+               for p in polygons)
+
+
+def length(values):
+    """Of vectors and tensors the norm, of scalars themselves."""
+    values = numpy.asarray(values, float)
+    return values if values.ndim == 1 else numpy.linalg.norm(values.reshape(len(values), -1), axis=1)
+
+
 def draw(axes, mesh, field, axis, place, limits=None):
     """Draws the cut; `limits` of the colours, or None: those of the values that are seen."""
-    values = mesh.fields[field]
-    if values.ndim > 1:
-        values = numpy.linalg.norm(values, axis=1)
-    polygons, colours = cut(mesh, values.astype(float), axis, place)
-    drawn = collections.PolyCollection(polygons, array=colours, cmap="viridis", edgecolors="black",
+    polygons, colours = cut(mesh, length(mesh.fields[field]), axis, place)
+    drawn = collections.PolyCollection(polygons, array=colours, cmap=PALE, edgecolors="black",
                                        linewidths=0.15)
     drawn.set_clim(*(limits or (colours.min(), colours.max())))
     axes.add_collection(drawn)
@@ -68,17 +85,32 @@ def main():
     parser.add_argument("picture", help="a PNG, SVG or PDF")
     parser.add_argument("--field", help="the field that is kept and drawn; the first one")
     parser.add_argument("--ratio", type=float, default=0.1, help="cells out / cells in")
-    parser.add_argument("--axis", choices=AXES, default="z", help="the normal of the plane")
+    parser.add_argument("--axis", choices=AXES,
+                        help="the normal of the plane; that of the largest cut")
     arguments = parser.parse_args()
 
     mesh = tetstream.read(arguments.mesh)
+    if not mesh.fields:
+        parser.error(f"{arguments.mesh} has no field at its points")
     field = arguments.field or next(iter(mesh.fields))
+    if field not in mesh.fields:
+        parser.error(f"there is no field {field}; there are {', '.join(mesh.fields)}")
     small = mesh.simplify(ratio=arguments.ratio, weights={field: 1})
     error = tetstream.compare(mesh, small, weights={field: 1}).fields[field]
 
-    axis = AXES.index(arguments.axis)
-    place = (mesh.points[:, axis].min() + mesh.points[:, axis].max()) / 2
-    figure, panels = pyplot.subplots(1, 2, figsize=(14, 6), layout="constrained")
+    values = length(mesh.fields[field])
+    axes = [AXES.index(arguments.axis)] if arguments.axis else range(3)
+    cuts = {i: cut(mesh, values, i, middle(mesh, i))[0] for i in axes}
+    axis = max(axes, key=lambda i: area(cuts[i]))
+    place = middle(mesh, axis)
+    if not cuts[axis]:
+        parser.error(f"the plane {AXES[axis]} = {place:g} cuts no cell")
+    # What is wide comes one above the other.
+    width, height = numpy.ptp(numpy.concatenate(cuts[axis]), axis=0)
+    is_wide = width > 2 * height
+    shape, size = ((2, 1), (11, 2.5 + 18 * height / width)) if is_wide else (
+        (1, 2), (13, min(1.5 + 5.5 * height / width, 10)))
+    figure, panels = pyplot.subplots(*shape, figsize=size, layout="constrained")
     drawn = draw(panels[0], mesh, field, axis, place)
     draw(panels[1], small, field, axis, place, drawn.get_clim())
     panels[0].set_title(f"before: {len(mesh.cells)} cells")

@@ -15,6 +15,8 @@ DTYPES = {number: dtype for dtype, number in TYPES.items()}
 
 
 def _array(name, values):
+    if numpy.ma.is_masked(values):
+        raise BadArgument(f"{name}: {numpy.ma.count_masked(values)} of its numbers are masked")
     array = numpy.asarray(values)
     if array.dtype.kind not in "biuf":
         raise TypeError(f"{name}: its numbers are {array.dtype}; integers or floats are wanted")
@@ -34,10 +36,10 @@ def _holding(name, array):
             return dtype
     if array.dtype.kind == "u" and (array.size == 0 or int(array.max()) < 2 ** 63):
         return numpy.dtype(numpy.int64)
-    raise TypeError(f"{name}: float64 and int64 do not hold {array.dtype}")
+    raise TypeError(f"{name}: neither float64 nor int64 holds all of its {array.dtype}")
 
 
-def _needs_shape(name, array, wanted, fits):
+def needs_shape(name, array, wanted, fits):
     if not fits:
         shape = "".join(f"[{size}]" for size in array.shape) or "a single number"
         raise BadArgument(f"{name}: the shape is {shape}, {wanted} is wanted")
@@ -46,7 +48,7 @@ def _needs_shape(name, array, wanted, fits):
 def points(values):
     """[n][3], float32 or float64."""
     array = _array("points", values)
-    _needs_shape("points", array, "[n][3]", array.ndim == 2 and array.shape[1] == 3)
+    needs_shape("points", array, "[n][3]", array.ndim == 2 and array.shape[1] == 3)
     dtype = _holding("points", array)
     return _dense(array, dtype if dtype.kind == "f" else numpy.float64)
 
@@ -59,7 +61,7 @@ def ids(name, values, columns):
     if array.dtype.kind == "f":
         raise TypeError(f"{name}: its numbers are {array.dtype}; integers are wanted")
     wanted = "[n]" if columns == 1 else f"[n][{columns}]"
-    _needs_shape(name, array, wanted, array.ndim == (1 if columns == 1 else 2)
+    needs_shape(name, array, wanted, array.ndim == (1 if columns == 1 else 2)
                  and (columns == 1 or array.shape[1] == columns))
     return array if array.dtype in (numpy.int32, numpy.int64) else array.astype(
         _holding(name, array))
@@ -79,14 +81,14 @@ def cells(values):
 def flags(name, values, rows):
     """[rows] of uint8, 1 where a value is not zero."""
     array = _array(name, values)
-    _needs_shape(name, array, f"[{rows}]", array.shape == (rows,))
+    needs_shape(name, array, f"[{rows}]", array.shape == (rows,))
     return _dense(array != 0, numpy.uint8)
 
 
 def bits(name, values, rows):
     """[rows] of uint8, four bits each."""
     array = _array(name, values)
-    _needs_shape(name, array, f"[{rows}]", array.shape == (rows,))
+    needs_shape(name, array, f"[{rows}]", array.shape == (rows,))
     if array.dtype.kind == "f" or (array.size and not 0 <= array.min() <= array.max() <= 15):
         raise BadArgument(f"{name}: integers from 0 to 15 are wanted")
     return _dense(array, numpy.uint8)
@@ -99,7 +101,7 @@ class Column:
         if not isinstance(name, str):
             raise TypeError(f"an array's name is {name!r}, a str is wanted")
         array = _array(f'"{name}"', values)
-        _needs_shape(f'"{name}"', array, f"[{rows}] or [{rows}][components]",
+        needs_shape(f'"{name}"', array, f"[{rows}] or [{rows}][components]",
                      array.ndim >= 1 and array.shape[0] == rows)
         self.name = name
         self.shape = array.shape[1:]
@@ -123,6 +125,15 @@ class Column:
             self.dtype != array.dtype) else array
 
 
-def columns(arrays, rows):
+def named(what, values):
+    """A dict of what the caller gives as one, or nothing as None; `what` is its name."""
+    if values is None:
+        return {}
+    if not hasattr(values, "keys"):
+        raise TypeError(f"{what}: a dict is wanted, not {type(values).__name__}")
+    return dict(values)
+
+
+def columns(what, arrays, rows):
     """A dict of arrays as a list of Columns."""
-    return [Column(name, values, rows) for name, values in dict(arrays or {}).items()]
+    return [Column(name, values, rows) for name, values in named(what, arrays).items()]

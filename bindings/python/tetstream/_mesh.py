@@ -19,7 +19,8 @@ class Mesh:
     def __init__(self, points, cells, fields=None, cell_data=None, *, locked=None, faces=None,
                  face_labels=None, locked_faces=None, locked_edges=None):
         self.points, self.cells = points, cells
-        self.fields, self.cell_data = dict(fields or {}), dict(cell_data or {})
+        self.fields = _arrays.named("fields", fields)
+        self.cell_data = _arrays.named("cell_data", cell_data)
         self.locked = locked
         self.faces, self.face_labels, self.locked_faces = faces, face_labels, locked_faces
         self.locked_edges = locked_edges
@@ -60,9 +61,9 @@ class VertexMap:
         tells that the point lies outside of the result, whose boundary has moved.
     """
 
-    def __init__(self, cells, weights, corners):
+    def __init__(self, cells, weights, corners, points):
         self.cells, self.weights = cells, weights
-        self._corners = corners
+        self._corners, self._points = corners, points
 
     def __repr__(self):
         return f"<VertexMap of {len(self.cells)} points>"
@@ -71,6 +72,8 @@ class VertexMap:
         """Values at the result's points, [n'] or [n'][components], at the input's points, [n] or
         [n][components]: linear in each cell; NaN at points that were in no cell."""
         values = numpy.asarray(values)
+        _arrays.needs_shape("values", values, f"[{self._points}] or [{self._points}][components]",
+                            values.shape[:1] == (self._points,))
         corners = self._corners[numpy.where(self.cells < 0, 0, self.cells)]
         out = numpy.einsum("ij,ij...->i...", self.weights, values[corners])
         out[self.cells < 0] = numpy.nan
@@ -82,9 +85,8 @@ class VertexMap:
         used = self.cells >= 0
         rows = numpy.zeros(len(self.cells) + 1, numpy.int64)
         numpy.cumsum(4 * used, out=rows[1:])
-        points = int(self._corners.max()) + 1 if self._corners.size else 0
         return csr_array((self.weights[used].ravel(), self._corners[self.cells[used]].ravel(), rows),
-                         shape=(len(self.cells), points))
+                         shape=(len(self.cells), self._points))
 
 
 class Simplified(Mesh):
@@ -147,8 +149,8 @@ def batches_of(mesh):
     cells = _arrays.wide_ids("cells", mesh.cells, 4)
     if cells.size and not (0 <= cells.min() and cells.max() < len(points)):
         raise _arrays.BadArgument(f"cells: a point is not one of the mesh's {len(points)}")
-    fields = _arrays.columns(mesh.fields, len(points))
-    cell_data = _arrays.columns(mesh.cell_data, len(cells))
+    fields = _arrays.columns("fields", mesh.fields, len(points))
+    cell_data = _arrays.columns("cell_data", mesh.cell_data, len(cells))
     locked = None if mesh.locked is None else _arrays.flags("locked", mesh.locked, len(points))
     is_marked = mesh.faces is not None or mesh.locked_edges is not None
     last_uses = _last_uses(cells, len(points))

@@ -95,7 +95,8 @@ def diagram(source, *, columns=1200, rows=800, sweep=False, progress=None, **opt
     made = _options.made(options)
     reader = _streams.reader_of(source)
     page = core.PAGE_SWEEP if sweep else core.PAGE_LAYOUT
-    drawn = core.Diagram(made._handle, columns, rows)
+    drawn = core.Diagram(made._handle, _options.whole("columns", columns, 32),
+                         _options.whole("rows", rows, 32))
     with _progress.told(progress) as tell:
         drawn.read(reader._handle, page, tell)
     return Diagram.copied(drawn.get_info(), coverage=drawn.coverage(), widths=drawn.widths(),

@@ -1,7 +1,7 @@
 """The library's options as properties, made from its own table."""
 import operator
 
-from . import core
+from . import _arrays, core
 from .errors import BadArgument
 
 
@@ -42,18 +42,27 @@ class _Row:
         elif isinstance(value, str):  # "2G", "1e6"
             handle.parse(self.flag, value)
         elif self.type == core.OPTION_IS_INT64:
-            handle.set_int64(self.id, self._int64(value))
+            handle.set_int64(self.id, whole(self.name, value))
         else:
-            handle.set_double(self.id, float(value))
+            handle.set_double(self.id, _real(self.name, value))
 
-    def _int64(self, value):
-        try:
-            number = operator.index(value)
-        except TypeError:
-            raise TypeError(f"{self.name}: an int is wanted, not {type(value).__name__}") from None
-        if not -2 ** 63 <= number < 2 ** 63:
-            raise BadArgument(f"{self.name}: {number} has more than 64 bits")
-        return number
+
+def whole(name, value, bits=64):
+    """An int of so many bits."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise TypeError(f"{name}: an int is wanted, not {type(value).__name__}") from None
+    if not -2 ** (bits - 1) <= number < 2 ** (bits - 1):
+        raise BadArgument(f"{name}: {number} has more than {bits} bits")
+    return number
+
+
+def _real(name, value):
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f"{name}: a number is wanted, not {type(value).__name__}") from None
 
 
 ROWS = {row.name: row for row in map(_Row, range(core.option_count()))}
@@ -64,6 +73,8 @@ class Options:
 
     ``Options(ratio=0.1, memory="64M")``; numbers may be given as text, with a suffix k, M or G.
     """
+
+    __slots__ = ("_handle",)  # the name of an option that is misspelt is none
 
     def __init__(self, **values):
         self._handle = core.Options()
@@ -76,7 +87,7 @@ class Options:
     def add_field(self, name, weight=1.0):
         """Measures this field with this weight; 0: carried along. Fields that are not named are
         then carried."""
-        self._handle.add_field(name, float(weight))
+        self._handle.add_field(name, _real(f'the weight of "{name}"', weight))
 
     def __repr__(self):
         return f"Options({', '.join(f'{name}={getattr(self, name)!r}' for name in ROWS)})"
@@ -95,7 +106,7 @@ for _row in ROWS.values():
 def made(values, weights=None):
     """Options from keyword arguments and a dict of fields' weights."""
     options = Options(**values)
-    for name, weight in dict(weights or {}).items():
+    for name, weight in _arrays.named("weights", weights).items():
         options.add_field(name, weight)
     return options
 

@@ -1,6 +1,8 @@
 """The simplification: of arrays, of files, of streams."""
 import warnings
 
+import numpy
+
 from . import _arrays, _mesh, _options, _progress, _streams, core
 from ._records import Report
 from .errors import TargetMissedWarning
@@ -9,10 +11,11 @@ _TARGETS = ("ratio", "cells", "error")
 
 
 def _made_options(options, weights):
-    if not any(options.get(target) for target in _TARGETS):
+    made = _options.made(options, weights)
+    if not any(getattr(made, target) for target in _TARGETS):
         raise TypeError("a target is missing: give ratio= (cells out / cells in), cells= or error= "
                         "(percent of the fields' range)")
-    return _options.made(options, weights)
+    return made
 
 
 def _run(options, reader, writer, progress, prepare, depth):
@@ -43,6 +46,8 @@ def _with_regions(mesh, regions, options):
     name = "region"
     while name in mesh.cell_data:
         name += "_"
+    regions, cells = numpy.asanyarray(regions), len(mesh.cells)
+    _arrays.needs_shape("regions", regions, f"[{cells}]", regions.shape == (cells,))
     labelled = _mesh.Mesh(mesh.points, mesh.cells, mesh.fields,
                           {**mesh.cell_data, name: regions}, locked=mesh.locked, faces=mesh.faces,
                           face_labels=mesh.face_labels, locked_faces=mesh.locked_faces,
@@ -70,7 +75,8 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
     if labelled is not mesh:
         result.regions = result.cell_data.pop(options["regions"])
     if vertex_map:
-        result.vertex_map = _mesh.VertexMap(mapped.cells(), mapped.weights(), result.cells)
+        result.vertex_map = _mesh.VertexMap(mapped.cells(), mapped.weights(), result.cells,
+                                            len(result.points))
     return result
 
 

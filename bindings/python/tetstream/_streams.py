@@ -32,7 +32,8 @@ class Batch:
         if more:
             raise TypeError(f"a Batch has no {', '.join(more)}")
         self.points, self.cells = points, cells
-        self.fields, self.cell_data = dict(fields or {}), dict(cell_data or {})
+        self.fields = _arrays.named("fields", fields)
+        self.cell_data = _arrays.named("cell_data", cell_data)
 
     def __repr__(self):
         points = 0 if self.points is None else len(self.points)
@@ -56,9 +57,9 @@ class _Schema:
         info = core.StreamInfo()
         info.position_type = _type("points", points)
         info.is_indexed = bool(indexed)
-        for name, column in _columns(fields):
+        for name, column in _columns("fields", fields):
             info.add_field(name, column[1], column[0])
-        for name, column in _columns(cell_data):
+        for name, column in _columns("cell_data", cell_data):
             info.add_cell_data(name, column[1], column[0])
         for name, count in counts.items():
             setattr(info, name, count)
@@ -163,10 +164,10 @@ def _type(name, dtype):
     return _arrays.TYPES[dtype]
 
 
-def _columns(announced):
+def _columns(kind, announced):
     """Pairs of name and (type, components) of what the caller announces: a dict of name to dtype, to
     (dtype, components) or to None, for one float64."""
-    for name, what in dict(announced or {}).items():
+    for name, what in _arrays.named(kind, announced).items():
         dtype, components = what if isinstance(what, tuple) else (what, 1)
         yield name, (_type(name, dtype or "f8"), components)
 
@@ -234,6 +235,8 @@ class Reader:
             if mesh.locked_faces is not None:
                 put(batch.set_locked_faces,
                     _arrays.flags("locked_faces", mesh.locked_faces, len(faces)))
+        elif mesh.face_labels is not None or mesh.locked_faces is not None:
+            raise BadArgument("face_labels and locked_faces are of `faces`, which are not there")
         if mesh.locked_edges is not None:
             put(batch.set_locked_edges, _arrays.wide_ids("locked_edges", mesh.locked_edges, 2))
         return cls(core.Reader.open_mesh(info, batch), kept)
@@ -312,8 +315,8 @@ def stream_info(info, **more):
 def mesh_columns(mesh):
     """Points, cells, fields and cell data of a Mesh as the library takes them."""
     points, cells = _arrays.points(mesh.points), _arrays.cells(mesh.cells)
-    return (points, cells, _arrays.columns(mesh.fields, len(points)),
-            _arrays.columns(mesh.cell_data, len(cells)))
+    return (points, cells, _arrays.columns("fields", mesh.fields, len(points)),
+            _arrays.columns("cell_data", mesh.cell_data, len(cells)))
 
 
 class Writer:
@@ -324,7 +327,7 @@ class Writer:
     """
 
     def __init__(self, handle, *kept):
-        self._handle, self._kept = handle, kept
+        self._handle, self._kept, self._mesh = handle, kept, None
 
     def _with(self, properties):
         for name, value in properties.items():
@@ -356,8 +359,9 @@ class Writer:
         open: called first, with a StreamInfo; finish: called after a complete stream; or None.
         """
         if hasattr(put, "send"):
-            next(put)
-            put, finish = put.send, _closing(put, finish)
+            put, finish = _sending(put), _closing(put, finish)
+        elif not callable(put):
+            raise TypeError(f"a function or a generator is wanted, not {type(put).__name__}")
         schema = []
 
         def begin(info):
@@ -379,13 +383,26 @@ class Writer:
         return self._handle.get_memory().tobytes()
 
     def getmesh(self):
-        """The Mesh of a Writer.arrays; it is given once."""
-        return _mesh.collected(self._kept[0])
+        """The Mesh of a Writer.arrays; the same one each time."""
+        if self._mesh is None:
+            self._mesh = _mesh.collected(self._kept[0])
+        return self._mesh
 
     @property
     def notes(self):
         """Sentences on what the format could not hold and was left out."""
         return _notes(self._handle)
+
+
+def _sending(generator):
+    """A function that sends to a generator."""
+    def send(batch):
+        try:
+            generator.send(batch)
+        except StopIteration:
+            raise RuntimeError("the generator that takes batches ended before they did") from None
+    next(generator)
+    return send
 
 
 def _closing(generator, finish):

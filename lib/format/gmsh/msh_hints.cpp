@@ -37,6 +37,7 @@ void readMshHint(std::string_view line, MshHints* hints) {
     std::string text = name();
     if (text.size() > 255) return;
     (what == "physical" ? hints->physical : hints->entity) = std::move(text);
+    hints->labels_named = true;
     return;
   }
   ScalarType type;

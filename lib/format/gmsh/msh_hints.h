@@ -23,6 +23,7 @@ constexpr const char* kMshEntity = "gmsh:geometrical";
 struct MshHints {
   ScalarType position_type = ScalarType::kFloat64;
   std::string physical = kMshPhysical, entity = kMshEntity;
+  bool labels_named = false;  // so they are there, even if all of them are 0
   std::map<std::string, ScalarType> fields, cell_data;
 };
 

@@ -7,6 +7,7 @@ namespace tetstream {
 namespace {
 
 constexpr size_t kLabelsAtOnce = 1024;
+constexpr int32_t kGroupOfAll = 1;
 
 bool isIntegerColumn(const Column& column) {
   return column.components == 1 && !isFloat(column.type);
@@ -16,8 +17,8 @@ bool isIntegerColumn(const Column& column) {
 
 MshLabels::MshLabels(MeshSpool& mesh) : mesh_(mesh) {
   chooseColumns();
-  findVolumes();
   findSurfaces();
+  findVolumes();
 }
 
 void MshLabels::read(const std::optional<size_t>& column, uint64_t first, size_t count,
@@ -68,7 +69,9 @@ void MshLabels::chooseColumns() {
       group_column_ = i;
 }
 
-// A tag is the entity's, or the group's, where that is free; else one above all of them.
+// A tag is the entity's, or the group's, where that is free; else one above all of them. Cells
+// without labels beside faces with such are one group: of a file that has groups, Gmsh saves again
+// what is in one only, and meshio does not read cells of none.
 void MshLabels::findVolumes() {
   int64_t groups[kLabelsAtOnce] = {}, entities[kLabelsAtOnce] = {};
   int64_t highest = 0;
@@ -95,6 +98,7 @@ void MshLabels::findVolumes() {
       else
         take(entity, low++);
     }
+    if (!group_column_ && !surfaces_.empty()) entity.group = kGroupOfAll;
   }
 }
 

@@ -11,7 +11,8 @@ void MshMesh::beginNodes() {
     if (name.empty()) return;
     const auto type = hints.cell_data.find(name);
     intake->addLabels(name.c_str(),
-                      type != hints.cell_data.end() && type->second == ScalarType::kInt64);
+                      type != hints.cell_data.end() && type->second == ScalarType::kInt64,
+                      hints.labels_named);
   };
   addLabels(hints.physical);
   if (hints.entity != hints.physical) addLabels(hints.entity);

@@ -18,10 +18,12 @@ bool inflateChunk(Hdf5Chunk& chunk, size_t most) {
 }
 
 // First bytes of all elements, then the second ones, and so on; what is less than an element last.
+// An element may be said to have four thousand million bytes.
 bool unshuffleChunk(Hdf5Chunk& chunk, size_t element) {
   if (element == 0) return false;
-  Hdf5Chunk out(chunk.size());
   const size_t count = chunk.size() / element;
+  if (count < 2) return true;
+  Hdf5Chunk out(chunk.size());
   const unsigned char* from = chunk.data();
   for (size_t byte = 0; byte < element; ++byte)
     for (size_t i = 0; i < count; ++i) out[i * element + byte] = *from++;

@@ -101,8 +101,7 @@ class Su2Reader {
     zone_points_ = -1;
   }
 
-  int64_t corner(const char* what) {
-    const int64_t point = file_.integer(what, 0, INT64_MAX / 2);
+  int64_t corner(int64_t point) {
     if (zone_points_ >= 0 && point >= zone_points_)
       file_.failBad(textOf("point %lld, where there are %lld", static_cast<long long>(point),
                            static_cast<long long>(zone_points_)));
@@ -111,12 +110,15 @@ class Su2Reader {
   }
 
   const CellKind& readRow(int64_t* corners) {
-    const int64_t type = file_.integer("the type of an element");
+    int64_t type;
+    file_.integers(&type, 1, "the type of an element");
     const CellKind* kind = kindOf(type);
     if (!kind)
       file_.failHere(Status::kUnsupported, textOf("an element of type %lld, which is not known",
                                                   static_cast<long long>(type)));
-    for (int k = 0; k < kind->nodes; ++k) corners[k] = corner("a point of an element");
+    file_.integers(corners, static_cast<size_t>(kind->nodes), "a point of an element", 0,
+                   INT64_MAX / 2);
+    for (int k = 0; k < kind->nodes; ++k) corners[k] = corner(corners[k]);
     return *kind;
   }
 
@@ -137,7 +139,7 @@ class Su2Reader {
     const uint64_t points = count("the number of points");
     for (uint64_t i = 0; i < points; ++i) {
       double position[3];
-      for (double& x : position) x = file_.real("the position of a point");
+      file_.reals(position, 3, "the position of a point");
       intake_.addPoint(position);
       file_.line();  // its number
     }

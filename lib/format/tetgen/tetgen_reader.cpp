@@ -45,16 +45,18 @@ class TetgenReader {
       columns.push_back(
           intake_.addData({"attribute" + std::to_string(a), 1, ScalarType::kFloat64}, false));
     for (uint64_t i = 0; i < count; ++i) {
-      const int64_t number = nodes_.integer("the number of a point");
+      int64_t number;
+      nodes_.integers(&number, 1, "the number of a point");
       if (i == 0) first_ = number;
       if ((i == 0 && first_ != 0 && first_ != 1) || number != first_ + static_cast<int64_t>(i))
         nodes_.failBad(textOf("point %lld, where they should count from 0 or 1",
                               static_cast<long long>(number)));
       double position[3];
-      for (double& x : position) x = nodes_.real("the position of a point");
+      nodes_.reals(position, 3, "the position of a point");
       intake_.addPoint(position);
       for (size_t column : columns) {
-        const double value = nodes_.real("an attribute of a point");
+        double value;
+        nodes_.reals(&value, 1, "an attribute of a point");
         intake_.putData(column, i, &value);
       }
       if (markers) intake_.labelPoint(nodes_.integer("the marker of a point"));
@@ -63,8 +65,8 @@ class TetgenReader {
 
   void readCorners(FileScan& file, size_t count, int64_t* corners) {
     const auto points = static_cast<int64_t>(intake_.mesh().pointCount());
-    for (size_t k = 0; k < count; ++k)
-      corners[k] = file.integer("a corner of a cell", first_, first_ + points - 1) - first_;
+    file.integers(corners, count, "a corner of a cell", first_, first_ + points - 1);
+    for (size_t k = 0; k < count; ++k) corners[k] -= first_;
   }
 
   // Cells, corners of each (4, or 10 of second order), attributes: the first one is the region.
@@ -81,12 +83,14 @@ class TetgenReader {
           intake_.addCellNumbers(a == 0 ? "region" : "attribute" + std::to_string(a)));
     const CellKind kind = {CellShape::kTetra, static_cast<int>(nodes)};
     for (uint64_t i = 0; i < count; ++i) {
-      const int64_t number = file.integer("the number of a cell");
+      int64_t number;
+      file.integers(&number, 1, "the number of a cell");
       int64_t corners[10];
       readCorners(file, static_cast<size_t>(nodes), corners);
       intake_.addCell(kind, corners, nullptr, number);
       for (size_t column : columns) {
-        const double value = file.real("an attribute of a cell");
+        double value;
+        file.reals(&value, 1, "an attribute of a cell");
         intake_.putData(column, i, &value);
       }
     }

@@ -1,12 +1,56 @@
 #include "xdmf_arrays.h"
 
-#include "file_pool.h"
+#include <algorithm>
+#include <bit>
+
 #include "hdf5_file.h"
 #include "status.h"
+#include "text_number.h"
 
 namespace tetstream {
 
+namespace {
+
 constexpr uint64_t kMaxReference = 4096;  // bytes
+
+class RawBytes final : public ValueBytes {
+ public:
+  RawBytes(std::shared_ptr<ByteSource> file, uint64_t begin)
+      : file_(std::move(file)), begin_(begin) {}
+  void readAt(uint64_t offset, void* out, size_t size) override {
+    const size_t got = file_->readAt(begin_ + offset, out, size);
+    if (got < size)
+      fail(Status::kIo, "%s: byte %llu: the file has become shorter", file_->name().c_str(),
+           static_cast<unsigned long long>(begin_ + offset + got));
+  }
+
+ private:
+  std::shared_ptr<ByteSource> file_;
+  uint64_t begin_;
+};
+
+[[noreturn]] void failCount(const std::string& place, uint64_t held, uint64_t wanted) {
+  fail(Status::kBadData, "%s: there are %llu values where %llu are needed", place.c_str(),
+       static_cast<unsigned long long>(held), static_cast<unsigned long long>(wanted));
+}
+
+// The words that stand for each kind of numbers in a raw file, by their bytes.
+struct RawType {
+  const char* kind;
+  uint64_t precision;  // 0: whatever is said
+  ValueType type;
+};
+
+constexpr RawType kRawTypes[] = {
+    {"Float", 4, ValueType::kFloat32}, {"Float", 8, ValueType::kFloat64},
+    {"Int", 1, ValueType::kInt8},      {"Int", 2, ValueType::kInt16},
+    {"Int", 4, ValueType::kInt32},     {"Int", 8, ValueType::kInt64},
+    {"UInt", 1, ValueType::kUInt8},    {"UInt", 2, ValueType::kUInt16},
+    {"UInt", 4, ValueType::kUInt32},   {"UInt", 8, ValueType::kUInt64},
+    {"Char", 0, ValueType::kInt8},     {"UChar", 0, ValueType::kUInt8},
+    {"Short", 0, ValueType::kInt16},   {"UShort", 0, ValueType::kUInt16}};
+
+}  // namespace
 
 void XdmfArrays::failItem(const XdmfItem& item, Status status, const std::string& text) const {
   fail(status, "%s: byte %llu: %s", bytes_->name().c_str(),
@@ -30,14 +74,20 @@ std::string XdmfArrays::describe(const XdmfItem& item) const {
 }
 
 std::string XdmfArrays::placeOf(const XdmfItem& item) {
-  return sameWord(item.format, "HDF") ? textOfItem(item) : std::to_string(item.begin);
+  if (item.is_slab && item.parts.size() == 2)
+    return textOfItem(item.parts[0]) + " of " + placeOf(item.parts[1]);
+  if (sameWord(item.format, "HDF")) return textOfItem(item);
+  if (sameWord(item.format, "Binary")) return textOfItem(item) + ":" + std::to_string(item.seek);
+  return std::to_string(item.begin);
 }
 
 MeshArray XdmfArrays::arrayOf(const XdmfItem& item, const std::string& name, int components) {
   MeshArray array{cutMeshName(name), ValueType::kFloat32, components, {}};
   if (item.sizes.empty()) failItem(item, Status::kBadData, "a DataItem has no Dimensions");
+  if (item.is_slab) return ofSlab(item, std::move(array));
   if (sameWord(item.format, "XML")) return ofText(item, std::move(array));
   if (sameWord(item.format, "HDF")) return ofHdf5(item, std::move(array));
+  if (sameWord(item.format, "Binary")) return ofRawFile(item, std::move(array));
   failItem(item, Status::kUnsupported,
            "values in the format \"" + cutMeshName(item.format) + "\" are not read");
 }
@@ -52,11 +102,99 @@ MeshArray XdmfArrays::ofText(const XdmfItem& item, MeshArray array) {
     array.type = wide ? ValueType::kInt64 : ValueType::kInt32;
   array.open = [bytes = bytes_, item, name = array.name, type = array.type](uint64_t count) {
     if (count != item.count())
-      fail(Status::kBadData, "%s: byte %llu: there are %llu values where %llu are needed",
-           bytes->name().c_str(), static_cast<unsigned long long>(item.begin),
-           static_cast<unsigned long long>(item.count()), static_cast<unsigned long long>(count));
+      failCount(textOf("%s: byte %llu", bytes->name().c_str(),
+                       static_cast<unsigned long long>(item.begin)),
+                item.count(), count);
     return openTextValues(*bytes, tetstream::placeOf(*bytes, name), type,
                           {item.begin, item.end, count});
+  };
+  return array;
+}
+
+ValueType XdmfArrays::typeOfRaw(const XdmfItem& item) const {
+  for (const RawType& raw : kRawTypes)
+    if (sameWord(item.kind, raw.kind) && (raw.precision == 0 || raw.precision == item.precision))
+      return raw.type;
+  failItem(item, Status::kUnsupported,
+           "values of the type \"" + cutMeshName(item.kind) + "\" of " +
+               std::to_string(item.precision) + " bytes are not read");
+}
+
+MeshArray XdmfArrays::ofRawFile(const XdmfItem& item, MeshArray array) {
+  array.type = typeOfRaw(item);
+  if (!sameWord(item.compression, "Raw"))
+    failItem(item, Status::kUnsupported,
+             "values with the compression \"" + cutMeshName(item.compression) + "\" are not read");
+  const bool big = sameWord(item.order, "Big");
+  const bool native = sameWord(item.order, "Native");
+  if (!big && !native && !sameWord(item.order, "Little"))
+    failItem(item, Status::kUnsupported,
+             "values in the byte order \"" + cutMeshName(item.order) + "\" are not read");
+  const std::string name = textOfItem(item);
+  if (name.empty()) failItem(item, Status::kBadData, "the name of a file is missing");
+  std::shared_ptr<ByteSource>& file = raw_files_[name];
+  if (!file) file = pool_->add(pathBeside(bytes_->name(), name));
+  const uint64_t held = item.count(), size = file->size();
+  if (item.seek > size || held > (size - item.seek) / sizeOf(array.type))
+    failItem(item, Status::kBadData,
+             "\"" + cutMeshName(name) + "\" has " + std::to_string(size) +
+                 " bytes, fewer than the Dimensions and the Seek need");
+  array.open = [file, held, type = array.type, seek = item.seek,
+                big = native ? std::endian::native == std::endian::big : big](uint64_t count) {
+    if (count != held) failCount(file->name(), held, count);
+    return openBinaryValues(std::make_unique<RawBytes>(file, seek), file->name(), type, big);
+  };
+  return array;
+}
+
+// Three numbers for each direction: all begins, all strides, all counts.
+std::vector<SlabRange> XdmfArrays::rangesOf(const XdmfItem& item) const {
+  if (item.parts.size() != 2 || item.parts[0].is_slab || !sameWord(item.parts[0].format, "XML") ||
+      item.parts[1].sizes.empty())
+    failItem(item, Status::kUnsupported,
+             "a HyperSlab is not read unless it has a list of numbers in the text and values with "
+             "their Dimensions");
+  const std::vector<uint64_t>& sizes = item.parts[1].sizes;
+  std::string text = textOfItem(item.parts[0]);
+  std::replace_if(text.begin(), text.end(), isBlank, ' ');
+  std::vector<uint64_t> numbers;
+  for (std::string_view rest = text; !rest.empty();) {
+    int64_t number = -1;
+    const std::string_view word = takeWord(rest);
+    if (word.empty()) break;
+    if (!parseInteger(word, &number) || number < 0)
+      failItem(item, Status::kBadData, quoted(word) + " in a HyperSlab is no number");
+    numbers.push_back(static_cast<uint64_t>(number));
+  }
+  const size_t rank = sizes.size();
+  if (numbers.size() != 3 * rank)
+    failItem(item, Status::kBadData,
+             "a HyperSlab of " + std::to_string(rank) + " directions has " +
+                 std::to_string(numbers.size()) + " numbers");
+  std::vector<SlabRange> ranges;
+  for (size_t d = 0; d < rank; ++d) {
+    ranges.push_back({numbers[d], numbers[rank + d], numbers[2 * rank + d], sizes[d]});
+    if (!fitsSlab(ranges.back()))
+      failItem(item, Status::kBadData,
+               "a HyperSlab reaches out of its values in direction " + std::to_string(d));
+  }
+  return ranges;
+}
+
+MeshArray XdmfArrays::ofSlab(const XdmfItem& item, MeshArray array) {
+  const std::vector<SlabRange> ranges = rangesOf(item);
+  uint64_t held = 1;  // at most the values that it is cut from
+  for (const SlabRange& range : ranges) held *= range.count;
+  if (held != item.count())
+    failItem(item, Status::kBadData,
+             "a HyperSlab of " + std::to_string(held) + " values has not the " +
+                 std::to_string(item.count()) + " of its Dimensions");
+  const MeshArray whole = arrayOf(item.parts[1], array.name, 1);
+  array.type = whole.type;
+  array.open = [open = whole.open, all = item.parts[1].count(), ranges, held,
+                place = describe(item)](uint64_t count) {
+    if (count != held) failCount(place, held, count);
+    return openSlab(open(all), ranges);
   };
   return array;
 }

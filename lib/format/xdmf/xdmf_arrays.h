@@ -1,13 +1,15 @@
-// format/xdmf: the values that an XDMF file names, in its own text or in HDF5 files beside it.
-// Depends on xdmf_tree.h, mesh_pieces.h.
+// format/xdmf: the values that an XDMF file names, in its own text, in HDF5 files or in raw files
+// beside it. Depends on xdmf_tree.h, xdmf_slab.h, file_pool.h, mesh_pieces.h.
 #pragma once
 
 #include <map>
 #include <memory>
 #include <string>
 
+#include "file_pool.h"
 #include "mesh_pieces.h"
 #include "status.h"
+#include "xdmf_slab.h"
 #include "xdmf_tree.h"
 
 namespace tetstream {
@@ -28,10 +30,16 @@ class XdmfArrays {
   std::string textOfItem(const XdmfItem& item) const;
   MeshArray ofText(const XdmfItem& item, MeshArray array);
   MeshArray ofHdf5(const XdmfItem& item, MeshArray array);
+  MeshArray ofRawFile(const XdmfItem& item, MeshArray array);
+  MeshArray ofSlab(const XdmfItem& item, MeshArray array);
+  std::vector<SlabRange> rangesOf(const XdmfItem& item) const;
+  ValueType typeOfRaw(const XdmfItem& item) const;
   [[noreturn]] void failItem(const XdmfItem& item, Status status, const std::string& text) const;
 
   std::shared_ptr<ByteSource> bytes_;
   std::map<std::string, std::shared_ptr<Hdf5File>> files_;
+  std::shared_ptr<FilePool> pool_ = std::make_shared<FilePool>();
+  std::map<std::string, std::shared_ptr<ByteSource>> raw_files_;
 };
 
 }  // namespace tetstream

@@ -1,6 +1,6 @@
-// Reads XDMF 2 and 3 as FEniCS and meshio write it: grids in XML, values in its text or in HDF5. Of
-// a collection over time one step is read; grids of a spatial collection are pieces whose shared
-// points are one each.
+// Reads XDMF 2 and 3 as FEniCS and meshio write it: grids in XML, values in its text, in HDF5 or in
+// raw files. Of a collection over time one step is read; grids of a spatial collection are pieces
+// whose shared points are one each.
 #include <algorithm>
 
 #include "format_rows.h"
@@ -167,6 +167,9 @@ class Xdmf {
   void addPoints(const XdmfGeometry& geometry, MeshPiece& piece) {
     const bool apart = sameWord(geometry.type, "X_Y_Z") && geometry.items.size() == 3;
     const uint64_t count = geometry.items[0].count();
+    if (sameWord(geometry.type, "XY") || sameWord(geometry.type, "X_Y"))
+      failFile(Status::kUnsupported, "a geometry of the type \"" + geometry.type +
+                                         "\" has no third coordinate, and so no tetrahedra");
     if (!apart && (!sameWord(geometry.type, "XYZ") || count % 3 != 0))
       failFile(Status::kUnsupported, "a geometry of the type \"" + cutMeshName(geometry.type) +
                                          "\" is not read, or it has not three coordinates a point");

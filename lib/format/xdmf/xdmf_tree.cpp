@@ -44,9 +44,9 @@ class XdmfTree final : XmlFeed {
   void end() override {
     const Open closed = open_.back();
     open_.pop_back();
-    if (closed == kItem && item_) {
-      item_->end = std::max(tagBegin(), item_->begin);
-      item_ = nullptr;
+    if (closed == kItem) {
+      items_open_.back()->end = std::max(tagBegin(), items_open_.back()->begin);
+      items_open_.pop_back();
     }
     if (closed == kGrid) grid_ = grids_[static_cast<size_t>(grid_)].parent;
     if (closed == kTopology || closed == kGeometry || closed == kAttribute) items_ = nullptr;
@@ -63,9 +63,10 @@ class XdmfTree final : XmlFeed {
     if ((in == kDomain || in == kGrid) && std::strcmp(name, "Grid") == 0)
       return addGrid(attributes);
     if (in == kGrid) return addToGrid(name, attributes);
-    if ((in == kTopology || in == kGeometry || in == kAttribute) &&
-        std::strcmp(name, "DataItem") == 0)
-      return addItem(attributes);
+    if (std::strcmp(name, "DataItem") != 0) return kOther;
+    if (in == kTopology || in == kGeometry || in == kAttribute) return addItem(attributes, *items_);
+    if (in == kItem && items_open_.back()->is_slab)
+      return addItem(attributes, items_open_.back()->parts);
     return kOther;
   }
 
@@ -130,9 +131,11 @@ class XdmfTree final : XmlFeed {
     return kOther;
   }
 
-  Open addItem(Attributes attributes) {
-    const std::string type = wordOf(attributes, "ItemType", "Uniform");
-    if (!sameWord(type, "Uniform") || find(attributes, "Reference"))
+  Open addItem(Attributes attributes, std::vector<XdmfItem>& items) {
+    const bool old_slab = sameWord(wordOf(attributes, "Type", ""), "HyperSlab");
+    const std::string type = wordOf(attributes, "ItemType", old_slab ? "HyperSlab" : "Uniform");
+    const bool is_slab = sameWord(type, "HyperSlab");
+    if ((!is_slab && !sameWord(type, "Uniform")) || find(attributes, "Reference"))
       failHere("a DataItem of the type \"" + cutMeshName(type) + "\" is not read, nor a reference",
                Status::kUnsupported);
     if (++item_count_ > kMaxItems) failHere("there are too many arrays", Status::kUnsupported);
@@ -142,10 +145,15 @@ class XdmfTree final : XmlFeed {
     const char* precision = find(attributes, "Precision");
     if (precision && !parseUnsigned(precision, &item.precision))
       failHere("a Precision is no number");
+    const char* seek = find(attributes, "Seek");
+    if (seek && !parseUnsigned(seek, &item.seek)) failHere("a Seek is no number of bytes");
+    item.order = wordOf(attributes, "Endian", "Native");
+    item.compression = wordOf(attributes, "Compression", "Raw");
     readSizes(wordOf(attributes, "Dimensions", ""), item);
+    item.is_slab = is_slab;
     item.begin = item.end = tagEnd();
-    items_->push_back(std::move(item));
-    item_ = &items_->back();
+    items.push_back(std::move(item));
+    items_open_.push_back(&items.back());
     return kItem;
   }
 
@@ -172,7 +180,7 @@ class XdmfTree final : XmlFeed {
   std::vector<Open> open_;
   int grid_ = -1;  // that is open
   std::vector<XdmfItem>* items_ = nullptr;
-  XdmfItem* item_ = nullptr;
+  std::vector<XdmfItem*> items_open_;  // each a part of the one before
   size_t item_count_ = 0;
 };
 

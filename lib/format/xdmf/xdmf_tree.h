@@ -9,12 +9,17 @@
 
 namespace tetstream {
 
-// Values: text of the file itself, or the name of a dataset in another one.
+// Values: text of the file itself, or the name of a dataset in another one, or of a raw file.
 struct XdmfItem {
-  std::string format = "XML", kind = "Float";  // "HDF"; "Int", "UInt", "Char", "UChar"
+  std::string format = "XML", kind = "Float";  // "HDF", "Binary"; "Int", "UInt", "Char", "UChar"
   uint64_t precision = 4;                      // bytes
+  std::string order = "Native", compression = "Raw";  // of a raw file: "Little", "Big"
+  uint64_t seek = 0;                                  // its bytes before the values
   std::vector<uint64_t> sizes;
   uint64_t begin = 0, end = 0;  // of the text, in bytes of the file
+  // Of a hyperslab: its begin, stride and count along each direction, and what it is cut from.
+  bool is_slab = false;
+  std::vector<XdmfItem> parts;
 
   uint64_t count() const;
 };

@@ -120,6 +120,17 @@ TEST(Tasks, RunWorkBesideTheCaller) {
   EXPECT_FALSE(Tasks(1).submit(new Counting(ran)));
 }
 
+TEST(Tasks, DoBothWithThreadsOrWithout) {
+  const Tasks tasks(2);
+  for (const Tasks* with : {&tasks, static_cast<const Tasks*>(nullptr)}) {
+    int done[2] = {0, 0};
+    doBoth(
+        with, [&] { ++done[0]; }, [&] { ++done[1]; });
+    EXPECT_EQ(done[0], 1);
+    EXPECT_EQ(done[1], 1);
+  }
+}
+
 TEST(Tasks, KnowAtLeastOneCore) {
   EXPECT_GE(coresToUse(), 1u);
 }

@@ -113,6 +113,21 @@ TEST(Msh, WritesRegionsAsGroupsAndKeepsTheirColumn) {
     }
 }
 
+TEST(Msh, KeepsRegionsOfWhichAllAreZero) {
+  Schema schema;
+  schema.cell_data = {{"material", 1, ScalarType::kInt32}};
+  SvMesh m = indexedMesh(schema, 10);
+  m.cell_data[0].assign(10, 0);
+  for (bool binary : {false, true})
+    for (bool newest : {false, true}) {
+      const SvMesh r = readBytes(openMsh, write(m, binary, newest));
+      ASSERT_EQ(r.schema.cell_data.size(), 1u);
+      EXPECT_EQ(r.schema.cell_data[0].name, "material");
+      EXPECT_EQ(r.cell_data, m.cell_data);
+    }
+}
+
+// The cells beside them have a group for other programs' sake, which is no array of ours.
 TEST(Msh, KeepsFacesAndTheirLabels) {
   Input input = openText(openMsh, kSparse4);
   for (bool binary : {false, true})
@@ -137,6 +152,12 @@ TEST(Msh, KeepsFacesAndTheirLabels) {
       sink->finish();
       Input again = openMsh(openMemory(out.data(), out.size(), "mesh"), {});
       EXPECT_EQ(facesOf(again), (std::vector<TestFace>{{0, 1, 2, 12}}));
+      EXPECT_TRUE(again.indexed->schema().cell_data.empty());
+      if (!binary) {
+        EXPECT_NE(std::string(out.begin(), out.end())
+                      .find(newest ? "\n1 0 0 0 1 1 1 1 1 0 \n$EndEnt" : "\n2 4 2 1 1 1 2 3 4 \n"),
+                  std::string::npos);
+      }
     }
 }
 

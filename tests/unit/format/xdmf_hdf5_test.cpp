@@ -47,6 +47,20 @@ TEST_F(XdmfHdf5, IsReadWhereItLies) {
   }
 }
 
+// The middle rows of a larger dataset.
+TEST_F(XdmfHdf5, SlabsAreCutOutOfIt) {
+  std::string slab = text("topology", "1");
+  const std::string whole =
+      slab.substr(slab.find("<DataItem"), slab.find("</Topology>") - slab.find("<DataItem"));
+  std::string source = whole;
+  source.replace(source.find("\"1 4\""), 5, "\"2 4\"");
+  slab.replace(slab.find(whole), whole.size(),
+               "<DataItem ItemType=\"HyperSlab\" Dimensions=\"1 4\"><DataItem Dimensions=\"3 2\">"
+               "1 0 1 1 1 4</DataItem>" +
+                   source + "</DataItem>");
+  EXPECT_EQ(readAs("xdmf", slab).cells, (std::vector<int64_t>{1, 2, 3, 4}));
+}
+
 TEST_F(XdmfHdf5, SaysWhatIsNotThere) {
   EXPECT_NE(failureAs("xdmf", text("none", "2")).find("there is no dataset"), std::string::npos);
   EXPECT_NE(failureAs("xdmf", text("topology", "3")).find("has not the 12 numbers"),

@@ -148,12 +148,13 @@ TEST(Xdmf, SaysWhatIsWrong) {
   EXPECT_TRUE(has(failureAs("xdmf", file("")), "there is no grid with cells"));
   EXPECT_TRUE(has(failure(kPoints), "there is no grid with cells"));
   EXPECT_TRUE(has(failure(kCells), "has no topology or no geometry"));
-  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "XYZ", "XY")), "\"XY\" is not read"));
+  EXPECT_TRUE(
+      has(failure(kCells + replaced(kPoints, "XYZ", "XY")), "\"XY\" has no third coordinate"));
   EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "5 4")), "three coordinates"));
   EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "5 -3")), "are none"));
   EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "1152921504606846976 3")), "are none"));
   EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "72057594037927936 3")), "BAD_DATA"));
-  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "XML", "Binary")), "\"Binary\" are not read"));
+  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "XML", "XLS")), "\"XLS\" are not read"));
   EXPECT_TRUE(has(failure(replaced(kCells, "2 4", "7") + kPoints), "are not 4 nodes to a cell"));
   EXPECT_TRUE(has(failure(replaced(kCells, "3 4<", "3 5<") + kPoints), "cell 1 uses point 5"));
   EXPECT_TRUE(

@@ -87,5 +87,18 @@ TEST(Weights, OfAFlatCellAreNumbers) {
   EXPECT_DOUBLE_EQ(w[0] + w[1] + w[2] + w[3], 1);
 }
 
+TEST(Weights, ClampedAreThoseOfAPointOfTheCell) {
+  const double in[3] = {0.5, 0.25, 0.125}, out[3] = {1.5, 0.5, -0.5};
+  double w[4] = {}, expected[4];
+  clampedWeights(kCorner, in, w);
+  barycentricWeights(kCorner, in, expected);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(w[k], expected[k]);
+  clampedWeights(kCorner, out, w);  // -0.5, 1.5, 0.5 and -0.5 without
+  EXPECT_EQ(w[0], 0);
+  EXPECT_EQ(w[1], 0.75);
+  EXPECT_EQ(w[2], 0.25);
+  EXPECT_EQ(w[3], 0);
+}
+
 }  // namespace
 }  // namespace tetstream::test

@@ -37,6 +37,7 @@ struct Pieces {
       if (sixVolumeOf(corners(c)) < 0) window.mesh.flagCell(c, kNegative);
     loaded = patch.load(owned.data(), owned.size(), all.data(), all.size(), window.liveCells());
     patch.listGone();
+    reconnector.start();
   }
   Corners corners(uint32_t c) const {
     Corners all;
@@ -62,9 +63,7 @@ struct Pieces {
             return reconnector.removeEdge(c, i, j, r);
     return false;
   }
-  void apply(const Reconnection& r) {
-    patch.replace(r.gone, r.gone_count, r.made, r.made_count, made);
-  }
+  void apply(const Reconnection& r) { reconnector.replace(r, made); }
 
   Account account;
   Window<double> window;

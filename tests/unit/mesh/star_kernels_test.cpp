@@ -104,6 +104,12 @@ struct Fan {
     return starShape(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
                      cells.size(), ThinAngle(degrees));
   }
+  StarShape barredShape(double degrees) const {
+    ThinAngle angle(degrees);
+    angle.barred = true;
+    return starShape(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
+                     cells.size(), angle);
+  }
   StarShape plainShape(double degrees = 10) const {
     return starShapeOf(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
                        cells.size(), ThinAngle(degrees));
@@ -124,6 +130,18 @@ struct Fan {
   }
 };
 
+// Where thin cells are barred the star is told to be as good as its worst cell, and which that is.
+template <class S>
+void expectTruthWhereBarred(const Fan<S>& fan, double degrees) {
+  const StarShape plain = fan.shape(degrees), barred = fan.barredShape(degrees);
+  EXPECT_EQ(barred.positive, plain.positive && plain.thin == 0) << degrees;
+  EXPECT_EQ(barred.thin, 0u);
+  if (barred.positive) return;
+  Fan<S> alone = fan;
+  alone.cells = {fan.cells[barred.turned]};
+  EXPECT_TRUE(!alone.shape(degrees).positive || alone.shape(degrees).thin == 1) << degrees;
+}
+
 // A cell within a hair of the angle may count or not.
 template <class S>
 void expectTruth(const Fan<S>& fan) {
@@ -140,6 +158,7 @@ void expectTruth(const Fan<S>& fan) {
     EXPECT_EQ(got.positive, positive);
     EXPECT_LE(got.thin, thin + hair) << degrees;
     EXPECT_GE(got.thin + hair, thin) << degrees;
+    expectTruthWhereBarred(fan, degrees);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "field_error.h"
 #include "simplify_testing.h"
+#include "window_testing.h"
 
 namespace tetstream::test {
 namespace {
@@ -120,6 +121,25 @@ TEST(SeveralFields, OfNoExtentOrWeightLeaveTheOthersAlone) {
 }
 
 // Forty components in a budget of memory: rows are long, but as long as they are, not longer.
+// With a field twice all errors count twice: beside it the boundary would count half, were it not
+// for its weight.
+TEST(SeveralFields, LeaveTheBoundaryItsShare) {
+  SimplifyOptions options;
+  options.shape_weight = 0;
+  TestMesh once = fullGrid(4, 4, 4, 0.1), twice = once, beside_none = once;
+  addPositionField(once, {"front", 1, k64}, front);
+  for (TestMesh* mesh : {&twice, &beside_none}) addPositionField(*mesh, {"front", 1, k64}, front);
+  addPositionField(twice, {"again", 1, k64}, front);
+  addPositionField(beside_none, {"constant", 1, k64}, [](double, double, double) { return 7; });
+  WholeWindow<double> one(once, options), two(twice, options), same(beside_none, options);
+  for (uint32_t v = 0; v < one.core.window.mesh.vertexEnd(); ++v)
+    for (int i = 0; i < 6; ++i) {  // the part in space
+      const double c = one.core.window.quadric(v)[i];
+      EXPECT_NEAR(two.core.window.quadric(v)[i], 2 * c, 1e-12 * std::fabs(c) + 1e-15);
+      EXPECT_EQ(same.core.window.quadric(v)[i], c);
+    }
+}
+
 TEST(SeveralFields, OfManyComponentsKeepABudget) {
   TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1);
   for (int f = 0; f < 5; ++f)

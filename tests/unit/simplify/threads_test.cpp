@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "faces.h"
+#include "strange_workers.h"
 #include "tasks.h"
 #include "ways_testing.h"
 
@@ -12,11 +13,26 @@ namespace {
 constexpr size_t kThreads[] = {2, 3, 4, 8};
 constexpr int64_t kFewVertices = 48;  // to a tile: small meshes have many then
 
-TestMesh wavyGrid(int n, ScalarType type) {
-  TestMesh mesh = fullGrid(n, n, n, 0.1);
+TestMesh withWaves(TestMesh mesh, ScalarType type) {
   addPositionField(mesh, {"f", 1, type},
                    [](double x, double y, double z) { return std::sin(x * y) - z; });
   return mesh;
+}
+
+TestMesh wavyGrid(int n, ScalarType type) {
+  return withWaves(fullGrid(n, n, n, 0.1), type);
+}
+
+// With flat cells at one side, between two layers that lie on each other.
+TestMesh flattenedGrid(int n) {
+  const TestMesh grid = fullGrid(n, n, n);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v)
+    for (int i = 0; i < 3; ++i) {
+      const bool is_lowered = i == 2 && grid.position(v, 0) < 3 && grid.position(v, 2) == 2;
+      positions.push_back(is_lowered ? 1 : grid.position(v, i));
+    }
+  return withWaves(makeMesh(ScalarType::kFloat64, positions, grid.cells), ScalarType::kFloat64);
 }
 
 struct Outcomes {
@@ -24,10 +40,9 @@ struct Outcomes {
   Report report;
 };
 
-Outcomes ran(const TestMesh& mesh, SimplifyOptions options, size_t threads,
+Outcomes ran(const TestMesh& mesh, SimplifyOptions options, const Tasks& tasks,
              const FaceLabels& faces = {}) {
-  const Tasks tasks(threads);
-  options.tasks = threads > 1 ? &tasks : nullptr;
+  options.tasks = tasks.threads() > 1 ? &tasks : nullptr;
   options.tile_vertices = kFewVertices;
   Outcomes run;
   Simplifier simplifier(options, run.out, {});
@@ -36,6 +51,11 @@ Outcomes ran(const TestMesh& mesh, SimplifyOptions options, size_t threads,
   run.report = simplifier.report();
   EXPECT_EQ(run.out.problem, "");
   return run;
+}
+
+Outcomes ran(const TestMesh& mesh, const SimplifyOptions& options, size_t threads,
+             const FaceLabels& faces = {}) {
+  return ran(mesh, options, Tasks(threads), faces);
 }
 
 void expectSame(const TestMesh& mesh, const SimplifyOptions& options,
@@ -78,6 +98,37 @@ TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
   SimplifyOptions options = toRatio(0.2);
   options.shape = Shape::kSolver;
   expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+}
+
+TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlat) {
+  const TestMesh mesh = flattenedGrid(side());
+  EXPECT_GT(ran(mesh, toRatio(0.2), 1).report.locked_cells, 0);
+  for (int64_t window : {0, 2500}) expectSame(mesh, toRatio(0.2, window));
+}
+
+TEST(SweepThreads, GiveTheSameBytesInOtherModes) {
+  for (Mode mode : {Mode::kPaper, Mode::kQueue})
+    expectSame(wavyGrid(side(), ScalarType::kFloat32), toRatio(0.2, 2500, mode));
+}
+
+TEST(SweepThreads, GiveTheSameBytesWhereDistancesAreMeasured) {
+  SimplifyOptions options = toRatio(0.2, 2500);
+  options.quadric = QuadricForm::kGarlandZhou;
+  expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+}
+
+// They may refuse, work at once, or come late: nobody waits for what is not begun.
+TEST(SweepThreads, GiveTheSameBytesWhateverTheWorkersThatWereBrought) {
+  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  const Outcomes one = ran(mesh, toRatio(0.2, 2500), 1);
+  NoWorkers none;
+  HastyWorkers hasty;
+  LazyWorkers lazy;
+  for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
+    const Tasks tasks(3, workers);
+    EXPECT_TRUE(ran(mesh, toRatio(0.2, 2500), tasks).out.allBytes() == one.out.allBytes());
+  }
+  lazy.workAll();
 }
 
 TEST(SweepThreads, GiveTheSameBytesWithWhatVerticesAndCellsCarry) {

@@ -1,5 +1,5 @@
-// Tiles are given out in their order, as soon as those before them that they share cells with are
-// done.
+// Tiles are given out as soon as those before them that they share cells with are done, those with
+// most ahead first.
 #include "tile_queue.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ using Earlier = std::vector<std::vector<uint32_t>>;
 
 TEST(TileQueue, GivesOutWhatWaitsForNothing) {
   const Earlier earlier = {{}, {0}, {}, {1, 2}};
-  TileQueue queue(earlier, 0, 4);
+  const std::vector<size_t> ahead = {1, 1, 1, 1};
+  TileQueue queue(earlier, ahead, 0, 4);
   EXPECT_EQ(queue.take(), 0u);
   EXPECT_EQ(queue.take(), 2u) << "1 waits for 0";
   queue.finish(0);
@@ -25,9 +26,23 @@ TEST(TileQueue, GivesOutWhatWaitsForNothing) {
   EXPECT_EQ(queue.take(), std::nullopt);
 }
 
+TEST(TileQueue, GivesOutWhatMostWaitsFor) {
+  const Earlier earlier = {{}, {}, {}, {2}, {2}};
+  const std::vector<size_t> ahead = {2, 3, 7, 1, 3};
+  TileQueue queue(earlier, ahead, 0, 5);
+  EXPECT_EQ(queue.take(), 2u);
+  EXPECT_EQ(queue.take(), 1u);
+  queue.finish(2);
+  EXPECT_EQ(queue.take(), 4u);
+  EXPECT_EQ(queue.take(), 0u);
+  EXPECT_EQ(queue.take(), 3u);
+  EXPECT_EQ(queue.take(), std::nullopt);
+}
+
 TEST(TileQueue, TakesTilesBeforeItsOwnAsDone) {
   const Earlier earlier = {{}, {0}, {0, 1}};
-  TileQueue queue(earlier, 1, 3);
+  const std::vector<size_t> ahead = {1, 1, 1};
+  TileQueue queue(earlier, ahead, 1, 3);
   EXPECT_EQ(queue.take(), 1u);
   queue.finish(1);
   EXPECT_EQ(queue.take(), 2u);
@@ -35,7 +50,8 @@ TEST(TileQueue, TakesTilesBeforeItsOwnAsDone) {
 
 TEST(TileQueue, LetsThreadsWaitUntilATileIsDoneOrSomebodyGivesUp) {
   const Earlier earlier = {{}, {0}, {1}};
-  TileQueue queue(earlier, 0, 3);
+  const std::vector<size_t> ahead = {1, 1, 1};
+  TileQueue queue(earlier, ahead, 0, 3);
   EXPECT_EQ(queue.take(), 0u);
   std::optional<size_t> second, third;
   std::thread other([&] {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "random.h"
+#include "tasks.h"
 #include "window_testing.h"
 
 namespace tetstream::test {
@@ -70,10 +71,13 @@ int side() {
 
 // Some vertices locked, some cells dead; three rounds of cuts, and the first again.
 template <class S>
-void expectTilings() {
+void expectTilings(size_t threads) {
   TestMesh mesh = fullGrid(side(), side(), side());
   for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(v % 17 == 0);
-  WholeWindow<S> w(mesh);
+  const Tasks tasks(threads);
+  SimplifyOptions options = inMode(Mode::kPaper);
+  options.tasks = &tasks;
+  WholeWindow<S> w(mesh, options);
   Random r(1);
   for (int k = 0; k < 2000; ++k) {
     const uint32_t cell = r.below(w.core.window.cellEnd());
@@ -87,8 +91,8 @@ void expectTilings() {
   }
 }
 TEST(Tiling, HasEveryFreeVertexOnceWithAllItsCells) {
-  expectTilings<float>();
-  if (!slowRun()) expectTilings<double>();
+  expectTilings<float>(1);
+  if (!slowRun()) expectTilings<double>(2);
 }
 
 // What is a seam in one round is inside a tile of another.

@@ -37,8 +37,7 @@ struct WholeWindow {
     }
     intake.finalizeAll();
     regions.decide();
-    metric.addCells(0, core.window.mesh.cellEnd());
-    resolver.resolve(intake.finalized(), intake.finalizedCount());
+    resolver.resolve(0, intake.finalized(), intake.finalizedCount());
   }
 
   // The live cells, with the positions as they are.

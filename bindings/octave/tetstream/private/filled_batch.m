@@ -21,12 +21,18 @@ function [batch, kept] = filled_batch (caller, mesh, count)
                         @(array) batch.add_cell_data (array), kept);
   endif
   if (! isempty (mesh.last_uses))
+    need_rows (caller, "last_uses", mesh.last_uses);
+    if (columns (mesh.last_uses) != 4)
+      error ("tetstream:bad-argument", "%s: last_uses: 4 columns are wanted, the size is %s", caller,
+             mat2str (size (mesh.last_uses)));
+    endif
     kept{end+1} = core_rows (uint8 (logical (mesh.last_uses) * [1; 2; 4; 8]));
     batch.set_last_uses (kept{end});
   endif
   for [set, name] = struct ("locked", @(array) batch.set_locked (array),
                             "locked_faces", @(array) batch.set_locked_faces (array))
     if (! isempty (mesh.(name)))
+      need_rows (caller, name, mesh.(name));
       kept{end+1} = core_rows (logical (mesh.(name)(:)));
       set (kept{end});
     endif
@@ -44,8 +50,12 @@ function [batch, kept] = filled_batch (caller, mesh, count)
     if (isempty (labels))
       labels = zeros (rows (mesh.faces), 1);
     endif
+    need_rows (caller, "face_labels", labels);
     kept{end+1} = core_rows (int64 (labels(:)));
     batch.set_face_labels (kept{end});
+  elseif (! isempty (mesh.face_labels) || ! isempty (mesh.locked_faces))
+    error ("tetstream:bad-argument",
+           "%s: face_labels and locked_faces are of faces, which are not there", caller);
   endif
 endfunction
 

@@ -23,7 +23,14 @@ function [options, own] = parsed (caller, own, arguments)
     endif
   endfor
   if (isfield (own, "weights") && ! isempty (own.weights))
+    if (! isstruct (own.weights) || ! isscalar (own.weights))
+      error ("tetstream:bad-argument", "%s: weights: a struct of field to weight is wanted, not a %s",
+             caller, class (own.weights));
+    endif
     for [weight, field] = own.weights
+      if (! isnumeric (weight) || ! isreal (weight) || ! isscalar (weight))
+        error ("tetstream:bad-argument", "%s: the weight of \"%s\" is no number", caller, field);
+      endif
       options.add_field (field, weight);
     endfor
   endif
@@ -48,7 +55,7 @@ function set_option (caller, options, row, value)
   tetstream_core;
   if (ischar (value))
     options.parse (row.name, value);
-  elseif (! (isnumeric (value) || islogical (value)) || ! isscalar (value))
+  elseif (! (isnumeric (value) || islogical (value)) || ! isscalar (value) || ! isreal (value))
     error ("tetstream:bad-argument", "%s: option \"%s\" is a %s of size %s", caller, row.name,
            class (value), mat2str (size (value)));
   elseif (row.type == tetstream_core.OPTION_IS_TEXT)

@@ -1,6 +1,7 @@
 ## type = type_of (caller, name, values): the library's number for an array's class.
 function type = type_of (caller, name, values)
   tetstream_core;
+  need_rows (caller, name, values);
   switch (class (values))
     case "double"
       type = tetstream_core.TYPE_FLOAT64;

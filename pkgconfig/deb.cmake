@@ -103,6 +103,14 @@ if(TETSTREAM_PYTHON)
 python3 (<< 3.${next}), python3-numpy (>= 1:${Python3_NumPy_VERSION})")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "${recommended}")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-meshio")
+  # As Debian's own packages: compiled when installed, and nothing of that is left when removed. Below
+  # another root, whose Python this is not, nothing is done.
+  set(here "[ -z \"$DPKG_ROOT\" ]")
+  file(WRITE ${control}/python/postinst
+    "#!/bin/sh\nset -e\nif ${here} && command -v py3compile >/dev/null; then py3compile -p python3-tetstream; fi\n")
+  file(WRITE ${control}/python/prerm
+    "#!/bin/sh\nset -e\nif ${here} && command -v py3clean >/dev/null; then py3clean -p python3-tetstream; fi\n")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${control}/python/postinst ${control}/python/prerm)
 endif()
 
 if(TETSTREAM_OCTAVE)

@@ -1,0 +1,15 @@
+# binding_option(NAME WHAT MISSING): the option TETSTREAM_NAME, which builds WHAT: on where nothing
+# is in the list MISSING, the pieces that were not found and the packages that bring them.
+function(binding_option name what missing)
+  set(default ON)
+  if(missing)
+    set(default OFF)
+    list(JOIN missing ", " missing)
+  endif()
+  option(TETSTREAM_${name} "Build ${what}" ${default})
+  if(TETSTREAM_${name} AND missing)
+    message(FATAL_ERROR "TETSTREAM_${name} needs what is missing: ${missing}")
+  elseif(missing)
+    message(STATUS "tetstream: ${what}: not built; missing: ${missing}")
+  endif()
+endfunction()
