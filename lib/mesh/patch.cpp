@@ -39,7 +39,17 @@ void Patch<S>::sizeFor(size_t owned, size_t cells) {
   ensure(global_cell_, cells);
   ensure(corner_, 4 * cells);
   ensure(quadrics_, owned * quadric_stride_ + 3);  // rows are read four numbers at a time
-  ensure(star_of_, owned);
+  ensure(star_of_, owned + 1);
+}
+
+// Rows of the window are on their way before they are looked at.
+constexpr uint32_t kAhead = 8;
+
+template <class S>
+void Patch<S>::prefetchRows(uint32_t slot) const {
+  __builtin_prefetch(window_.values(slot));
+  __builtin_prefetch(window_.quadric(slot));
+  __builtin_prefetch(window_.quadric(slot) + quadric_stride_ - 1);
 }
 
 template <class S>
@@ -60,18 +70,20 @@ template <class S>
 bool Patch<S>::takeCells(const uint32_t* cells, size_t count) {
   const Topology& mesh = window_.mesh;
   for (size_t i = 0; i < count; ++i) {
+    __builtin_prefetch(mesh.corners(cells[std::min<size_t>(i + 2 * kAhead, count - 1)]));
     if (!mesh.isLive(cells[i])) continue;
     const uint32_t* v = mesh.corners(cells[i]);
+    const uint32_t swap = mesh.cellFlags(cells[i]) & kNegative;
     uint16_t* corner = &corner_[4 * size_t{cells_}];
-    for (int j = 0; j < 4; ++j) {
+    for (uint32_t j = 0; j < 4; ++j) {
       if (local_of_[v[j]] == kGoneCorner) {
         if (vertices_ == kMostVertices) return false;
         loadVertex(v[j]);
       }
-      corner[j] = local_of_[v[j]];
-      if (corner[j] < owned_) ++star_of_[corner[j]].size;
+      const uint16_t local = local_of_[v[j]];
+      corner[j < 2 ? j : j ^ swap] = local;
+      ++starOrRim(local).size;
     }
-    if (mesh.cellFlags(cells[i]) & kNegative) std::swap(corner[2], corner[3]);
     global_cell_[cells_++] = cells[i];
   }
   return true;
@@ -84,14 +96,12 @@ void Patch<S>::listStars() {
   for (uint32_t v = 0; v < owned_; ++v) {
     star_of_[v].begin = static_cast<uint32_t>(lists_end_);
     lists_end_ += star_of_[v].size;
-    star_of_[v].size = 0;
   }
-  ensure(lists_, 2 * lists_end_ + 4096);
-  for (size_t c = 0; c < corners; ++c) {
-    if (corner_[c] >= owned_) continue;
-    List& list = star_of_[corner_[c]];
-    lists_[list.begin + list.size++] = static_cast<uint16_t>(c / 4);
-  }
+  star_of_[owned_].begin = static_cast<uint32_t>(lists_end_);
+  ensure(lists_, std::max(2 * lists_end_ + 4096, corners));
+  for (size_t c = 0; c < corners; ++c)
+    lists_[starOrRim(corner_[c]).begin++] = static_cast<uint16_t>(c / 4);
+  for (uint32_t v = 0; v < owned_; ++v) star_of_[v].begin -= star_of_[v].size;
 }
 
 template <class S>
@@ -107,11 +117,12 @@ bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* c
   forget();
   sizeFor(owned_count, cell_count);
   for (size_t i = 0; i < owned_count; ++i) {
+    prefetchRows(owned[std::min<size_t>(i + kAhead, owned_count - 1)]);
     loadVertex(owned[i]);
-    star_of_[i].size = 0;
     copyRow(window_.quadric(owned[i]), quadric_stride_, quadric(static_cast<uint32_t>(i)));
   }
   owned_ = vertices_;
+  std::fill_n(star_of_.data(), owned_ + 1, List{0, 0});
   if (!takeCells(cells, cell_count)) {
     forget();
     return false;
@@ -191,7 +202,7 @@ static void renumber(uint16_t* cell, uint16_t v, uint16_t u) {
   typedef uint16_t Corners __attribute__((vector_size(8)));
   Corners corners;
   std::memcpy(&corners, cell, sizeof corners);
-  corners = corners == (Corners{} + v) ? Corners{} + u : corners;
+  corners ^= static_cast<Corners>(corners == (Corners{} + v)) & static_cast<uint16_t>(u ^ v);
   std::memcpy(cell, &corners, sizeof corners);
 }
 

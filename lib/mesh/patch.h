@@ -7,6 +7,9 @@
 // be worked on at the same time.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+
 #include "star_kernels.h"
 #include "window.h"
 
@@ -36,6 +39,13 @@ class Patch {
   uint32_t cellEnd() const { return cells_; }
   bool isLive(uint32_t c) const { return corner_[4 * size_t{c}] != kGoneCorner; }
   uint32_t vertexOf(uint32_t c, uint32_t j) const { return corner_[4 * size_t{c} + j]; }
+  // Whether it lives and all its vertices are owned.
+  bool isInside(uint32_t c) const {
+    typedef uint16_t Corners __attribute__((vector_size(8)));
+    Corners corners;
+    std::memcpy(&corners, &corner_[4 * size_t{c}], sizeof corners);
+    return std::bit_cast<int64_t>(corners < (Corners{} + static_cast<uint16_t>(owned_))) == -1;
+  }
   StarCell starCell(uint32_t corner) const {
     const uint8_t* t = kOpposite[corner % 4];
     const uint32_t c = corner / 4;
@@ -93,10 +103,14 @@ class Patch {
     uint32_t begin;
     uint32_t size;
   };
+  // Behind the lists of owned vertices lies one for all others, which is of no use: without it
+  // there would be branches where there is no pattern.
+  List& starOrRim(uint32_t v) { return star_of_[std::min(v, owned_)]; }
 
   void sizeFor(size_t owned, size_t cells);
   bool takeCells(const uint32_t* cells, size_t count);
   void listStars();
+  void prefetchRows(uint32_t slot) const;
   void loadVertex(uint32_t slot);
   void forget();
   uint16_t* roomFor(size_t count);

@@ -50,6 +50,11 @@ size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_
   return TETSTREAM_BEST(listVertices, cells, count, seen, mark, out);
 }
 
+void addToLinkSums(const uint32_t corners[4], bool negative, const uint32_t taken[4],
+                   uint64_t* sums) {
+  TETSTREAM_BEST(addToLinkSums, corners, negative, taken, sums);
+}
+
 template StarShape starShape(const double[3], const float*, int, double, const StarCell*, size_t,
                              const ThinAngle&);
 template StarShape starShape(const double[3], const double*, int, double, const StarCell*, size_t,

@@ -65,4 +65,13 @@ size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t cou
 size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_t mark,
                     uint32_t* out);
 
+// The link of an inner vertex is closed: each of its edges is there once in each direction. With
+// two random numbers to each vertex, (x, y) and (x', y') of an edge, the sum of x y' - x' y over
+// all edges of all triangles is zero then, and otherwise only by a chance; of two sums, each of 32
+// bits and with numbers of its own, by one of about 2^-60. Adds to the sums of the vertices of a
+// cell what the face opposite each has; 0 in `taken`, which otherwise has all bits set: to that
+// one's nothing is added.
+void addToLinkSums(const uint32_t corners[4], bool negative, const uint32_t taken[4],
+                   uint64_t* sums);
+
 }  // namespace tetstream

@@ -411,6 +411,57 @@ inline StarCounts lookRoundOf(const uint16_t* corners, uint16_t* cells, uint32_t
 }
 #endif
 
+// ---------------------------------------------------------------------------------- links
+
+typedef uint32_t Numbers __attribute__((vector_size(32)));  // of four corners two each
+
+// One to one, looks random (each of the two numbers with factors of its own).
+inline Numbers mixed(Numbers n) {
+  constexpr Numbers kFirst = {0x7feb352d, 0x21f0aaad, 0x7feb352d, 0x21f0aaad,
+                              0x7feb352d, 0x21f0aaad, 0x7feb352d, 0x21f0aaad};
+  constexpr Numbers kSecond = {0x846ca68b, 0xd35a2d97, 0x846ca68b, 0xd35a2d97,
+                               0x846ca68b, 0xd35a2d97, 0x846ca68b, 0xd35a2d97};
+  n = (n ^ (n >> 16)) * kFirst;
+  n = (n ^ (n >> 15)) * kSecond;
+  return n ^ (n >> 16);
+}
+typedef uint32_t NumberPair __attribute__((vector_size(8)));
+inline void addPair(NumberPair pair, uint64_t* sums) {
+  NumberPair before;
+  __builtin_memcpy(&before, sums, sizeof before);
+  before += pair;
+  __builtin_memcpy(sums, &before, sizeof before);
+}
+// Of corners a, b, c of each face: j's is that of kOpposite[j].
+inline Numbers cornersA(Numbers n) {
+  return __builtin_shufflevector(n, n, 2, 3, 0, 1, 0, 1, 0, 1);
+}
+inline Numbers cornersB(Numbers n) {
+  return __builtin_shufflevector(n, n, 4, 5, 6, 7, 2, 3, 4, 5);
+}
+inline Numbers cornersC(Numbers n) {
+  return __builtin_shufflevector(n, n, 6, 7, 4, 5, 6, 7, 2, 3);
+}
+
+inline void addToLinkSumsOf(const uint32_t v[4], bool negative, const uint32_t taken[4],
+                            uint64_t* sums) {
+  static_assert(kOpposite[0][0] == 1 && kOpposite[1][0] == 0 && kOpposite[1][1] == 3 &&
+                kOpposite[2][1] == 1 && kOpposite[3][1] == 2);
+  const Numbers x = mixed(Numbers{v[0], v[0], v[1], v[1], v[2], v[2], v[3], v[3]} + 0x9e3779b9u);
+  const Numbers y = (x ^ (x >> 13)) * 0xde82ef95u;
+  const Numbers xa = cornersA(x), ya = cornersA(y);
+  const Numbers bx = cornersB(x) - xa, by = cornersB(y) - ya;
+  const Numbers cx = cornersC(x) - xa, cy = cornersC(y) - ya;
+  const Numbers sign = Numbers{} - uint32_t{negative};
+  const Numbers all = {taken[0], taken[0], taken[1], taken[1],
+                       taken[2], taken[2], taken[3], taken[3]};
+  const Numbers added = (((bx * cy - cx * by) ^ sign) - sign) & all;
+  addPair(__builtin_shufflevector(added, added, 0, 1), sums + v[0]);
+  addPair(__builtin_shufflevector(added, added, 2, 3), sums + v[1]);
+  addPair(__builtin_shufflevector(added, added, 4, 5), sums + v[2]);
+  addPair(__builtin_shufflevector(added, added, 6, 7), sums + v[3]);
+}
+
 // Without branches, since there is no pattern in what was seen before.
 inline void listVertex(uint32_t v, uint32_t* seen, uint32_t mark, uint32_t* out, size_t* listed) {
   out[*listed] = v;

@@ -33,6 +33,10 @@ size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_
                     uint32_t* out) {
   return listVerticesOf(cells, count, seen, mark, out);
 }
+void addToLinkSums(const uint32_t corners[4], bool negative, const uint32_t taken[4],
+                   uint64_t* sums) {
+  addToLinkSumsOf(corners, negative, taken, sums);
+}
 
 }  // namespace tetstream::v3
 #endif

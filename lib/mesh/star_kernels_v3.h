@@ -19,5 +19,7 @@ size_t listVertices(const uint16_t* corners, const uint16_t* cells, uint32_t cou
                     uint32_t mark, uint32_t* out);
 size_t listVertices(const StarCell* cells, size_t count, uint32_t* seen, uint32_t mark,
                     uint32_t* out);
+void addToLinkSums(const uint32_t corners[4], bool negative, const uint32_t taken[4],
+                   uint64_t* sums);
 
 }  // namespace tetstream::v3

@@ -13,6 +13,17 @@ double thinnessOfAngle(double degrees) {
   return cosine * cosine;
 }
 
+double regularity(const double p[4][3], double scale) {
+  double e[3][3], sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) e[k][i] = (p[k + 1][i] - p[0][i]) * scale;
+    const double a = e[0][i], b = e[1][i], c = e[2][i];
+    sum += a * a + b * b + c * c + (b - a) * (b - a) + (c - a) * (c - a) + (c - b) * (c - b);
+  }
+  const double volume = determinant(e[0], e[1], e[2]);
+  return 432 * (volume * volume) / (sum * sum * sum);
+}
+
 // e: from its first corner the cell's edges; n: of the face opposite each corner twice the area as
 // a vector, outwards. 6 V = e0 . (e1 x e2) is wrong by no more than kOrientationBound times the sum
 // of its products' sizes, which is at most that of the edges' squares to the power of 3/2. Within

@@ -57,14 +57,22 @@ Sampler::Sampler(const Schema& schema)
   one_in_ = static_cast<uint64_t>(std::max(cells / sampled, 1.0));
 }
 
-// The sampled brick that a place lies in, or kNone.
+// The sampled brick that a place lies in, or kNone. Most places lie in the brick of the one before.
 uint32_t Sampler::brickAt(const double place[3]) {
   uint64_t at = 0;
   for (int i = 2; i >= 0; --i) {
-    const double cell = std::floor((place[i] - low_[i]) / brick_size_);
+    const double cell = (place[i] - low_[i]) / brick_size_;
     const double last = static_cast<double>(bricks_[i] - 1);
     at = at * bricks_[i] + static_cast<uint64_t>(cell > 0 ? std::min(cell, last) : 0);
   }
+  if (at != last_place_) {
+    last_place_ = at;
+    last_brick_ = sampledBrick(at);
+  }
+  return last_brick_;
+}
+
+uint32_t Sampler::sampledBrick(uint64_t at) {
   if (mix(at + 1) % one_in_ != 0) return kNone;
   const auto [found, is_new] = sampled_.try_emplace(at, static_cast<uint32_t>(brick_.size()));
   if (is_new) brick_.emplace_back();
@@ -102,23 +110,19 @@ void Sampler::addVertex(const BatchView& batch, size_t row) {
 
 // A span larger than announced gives fewer samples, not wrong ones.
 uint32_t Sampler::rowOf(int64_t vertex) const {
-  const auto rank = static_cast<uint64_t>(vertex);
-  const uint32_t row = row_of_[rank & (row_of_.size() - 1)];
-  return row != kNone && rank_of_[row] == rank ? row : kNone;
+  const uint32_t row = tableRow(vertex);
+  return row != kNone && rank_of_[row] == static_cast<uint64_t>(vertex) ? row : kNone;
 }
 
 // A cell with vertices of the sample is in it if all are of one brick; if not, they are on its cut.
 void Sampler::addCell(const BatchView& batch, size_t row_in_batch) {
   const int64_t* corners = batch.cells + 4 * row_in_batch;
   const uint64_t number = cells_seen_++;
-  uint32_t rows[4];
-  bool any = false;
-  for (int j = 0; j < 4; ++j) {
-    rows[j] = rowOf(corners[j]);
-    any |= rows[j] != kNone;
-  }
-  if (!any) return;
+  uint32_t rows[4], none = kNone;
+  for (int j = 0; j < 4; ++j) none &= tableRow(corners[j]);
+  if (none == kNone) return;  // most cells
   bool whole = true;
+  for (int j = 0; j < 4; ++j) rows[j] = rowOf(corners[j]);
   for (int j = 0; j < 4; ++j)
     whole = whole && rows[j] != kNone && brick_of_[rows[j]] == brick_of_[rows[0]];
   for (uint32_t row : rows)

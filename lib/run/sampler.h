@@ -43,8 +43,12 @@ class Sampler {
   static constexpr uint32_t kNone = 0xffffffffu;
 
   uint32_t brickAt(const double place[3]);
+  uint32_t sampledBrick(uint64_t at);
   void placeOf(const void* positions, size_t row, double place[3]) const;
   void addVertex(const BatchView& batch, size_t row);
+  uint32_t tableRow(int64_t vertex) const {
+    return row_of_[static_cast<uint64_t>(vertex) & (row_of_.size() - 1)];
+  }
   uint32_t rowOf(int64_t vertex) const;
   void addCell(const BatchView& batch, size_t row);
   double ratioFor(double left) const;
@@ -60,6 +64,8 @@ class Sampler {
   std::vector<bool> used_, cut_;                    // in a cell of the sample, in one that is not
   std::unordered_map<uint64_t, uint32_t> sampled_;  // bricks, by their place
   std::vector<Brick> brick_;
+  uint64_t last_place_ = ~uint64_t{0};  // of a brick, and which it is; at first none
+  uint32_t last_brick_ = kNone;
   uint64_t cells_seen_ = 0;
 };
 

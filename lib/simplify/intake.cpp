@@ -194,7 +194,9 @@ template <class S>
 template <class S>
 void Intake<S>::takeCell(size_t row) {
   const int64_t* ids = batch_.cells + 4 * row;
-  const uint32_t v[4] = {slotOf(ids[0]), slotOf(ids[1]), slotOf(ids[2]), slotOf(ids[3])};
+  uint32_t v[4];
+  if (!core_.front.findFour(ids, v))
+    for (int j = 0; j < 4; ++j) v[j] = slotOf(ids[j]);
   if ((v[0] == v[1]) | (v[0] == v[2]) | (v[0] == v[3]) | (v[1] == v[2]) | (v[1] == v[3]) |
       (v[2] == v[3]))
     failTwice(ids);

@@ -240,6 +240,16 @@ double Metric<S>::shapeWeight() const {
   return followsPaper(core_.options.mode) ? kShapeWeightPaper : kShapeWeight;
 }
 
+// Whether no angle is below the largest that is asked for, beyond what rounding may change: so it
+// is with most cells.
+template <class S>
+bool Metric<S>::isRegular(uint32_t cell) const {
+  const double shape = std::max(floors_.front().shape, dear_.empty() ? 0 : dear_.front().shape);
+  double p[4][3];
+  for (int j = 0; j < 4; ++j) positionOf(core_.window, core_.window.mesh.corners(cell)[j], p[j]);
+  return regularity(p, static_cast<double>(core_.scale[0])) > 1.01 * shape;
+}
+
 // Counts cells, not windows: the floor depends on what was read, not on how.
 template <class S>
 void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
@@ -247,6 +257,7 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
   for (uint32_t c = first; c < end; ++c) {
     if (seen_++ % kCellsPerSample != 0 || (mesh.cellFlags(c) & kFlat)) continue;
     ++sampled_;
+    if (isRegular(c)) continue;
     const StarCell cell = mesh.starCell(4 * c);
     double x[3];
     positionOf(core_.window, mesh.corners(c)[0], x);

@@ -44,6 +44,7 @@ class Metric {
   bool addLanes(uint32_t first);
   void countVolume(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);
+  bool isRegular(uint32_t cell) const;
   void chooseFloor();
 
   Core<S>& core_;

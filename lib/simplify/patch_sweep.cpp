@@ -78,16 +78,11 @@ void PatchSweep<S>::measureIn(const VertexTable<S>& table, uint32_t u) {
                            core_.scale.data(), core_.plan.dimension, errors_.data());
 }
 
-// v's edges to later vertices, and to those that do not look at theirs, for both ends.
+// v's edges to those that did not add theirs yet, for both ends; v counts as seen from now on.
 template <class S>
 void PatchSweep<S>::addEdges(uint32_t v) {
   listNeighbours(v);
-  size_t later = 0;
-  for (size_t i = 0; i < count_; ++i) {
-    neighbours_[later] = neighbours_[i];
-    later += neighbours_[i] > v || !looks_[neighbours_[i]];
-  }
-  count_ = later;
+  seen_[v] = kAlways;
   measureNeighbours(v);
   choices_.add(v, edges());
 }
@@ -119,6 +114,7 @@ void PatchSweep<S>::evaluateAll(float bound) {
   mark_ = 0;
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
     if (looks_[v]) addEdges(v);
+  std::fill_n(seen_.data(), patch_.ownedEnd(), 0u);
 }
 
 // The merged vertex measures its edges and tells its neighbours.
@@ -270,6 +266,7 @@ void PatchSweep<S>::findSeams() {
   for (uint32_t x = patch_.ownedEnd(); x < patch_.vertexEnd(); ++x)
     if (patch_.isFreeElsewhere(x)) seen_[x] = 0;
   for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
+    if (patch_.isInside(c) | !patch_.isLive(c)) continue;
     bool at_seam = false;
     for (uint32_t j = 0; j < 4; ++j) at_seam |= seen_[patch_.vertexOf(c, j)] == 0;
     if (!at_seam) continue;

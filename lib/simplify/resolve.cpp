@@ -4,52 +4,26 @@
 #include <atomic>
 
 #include "known_cells.h"
-#include "mix.h"
 #include "settled.h"
+#include "star_kernels.h"
 
 namespace tetstream {
 
 constexpr uint32_t kCellsAtOnce = 4096;  // are added before the thread that follows is told
-
-// The link of an inner vertex is closed: each of its edges is there once in each direction. With
-// two random numbers to each vertex, (x, y) and (x', y') of an edge, the sum of x y' - x' y over
-// all edges of all triangles is zero then, and otherwise only by a chance of about 2^-60.
-namespace {
-struct Numbers {
-  uint64_t x, y;
-};
-inline Numbers numbersOf(uint32_t v) {
-  const uint64_t x = mix(v + 0x9e3779b97f4a7c15ull);
-  return {x, (x ^ (x >> 29)) * 0xd1342543de82ef95ull};
-}
-inline uint64_t area(const Numbers& a, const Numbers& b, const Numbers& c) {
-  return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-}
-}  // namespace
 
 // A vertex that is final and not resolved, without a branch: kResolved is 32 times kFinal.
 static unsigned isNew(unsigned flags) {
   return flags & ~(flags / (kResolved / kFinal)) & kFinal;
 }
 
-// The link of each corner gets the opposite face. The four faces make a closed surface: the last
-// sum is what the others lack.
+// The link of each corner that is new gets the opposite face.
 template <class S>
 void Resolver<S>::addToLinks(uint32_t cell, const unsigned flags[4]) {
   const Topology& mesh = core_.window.mesh;
-  const uint32_t* v = mesh.corners(cell);
-  const Numbers n[4] = {numbersOf(v[0]), numbersOf(v[1]), numbersOf(v[2]), numbersOf(v[3])};
-  uint64_t sums[4] = {};
-  for (int j = 0; j < 3; ++j) {
-    const uint8_t* t = kOpposite[j];
-    sums[j] = area(n[t[0]], n[t[1]], n[t[2]]);
-    sums[3] -= sums[j];
-  }
-  const uint64_t negative = mesh.cellFlags(cell) & kNegative ? ~uint64_t{0} : 0;
-  for (int j = 0; j < 4; ++j) {  // no branch: there is no pattern
-    const uint64_t taken = uint64_t{0} - isNew(flags[j]);
-    core_.window.outRank(v[j]) += ((sums[j] ^ negative) - negative) & taken;
-  }
+  const uint32_t taken[4] = {0u - isNew(flags[0]), 0u - isNew(flags[1]), 0u - isNew(flags[2]),
+                             0u - isNew(flags[3])};
+  addToLinkSums(mesh.corners(cell), mesh.cellFlags(cell) & kNegative, taken,
+                &core_.window.outRank(0));
 }
 
 // Whether cells of different regions meet at a corner.

@@ -27,6 +27,22 @@ class Front {
     if (e.slot != kNoSlot && e.tag == tagOf(vertex)) return e.slot;
     return hash_.find(vertex);
   }
+  // The slots of four; false, and of no use, where one is not active or not in the ring.
+  bool findFour(const int64_t vertices[4], uint32_t slots[4]) const {
+    const Entry* const ring = ring_.data();
+    const uint64_t mask = mask_;
+    const unsigned bits = bits_;
+    uint64_t wrong = 0;
+    uint32_t largest = 0;
+    for (int j = 0; j < 4; ++j) {
+      const auto vertex = static_cast<uint64_t>(vertices[j]);
+      const Entry e = ring[vertex & mask];
+      wrong |= e.tag ^ (vertex >> bits);  // all of its bits: none that was not introduced has them
+      slots[j] = e.slot;
+      largest |= e.slot;
+    }
+    return (wrong | largest >> 31) == 0;  // kNoSlot has the last bit
+  }
   // Makes an active vertex inactive; false if it was not active.
   bool finalize(uint64_t vertex);
   // slot = new_slot[slot] for every active vertex.

@@ -4,6 +4,7 @@
 // 32-bit ids are widened, a batch at a time. What sizes a chunk may have is known before it is
 // read.
 #include <algorithm>
+#include <limits>
 
 #include "format_rows.h"
 #include "status.h"
@@ -367,23 +368,38 @@ void Reader::failAtCell(size_t cell, int64_t vertex) const {
        static_cast<long long>(vertex), static_cast<long long>(seen_.vertices));
 }
 
+// As unsigned numbers negative ids are larger than any count.
+uint64_t highestOf(const int64_t* ids, size_t count) {
+  uint64_t highest = 0;
+  for (size_t i = 0; i < count; ++i) highest = std::max(highest, static_cast<uint64_t>(ids[i]));
+  return highest;
+}
+// The same of `base` + the numbers, which `ids` become: many at once, as 32-bit numbers are.
+uint64_t widen(const int32_t* narrow, size_t count, int64_t base, int64_t* ids) {
+  int32_t least = std::numeric_limits<int32_t>::max(), most = std::numeric_limits<int32_t>::min();
+  for (size_t i = 0; i < count; ++i) {
+    ids[i] = base + narrow[i];
+    least = std::min(least, narrow[i]);
+    most = std::max(most, narrow[i]);
+  }
+  return static_cast<uint64_t>(base + (base + least < 0 ? least : most));
+}
+
 // Hands out the cells up to `end`; returns 1 + the highest vertex in them.
 uint64_t Reader::takeCells(size_t end, BatchView& batch) {
   const size_t count = end - cell_, ids = 4 * count;
   batch.cell_count = count;
+  uint64_t highest = 0;
   if (flags_ & kChunkWideCells) {
     batch.cells = column<int64_t>(shape_->cells()) + 4 * cell_;
+    highest = highestOf(batch.cells, ids);
   } else {
     if (wide_.size() < ids) wide_.resize(ids);
-    const int32_t* narrow = column<int32_t>(shape_->cells()) + 4 * cell_;
-    const int64_t base = static_cast<int64_t>(counts_.first_vertex);
-    for (size_t i = 0; i < ids; ++i) wide_[i] = base + narrow[i];
     batch.cells = wide_.data();
+    if (count > 0)
+      highest = widen(column<int32_t>(shape_->cells()) + 4 * cell_, ids,
+                      static_cast<int64_t>(counts_.first_vertex), wide_.data());
   }
-  // As unsigned numbers negative ids are larger than any count.
-  uint64_t highest = 0;
-  for (size_t i = 0; i < ids; ++i)
-    highest = std::max(highest, static_cast<uint64_t>(batch.cells[i]));
   if (count > 0 && highest >= static_cast<uint64_t>(seen_.vertices))
     for (size_t i = 0; i < ids; ++i)
       if (static_cast<uint64_t>(batch.cells[i]) >= static_cast<uint64_t>(seen_.vertices))

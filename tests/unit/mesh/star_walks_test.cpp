@@ -156,6 +156,33 @@ TEST(ListVertices, GivesThoseOfStarCellsToo) {
   }
 }
 
+// The four faces of a cell are the link of a vertex inside it: of the cells with that vertex in the
+// place of one corner each.
+TEST(LinkSums, AreZeroOfClosedLinksOnly) {
+  Random r(9);
+  for (int k = 0; k < rounds(); ++k) {
+    std::set<uint32_t> chosen;
+    while (chosen.size() < 5) chosen.insert(r.below(1000));
+    const std::vector<uint32_t> v(chosen.begin(), chosen.end());
+    const uint32_t centre = v[4];
+    std::vector<uint64_t> sums(1000), same(1000);
+    for (uint32_t j = 0; j < 4; ++j) {
+      EXPECT_EQ(sums[centre] == 0, j == 0) << "after " << j << " cells";
+      uint32_t cell[4] = {v[0], v[1], v[2], v[3]}, taken[4];
+      cell[j] = centre;
+      const bool turned = r.below(2) == 1;
+      if (turned) std::swap(cell[0], cell[3]);
+      for (size_t i = 0; i < 4; ++i) taken[i] = cell[i] == v[2] ? 0 : ~0u;
+      addToLinkSums(cell, turned, taken, sums.data());
+      addToLinkSumsOf(cell, turned, taken, same.data());
+    }
+    EXPECT_EQ(sums[centre], 0u);
+    for (uint32_t j : {0u, 1u, 3u}) EXPECT_NE(sums[v[j]], 0u);
+    EXPECT_EQ(sums[v[2]], 0u);  // it took nothing
+    EXPECT_TRUE(sums == same);
+  }
+}
+
 }  // namespace
 }  // namespace test
 }  // namespace tetstream

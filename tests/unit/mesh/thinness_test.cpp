@@ -2,6 +2,7 @@
 #include "thinness.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -30,6 +31,23 @@ TEST(Thinness, IsTheSquaredCosineOfTheSmallestAngle) {
   EXPECT_NEAR(of(corner), 1.0 / 3, 1e-15);
   EXPECT_NEAR(thinnessOfAngle(60), 0.25, 1e-15);
   EXPECT_EQ(thinnessOfAngle(0), 1);
+}
+
+TEST(Thinness, RegularityBoundsTheSmallestAngle) {
+  const auto regularityOf = [](const Cell& cell, double scale) {
+    double p[4][3];
+    for (size_t k = 0; k < 4; ++k) std::copy(cell[k].begin(), cell[k].end(), p[k]);
+    return regularity(p, scale);
+  };
+  const Cell regular = {{{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}}};
+  EXPECT_NEAR(regularityOf(regular, 1), 1, 1e-15);
+  EXPECT_NEAR(regularityOf(regular, 1024), 1, 1e-15);
+  EXPECT_EQ(regularityOf(sliver(0), 1), 0);
+  EXPECT_FALSE(regularityOf(sliver(1, 1e-120), 1) > 0);  // no number: it says nothing
+  for (double height : {1.0, 0.3, 0.1, 0.01}) {
+    const double sine2 = 1 - of(sliver(height));  // of the smallest angle
+    EXPECT_LE(regularityOf(sliver(height), 1), 4 * sine2) << height;
+  }
 }
 
 TEST(Thinness, FollowsTheAngleWhateverTheUnitAndTheOrderOfCorners) {

@@ -32,11 +32,27 @@ class Pair {
     span = std::max<int64_t>(span, static_cast<int64_t>(rank - model.begin()->first + 1));
   }
   void finalize(uint64_t vertex) { EXPECT_EQ(front.finalize(vertex), model.erase(vertex) == 1); }
+  // Found at once or not at all; never where one of them is not active.
+  void expectFour(uint64_t first) {
+    const auto v = static_cast<int64_t>(first);
+    const int64_t four[4] = {v + 3, v, v + 2, v + 1}, strange[4] = {v, v + 1, -v - 1, v + 2},
+                  far[4] = {v, v + 1, v + 2, v + (int64_t{1} << 50)};
+    uint32_t slots[4];
+    const bool found = front.findFour(four, slots);
+    for (int j = 0; found && j < 4; ++j) {
+      const auto it = model.find(static_cast<uint64_t>(four[j]));
+      ASSERT_NE(it, model.end());
+      ASSERT_EQ(it->second, slots[j]);
+    }
+    EXPECT_FALSE(front.findFour(strange, slots));
+    EXPECT_FALSE(front.findFour(far, slots));
+  }
   void expectSame(uint64_t from, uint64_t to) {
     for (uint64_t v = from; v < to; ++v) {
       const auto it = model.find(v);
       ASSERT_EQ(front.find(v), it == model.end() ? kNoSlot : it->second) << v;
     }
+    for (uint64_t v = from; v + 4 <= to; v += 3) expectFour(v);
     EXPECT_EQ(front.active(), model.size());
     EXPECT_EQ(front.width(), width);
     EXPECT_EQ(front.span(), span);
