@@ -1,6 +1,7 @@
 /* Memory may run out anywhere: the n-th allocation of a run fails, for all n, and each time there
  * is a status, no crash, and nothing is lost. This program defines the allocator itself, on top of
  * glibc's, and so counts what the library and its C++ run time take and give back. */
+#define _GNU_SOURCE /* sched_setaffinity */
 #include <stdlib.h>
 
 #include "rig.h"
@@ -17,6 +18,8 @@ int main(void) {
 #else
 
 #include <errno.h>
+#include <pthread.h>
+#include <sched.h>
 
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
@@ -28,10 +31,14 @@ static int watching; /* counts and fails only then */
 static long allocations, frees, fail_at;
 static int failed;
 
+/* Counts one more, of whichever thread, and returns the count. */
+static long count_one(long* counter) {
+  return __atomic_add_fetch(counter, 1, __ATOMIC_RELAXED);
+}
+
 /* Whether this allocation is to fail. */
 static int is_refused(void) {
-  if (!watching) return 0;
-  if (++allocations != fail_at) return 0;
+  if (!watching || count_one(&allocations) != fail_at) return 0;
   failed = 1;
   errno = ENOMEM;
   return 1;
@@ -58,12 +65,12 @@ int posix_memalign(void** out, size_t alignment, size_t size) {
 /* One that grows a block is an allocation and a free. */
 void* realloc(void* old, size_t size) {
   if (is_refused()) return NULL;
-  if (watching && old) ++frees;
+  if (watching && old) count_one(&frees);
   return __libc_realloc(old, size);
 }
 
 void free(void* old) {
-  if (watching && old) ++frees;
+  if (watching && old) count_one(&frees);
   __libc_free(old);
 }
 
@@ -345,6 +352,34 @@ static void make_bytes(int i, tetstream_writer** writer) {
   tetstream_reader_destroy(reader);
 }
 
+/* glibc keeps the stacks of some threads that have ended, with a block of memory each: as many as
+ * will run at once beside this one. */
+#define STACKS 4
+
+static void* wait_for_all(void* barrier) {
+  pthread_barrier_wait(barrier);
+  return NULL;
+}
+
+static void leave_stacks(void) {
+  pthread_barrier_t barrier;
+  pthread_t threads[STACKS];
+  pthread_barrier_init(&barrier, NULL, STACKS);
+  for (int i = 0; i < STACKS; ++i)
+    CHECK(!pthread_create(&threads[i], NULL, wait_for_all, &barrier));
+  for (int i = 0; i < STACKS; ++i) CHECK(!pthread_join(threads[i], NULL));
+  pthread_barrier_destroy(&barrier);
+}
+
+/* With one core nothing runs beside; with many more threads run than stacks are kept. */
+static void use_two_cores(void) {
+  cpu_set_t cores;
+  CHECK(!sched_getaffinity(0, sizeof cores, &cores));
+  for (int i = 0, left = 2; i < CPU_SETSIZE; ++i)
+    if (CPU_ISSET(i, &cores) && left-- <= 0) CPU_CLR(i, &cores);
+  CHECK(!sched_setaffinity(0, sizeof cores, &cores));
+}
+
 int main(void) {
   tetstream_writer* writers[4];
   if (getenv("TETSTREAM_MEMCHECK")) {
@@ -352,6 +387,8 @@ int main(void) {
     return NOT_RUN;
   }
   setvbuf(stdout, NULL, _IONBF, 0);
+  use_two_cores();
+  leave_stacks();
   mesh = hostile_mesh_create(2, 2, 3);
   CHECK(mesh != NULL);
   fails_cleanly_wherever_memory_ends("options", configure);
