@@ -17,7 +17,7 @@ same() {
 expect 0 generate ball ball.tets --cells 30000
 expect 0 generate fluid fluid.tets --cells 60000
 "$TETSTREAM_PYTHON" "$judge" grid grid.vtk
-same ball.tets density 1 0.1 100
+same ball.tets density 1.5 0.1 1000
 same fluid.tets density 2 0.1 1000
 same "$bracket" von_mises 20 0.1 1000
 same grid.vtk field 5 1 132 # through vertices
