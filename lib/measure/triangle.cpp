@@ -3,22 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tetstream {
+#include "vector3.h"
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+namespace tetstream {
 
 static void minus(const double a[3], const double b[3], double out[3]) {
   for (int k = 0; k < 3; ++k) out[k] = a[k] - b[k];
 }
 
 double triangleArea(const double* corners) {
-  double u[3], v[3];
+  double u[3], v[3], n[3];
   minus(corners + 3, corners, u);
   minus(corners + 6, corners, v);
-  const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                       u[0] * v[1] - u[1] * v[0]};
+  cross(u, v, n);
   return std::sqrt(dot(n, n)) / 2;
 }
 
