@@ -9,35 +9,15 @@ vtk_reads.py fills A...     exits with 0 if the tetrahedra of each file fill suc
                             and bear the labels of the cells that they come from
 """
 
+import os
 import sys
 
 import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-
-def reader_of(path):
-    if path.endswith(".vtkhdf"):
-        return vtk.vtkHDFReader()
-    if path.endswith(".vtu"):
-        return vtk.vtkXMLUnstructuredGridReader()
-    reader = vtk.vtkUnstructuredGridReader()
-    reader.ReadAllScalarsOn()
-    reader.ReadAllVectorsOn()
-    reader.ReadAllFieldsOn()
-    return reader
-
-
-def load(path):
-    reader = reader_of(path)
-    said = []
-    for event in ("ErrorEvent", "WarningEvent"):
-        reader.AddObserver(event, lambda *words: said.append(words))
-    reader.SetFileName(path)
-    reader.Update()
-    if said:
-        sys.exit(f"{path}: VTK is not content")
-    return reader.GetOutput()
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+from vtk_files import grid_of  # noqa: E402
 
 
 def arrays(data):
@@ -57,7 +37,7 @@ def mixed_into(sums, rows):
 
 def facts(path):
     """The names of all arrays, and the cells in an order that does not depend on that of the file."""
-    grid = load(path)
+    grid = grid_of(path)
     points, cells = arrays(grid.GetPointData()), arrays(grid.GetCellData())
     sums = mixed_into(np.full(grid.GetNumberOfPoints(), 7, "u8"), vtk_to_numpy(grid.GetPoints().GetData()))
     for name in sorted(points):
@@ -79,7 +59,7 @@ def same(*paths):
 
 
 def write(folder):
-    grid = load(f"{folder}/mesh.vtu")
+    grid = grid_of(f"{folder}/mesh.vtu")
     random = np.random.default_rng(1)
     points, cells = grid.GetNumberOfPoints(), grid.GetNumberOfCells()
     for data, name, values in (
@@ -118,7 +98,7 @@ def write(folder):
 
 
 def blocks(folder):
-    grid = load(f"{folder}/mesh.vtu")
+    grid = grid_of(f"{folder}/mesh.vtu")
     random = np.random.default_rng(3)
     for data in (grid.GetPointData(), grid.GetCellData()):
         while data.GetNumberOfArrays() > 0:
@@ -194,7 +174,7 @@ def shapes(folder):
 
 def fills(*paths):
     for path in paths:
-        grid = load(path)
+        grid = grid_of(path)
         p = vtk_to_numpy(grid.GetPoints().GetData())
         cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
         corners = p[cells]

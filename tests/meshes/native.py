@@ -24,7 +24,6 @@ import urllib.parse
 
 try:
     import numpy as np
-    import vtk
     from vtk.util.numpy_support import vtk_to_numpy
 except ImportError as missing:
     print("not run:", missing)
@@ -43,6 +42,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import face_labels  # noqa: E402
 import harness  # noqa: E402
+from vtk_files import grid_of  # noqa: E402
 
 TRIANGLE, TETRAHEDRON = 5, 10
 REGIONS = ("gmsh:physical", "medit:ref")  # how meshio calls a label of cells
@@ -137,28 +137,8 @@ def read_svb(path):
 # ------------------------------------------------------------------------------------ others
 
 
-def vtk_reader(path):
-    if path.endswith(".vtkhdf"):
-        return vtk.vtkHDFReader()
-    if path.endswith(".vtu"):
-        return vtk.vtkXMLUnstructuredGridReader()
-    reader = vtk.vtkUnstructuredGridReader()
-    reader.ReadAllScalarsOn()
-    reader.ReadAllVectorsOn()
-    reader.ReadAllFieldsOn()
-    return reader
-
-
 def with_vtk(path):
-    reader = vtk_reader(path)
-    said = []
-    for event in ("ErrorEvent", "WarningEvent"):
-        reader.AddObserver(event, lambda *words: said.append(words))
-    reader.SetFileName(path)
-    reader.Update()
-    if said:
-        sys.exit(f"{path}: VTK is not content")
-    grid = reader.GetOutput()
+    grid = grid_of(path)
     types = vtk_to_numpy(grid.GetCellTypesArray())
     corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
     starts = vtk_to_numpy(grid.GetCells().GetOffsetsArray())[:-1]
