@@ -159,26 +159,25 @@ size_t FileScan::plainNumbers(Number* out, size_t count) {
   return done;
 }
 
-void FileScan::integers(int64_t* out, size_t count, const char* what) {
+template <class Number>
+void FileScan::numbers(Number* out, size_t count, const char* what,
+                       Number (FileScan::*one)(const char*)) {
   while (count > 0) {
     const size_t plain = plainNumbers(out, count);
     out += plain;
     count -= plain;
     if (count == 0) break;
-    *out++ = integer(what);
+    *out++ = (this->*one)(what);
     --count;
   }
 }
 
+void FileScan::integers(int64_t* out, size_t count, const char* what) {
+  numbers(out, count, what, &FileScan::integer);
+}
+
 void FileScan::reals(double* out, size_t count, const char* what) {
-  while (count > 0) {
-    const size_t plain = plainNumbers(out, count);
-    out += plain;
-    count -= plain;
-    if (count == 0) break;
-    *out++ = real(what);
-    --count;
-  }
+  numbers(out, count, what, &FileScan::real);
 }
 
 void FileScan::checkRange(int64_t value, const char* what, int64_t least, int64_t most) const {

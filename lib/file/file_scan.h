@@ -65,6 +65,9 @@ class FileScan {
   bool passBlanks();
   template <class Number>
   size_t plainNumbers(Number* out, size_t count);
+  // `one`: reads what is not plain.
+  template <class Number>
+  void numbers(Number* out, size_t count, const char* what, Number (FileScan::*one)(const char*));
   size_t wordSize();
   [[noreturn]] void failWord(std::string_view word, const char* what) const;
 
