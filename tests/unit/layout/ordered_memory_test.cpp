@@ -14,7 +14,6 @@ TEST(OrderedMemory, IsKeptInEachOrderByPlace) {
   const size_t memory = 512 << 10;
   TestMesh mesh = withColumns(shuffled(fullGrid(n, n, n, 0.1), 7));
   for (const char* order : {"spatial", "brick", "z-order", "hilbert"}) {
-    if (slowRun() && order != std::string("brick")) continue;
     SCOPED_TRACE(order);
     MemorySource in(mesh.schema, mesh.view());
     SequentialSource sequential(in);

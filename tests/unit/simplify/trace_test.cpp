@@ -159,7 +159,6 @@ TEST(Traces, TellOfEveryVertexAndCollapseInEveryModeAndWindow) {
 
 TEST(Traces, TellOfStrongReductions) {
   for (Mode mode : kModes) expectTraces(fullGrid(8, 8, 16, 0.1), toRatio(0.02, 1500, mode));
-  if (slowRun()) return;
   for (Mode mode : kModes) expectTraces(fullGrid(16, 16, 24, 0.1), toRatio(0.1, 0, mode));
 }
 
