@@ -47,22 +47,11 @@ def read_by_gmsh(path):
         gmsh.finalize()
 
 
-def vtk_reader(vtk, path):
-    if path.endswith(".vtu"):
-        return vtk.vtkXMLUnstructuredGridReader()
-    if path.endswith(".vtk"):
-        return vtk.vtkUnstructuredGridReader()
-    if path.endswith(".vtkhdf"):
-        return vtk.vtkHDFReader()
-    raise ValueError(path)
-
-
 def read_by_vtk(path):
-    import vtk
-    reader = vtk_reader(vtk, path)
-    reader.SetFileName(path)
-    reader.Update()
-    if reader.GetOutput().GetNumberOfCells() == 0:
+    if not path.endswith((".vtu", ".vtk", ".vtkhdf")):
+        raise ValueError(path)
+    from vtk_files import grid_of
+    if grid_of(path).GetNumberOfCells() == 0:
         raise ValueError("nothing was read")
 
 
@@ -74,13 +63,10 @@ OTHERS = (read_by_meshio, read_by_gmsh, read_by_vtk)
 
 def write_text_vtk(source, target):
     import vtk
-    reader = vtk_reader(vtk, source)
-    reader.SetFileName(source)
-    reader.ReadAllScalarsOn()
-    reader.ReadAllVectorsOn()
+    from vtk_files import grid_of
     writer = vtk.vtkXMLUnstructuredGridWriter() if target.endswith(".vtu") \
         else vtk.vtkUnstructuredGridWriter()
-    writer.SetInputConnection(reader.GetOutputPort())
+    writer.SetInputData(grid_of(source))
     if target.endswith(".vtu"):
         writer.SetDataModeToAscii()
     writer.SetFileName(target)
@@ -88,12 +74,9 @@ def write_text_vtk(source, target):
 
 
 def points_and_cells(source):
-    import vtk
     from vtk.util.numpy_support import vtk_to_numpy
-    reader = vtk_reader(vtk, source)
-    reader.SetFileName(source)
-    reader.Update()
-    grid = reader.GetOutput()
+    from vtk_files import grid_of
+    grid = grid_of(source)
     return (vtk_to_numpy(grid.GetPoints().GetData()).tolist(),
             vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4).tolist())
 
