@@ -111,8 +111,7 @@ Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turne
 }
 
 // Whether the cell that the edge was refused for is still there and would be turned over now, too,
-// or thin.
-// Slots may have changed hands since: any cell of one end tells.
+// or thin. Slots may have changed hands since: any cell of one end tells.
 template <class Mesh>
 bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const {
   if (refusals_.size() == 0) return false;

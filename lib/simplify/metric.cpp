@@ -300,7 +300,7 @@ void Metric<S>::prepare(uint32_t first, uint32_t end) {
 }
 
 template <class S>
-void Metric<S>::addCells(uint32_t first, uint32_t end) {
+void Metric<S>::addCells(uint32_t first, uint32_t end) noexcept {
   for (uint32_t c = first; c < end;) {
     if (end - c >= kCellLanes && addLanes(c))
       c += kCellLanes;

@@ -19,8 +19,8 @@ class Metric {
   // Cells [first, end) of the window are new. First the units are chosen.
   void prepare(uint32_t first, uint32_t end);
   // Then all of them, some at a time: their orientation is settled, flat ones are marked, and their
-  // quadrics are added.
-  void addCells(uint32_t first, uint32_t end);
+  // quadrics are added. A thread that follows waits for it: it cannot fail.
+  void addCells(uint32_t first, uint32_t end) noexcept;
   // Then the same: how thin they are is looked at, which another thread may do beside it.
   void sampleAngles(uint32_t first, uint32_t end);
   // In the end the vertices of flat ones are locked, and the floor is chosen.
