@@ -168,9 +168,7 @@ size_t FileScan::readTextAhead(char* out, size_t size, bool* fails) {
   return done;
 }
 
-// What was read ahead and not taken is text again.
-void FileScan::leaveAhead() {
-  if (!ahead_) return;
+void FileScan::stopAhead() {
   const RowParser::Place place = ahead_->place();
   std::vector<char> text = ahead_->textLeft();
   text.insert(text.end(), unread_.begin() + static_cast<std::ptrdiff_t>(unread_at_), unread_.end());
@@ -179,13 +177,6 @@ void FileScan::leaveAhead() {
   origin_ += place.bytes;
   line_ += place.lines;
   ahead_.reset();
-}
-
-void FileScan::passLine() {
-  if (ahead_)
-    ahead_->passLine();
-  else
-    line();
 }
 
 // Plain numbers, each with a blank behind it, within what is in the buffer. Returns how many.
@@ -219,15 +210,25 @@ Number FileScan::number(const char* what) {
   return value;
 }
 
+// Of numbers that were read ahead as many as there are, or one that is not plain. Returns how many.
+template <class Number>
+[[gnu::noinline]] size_t FileScan::otherNumbers(Number* out, size_t count, const char* what) {
+  const size_t taken = ahead_ ? ahead_->take(out, count) : 0;
+  if (taken == 0) *out = number<Number>(what);
+  return std::max<size_t>(taken, 1);
+}
+
+// note: in text that is read ahead nothing is in the buffer, and so no plain number.
 template <class Number>
 void FileScan::numbers(Number* out, size_t count, const char* what) {
   while (count > 0) {
-    const size_t some = ahead_ ? ahead_->take(out, count) : plainNumbers(out, count);
+    const size_t plain = plainNumbers(out, count);
+    out += plain;
+    count -= plain;
+    if (count == 0) break;
+    const size_t some = otherNumbers(out, count, what);
     out += some;
     count -= some;
-    if (count == 0 || (ahead_ && some > 0)) continue;
-    *out++ = number<Number>(what);
-    --count;
   }
 }
 

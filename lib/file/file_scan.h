@@ -43,7 +43,13 @@ class FileScan {
   // nothing else: other threads may begin. Where the number of rows is not known, it may be larger.
   void expectRows(uint64_t rows, const RowPattern& pattern);
   void endRows() { leaveAhead(); }
-  void passLine();  // the rest of a row's line
+  // The rest of a row's line.
+  void passLine() {
+    if (ahead_)
+      ahead_->passLine();
+    else
+      line();
+  }
   // A text between quotes, or a word.
   std::string text(const char* what);
   void expect(const char* word);
@@ -71,13 +77,19 @@ class FileScan {
   bool refill();  // adds to the buffer; false at the end of the file
   size_t readText(char* out, size_t size);
   size_t readTextAhead(char* out, size_t size, bool* fails);
-  void leaveAhead();
+  // What was read ahead and not taken is text again.
+  void leaveAhead() {
+    if (ahead_) stopAhead();
+  }
+  void stopAhead();
   void checkRange(int64_t value, const char* what, int64_t least, int64_t most) const;
   bool passBlanks();
   template <class Number>
   size_t plainNumbers(Number* out, size_t count);
   template <class Number>
   Number number(const char* what);  // which need not be plain
+  template <class Number>
+  size_t otherNumbers(Number* out, size_t count, const char* what);
   template <class Number>
   void numbers(Number* out, size_t count, const char* what);
   size_t wordSize();
