@@ -29,8 +29,10 @@ static void openBytes(tetstream_reader& reader, const Format& format,
          bytes->name().c_str(), format.name);
   options.step = parseStep(run.step);
   // As in a run, whose option `memory` is for one thread.
-  const Tasks tasks(run.simplify.memory_bytes > 0 ? 1 : threadsOf(run), run.workers);
-  options.threads.tasks = &tasks;
+  if (settings) reader.workers = settings->values->workers();
+  const size_t threads = run.simplify.memory_bytes > 0 ? 1 : threadsOf(run);
+  reader.tasks = std::make_unique<const Tasks>(threads, run.workers);
+  options.threads.tasks = reader.tasks.get();
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
   wrappingOf(path, &options.path);
   bytes = unwrapped(std::move(bytes));

@@ -12,8 +12,9 @@
 
 namespace tetstream {
 
-// Text between tags is passed over, and where there is much of it, not looked at: numbers and base64
-// tell who reads them what is wrong with them. Memory is bounded: no tag or comment may be longer than 1 MiB, no entities can be declared.
+// Text between tags is passed over, and where there is much of it, not looked at: numbers and
+// base64 tell who reads them what is wrong with them. Memory is bounded: no tag or comment may be
+// longer than 1 MiB, no entities can be declared.
 class XmlFeed {
  public:
   using Attributes = const XML_Char**;
