@@ -28,10 +28,11 @@
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   A handle is used by one thread at a time; different handles may be used at once, also a reader
  *   and a writer of different simplifiers. There is no global state. A simplifier starts threads of
- *   its own (option `threads`), which end with it, or uses the
- *   caller's (tetstream_options_set_pool): they simplify, and read and write some batches
- *   ahead and behind; so does a function that opens a file, for text. Callbacks are called on the caller's thread alone, and so are pipes and all
- *   else that may wait for somebody read and written there; with the option `memory` everything.
+ *   its own (option `threads`), which end with it, or uses the caller's
+ *   (tetstream_options_set_pool): they simplify, and read and write some batches ahead and behind;
+ *   so do readers of some formats of files. Callbacks are called on the caller's thread alone, and
+ *   so are pipes and all else that may wait for somebody read and written there; with the option
+ *   `memory` everything.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
  *
@@ -335,9 +336,10 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
  * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
  * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none
- * of them), `tmpdir`, and `threads`, `memory` and the pool: of text formats several threads read the
- * numbers, of long runs of rows, until the function returns; those of the pool or, without options,
- * too, the library's own. With `memory` there is no other thread.
+ * of them), `tmpdir`, and `threads`, `memory` and the pool: several threads read long runs of rows of
+ * MSH, MEDIT, TetGen and SU2 text, in this function, and, where the mesh is read on the thread that
+ * called it, decompress .vtu; those of the pool or, without options, too, the library's own, which
+ * end with the reader. With `memory` there is no other thread.
  * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
                                                                const tetstream_options *options,

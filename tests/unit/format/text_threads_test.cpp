@@ -7,6 +7,7 @@
 #include <fstream>
 #include <random>
 
+#include "file_scan.h"
 #include "indexed_testing.h"
 #include "strange_workers.h"
 #include "tasks.h"
@@ -374,6 +375,48 @@ TEST(TextThreads, NeedNobodyWhoComes) {
   EXPECT_GT(none.refused, 0U);
   EXPECT_GT(lazy.waiting.size(), 0U);
   lazy.workAll();  // too late
+}
+
+// A long text, of which it is known how far it was read.
+class CountedBytes final : public ByteSource {
+ public:
+  CountedBytes(uint64_t size, uint64_t* at) : ByteSource("mesh"), size_(size), at_(at) {}
+  size_t read(void* out, size_t size) override {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(size, size_ - *at_));
+    for (size_t i = 0; i < n; ++i) static_cast<char*>(out)[i] = "17 4.5\n "[(*at_ + i) % 8];
+    *at_ += n;
+    return n;
+  }
+  size_t readAt(uint64_t, void*, size_t) override { return 0; }
+  bool seekable() const override { return true; }
+  uint64_t size() const override { return size_; }
+
+ private:
+  uint64_t size_, *at_;
+};
+
+TEST(TextThreads, ReadSomePiecesAheadAndNoMore) {
+  constexpr uint64_t kRows = 50000, kPieceBytes = 1000;
+  for (const auto& tasks : someTasks()) {
+    uint64_t read = 0;
+    FileScan scan(std::make_unique<CountedBytes>(8 * kRows, &read), '#',
+                  {tasks.get(), kPieceBytes});
+    scan.expectRows(kRows, {{{false, 1}, {true, 1}}});
+    for (uint64_t i = 0; i < kRows; ++i) {
+      int64_t whole;
+      double real;
+      scan.integers(&whole, 1, "a number");
+      scan.reals(&real, 1, "a number");
+      ASSERT_TRUE(whole == 17 && real == 4.5);
+      ASSERT_LE(read, 8 * i + (2 * tasks->threads() + 1) * kPieceBytes);
+      if (i % 1000 == 0) {
+        EXPECT_EQ(scan.offset(), 8 * i + 6);
+        EXPECT_EQ(scan.place(), "mesh: line " + std::to_string(i + 1));
+      }
+    }
+    EXPECT_TRUE(scan.word().empty());
+    EXPECT_EQ(read, 8 * kRows);
+  }
 }
 
 class TetgenThreads : public testing::Test {
