@@ -202,7 +202,7 @@ void Parser::addStreamOptions(CLI::App* command) {
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
         info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
         info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER ||
-        info.id == TETSTREAM_OPTION_STEP)
+        info.id == TETSTREAM_OPTION_STEP || info.id == TETSTREAM_OPTION_THREADS)
       addTableOption(command, info);
 }
 
@@ -338,7 +338,8 @@ void Parser::addCompare() {
     if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
         info.id == TETSTREAM_OPTION_SEED || info.id == TETSTREAM_OPTION_REGIONS ||
         info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
-        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_STEP)
+        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_STEP ||
+        info.id == TETSTREAM_OPTION_THREADS)
       addTableOption(command, info);
   }
   addReport(command);

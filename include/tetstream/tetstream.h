@@ -28,10 +28,11 @@
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   A handle is used by one thread at a time; different handles may be used at once, also a reader
  *   and a writer of different simplifiers. There is no global state. A simplifier starts threads of
- *   its own (option `threads`), which end with it, or uses the
- *   caller's (tetstream_options_set_pool): they simplify, and read and write some batches
- *   ahead and behind. Callbacks are called on the caller's thread alone, and so are pipes and all
- *   else that may wait for somebody read and written there; with the option `memory` everything.
+ *   its own (option `threads`), which end with it, or uses the caller's
+ *   (tetstream_options_set_pool): they simplify, and read and write some batches ahead and behind;
+ *   so do readers of some formats of files. Callbacks are called on the caller's thread alone, and
+ *   so are pipes and all else that may wait for somebody read and written there; with the option
+ *   `memory` everything.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
  *
@@ -204,10 +205,10 @@ typedef struct tetstream_pool_callbacks {
   int32_t (*submit)(void *user, tetstream_work work, void *argument);
 } tetstream_pool_callbacks;
 
-/* Simplifiers with these options start no thread, but give work to the pool. The option `threads`
- * then says how many are at work at once, the caller's among them; 0: those of the pool and the
- * caller's. The table is copied; `user` must stay as long as the options and what was created with
- * them. NULL: threads of the library again. Since 0.1. */
+/* Simplifiers with these options, and readers opened with them, start no thread, but give work to
+ * the pool. The option `threads` then says how many are at work at once, the caller's among them;
+ * 0: those of the pool and the caller's. The table is copied; `user` must stay as long as the
+ * options and what was created with them. NULL: threads of the library again. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_set_pool(tetstream_options *options,
                                                           const tetstream_pool_callbacks *pool);
 /* The sentence for the last failure with this handle, "" if there was none. Lives until the next
@@ -335,7 +336,10 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
  * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
  * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none
- * of them) and `tmpdir`.
+ * of them), `tmpdir`, and `threads`, `memory` and the pool: several threads read long runs of rows of
+ * MSH, MEDIT, TetGen and SU2 text, in this function, and, where the mesh is read on the thread that
+ * called it, decompress .vtu; those of the pool or, without options, too, the library's own, which
+ * end with the reader. With `memory` there is no other thread.
  * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
                                                                const tetstream_options *options,

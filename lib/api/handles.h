@@ -15,6 +15,7 @@
 #include "rounding_source.h"
 #include "spooled_mesh.h"
 #include "structs.h"
+#include "tasks.h"
 #include "traces.h"
 
 struct tetstream_options : tetstream::Handle {
@@ -24,6 +25,8 @@ struct tetstream_options : tetstream::Handle {
 
 struct tetstream_reader : tetstream::Handle {
   static constexpr const char* kNoun = "reader";
+  std::shared_ptr<tetstream::Workers> workers;    // of the options
+  std::unique_ptr<const tetstream::Tasks> tasks;  // that help to read the input
   tetstream::Input input;
   tetstream::CallbackSource* callbacks = nullptr;  // input.stream, where that is the caller's
   std::unique_ptr<const tetstream::PublicSchema> known;

@@ -4,6 +4,7 @@
 #include "handles.h"
 #include "memory_source.h"
 #include "registry.h"
+#include "tasks.h"
 #include "time_steps.h"
 
 using namespace tetstream;
@@ -27,6 +28,11 @@ static void openBytes(tetstream_reader& reader, const Format& format,
     fail(Status::kUnsupported, "%s: only .tets files can be recovered, not those of format \"%s\"",
          bytes->name().c_str(), format.name);
   options.step = parseStep(run.step);
+  // As in a run, whose option `memory` is for one thread.
+  if (settings) reader.workers = settings->values->workers();
+  const size_t threads = run.simplify.memory_bytes > 0 ? 1 : threadsOf(run);
+  reader.tasks = std::make_unique<const Tasks>(threads, run.workers);
+  options.threads.tasks = reader.tasks.get();
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
   wrappingOf(path, &options.path);
   bytes = unwrapped(std::move(bytes));

@@ -2,19 +2,103 @@
 
 #include <algorithm>
 #include <bit>
+#include <condition_variable>
 #include <cstring>
+#include <exception>
+#include <mutex>
 
 #include "check_sum.h"
 #include "status.h"
 
 namespace tetstream {
 
-RowSpool::RowSpool(size_t row_bytes, const std::string& temp_dir, SpoolShape shape)
+static void writeBlocksTo(SpoolFile& file, const std::vector<unsigned char>& bytes,
+                          size_t block_bytes) {
+  for (size_t done = 0; done < bytes.size(); done += block_bytes) {
+    const size_t size = std::min(bytes.size() - done, block_bytes);
+    const uint64_t sum = checkSum(bytes.data() + done, size);
+    file.append(bytes.data() + done, size);
+    file.append(&sum, sizeof sum);
+  }
+}
+
+// As a piece of work: writes what waits. One that comes late finds nothing.
+class RowSpool::Behind final : public Work {
+ public:
+  Behind(SpoolFile& file, size_t block_bytes) : file_(file), block_bytes_(block_bytes) {}
+
+  // Takes the bytes, and gives other memory for them.
+  void write(std::vector<unsigned char>& bytes, const Tasks& tasks) {
+    settle();
+    bytes_.swap(bytes);
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      waits_ = true;
+    }
+    tasks.submit(this);  // where nobody takes it, settle writes
+  }
+
+  // Everything is written then. Throws what came of it.
+  void settle() {
+    Lock lock(mutex_);
+    if (waits_) writeWaiting(lock);
+    done_.wait(lock, [this] { return !is_busy_; });
+    if (error_) std::rethrow_exception(error_);
+  }
+
+  // Last.
+  void close() noexcept {
+    Lock lock(mutex_);
+    waits_ = false;
+    done_.wait(lock, [this] { return !is_busy_; });
+    bytes_ = {};
+  }
+
+  void run() noexcept override {
+    Lock lock(mutex_);
+    if (waits_) writeWaiting(lock);
+  }
+
+ private:
+  using Lock = std::unique_lock<std::mutex>;
+
+  void writeWaiting(Lock& lock) noexcept {
+    waits_ = false;
+    is_busy_ = true;
+    lock.unlock();
+    std::exception_ptr error;
+    try {
+      writeBlocksTo(file_, bytes_, block_bytes_);
+    } catch (...) {
+      error = std::current_exception();
+    }
+    lock.lock();
+    error_ = error;
+    is_busy_ = false;
+    done_.notify_all();
+  }
+
+  SpoolFile& file_;
+  const size_t block_bytes_;
+  std::vector<unsigned char> bytes_;
+  std::mutex mutex_;
+  std::condition_variable done_;
+  bool waits_ = false, is_busy_ = false;
+  std::exception_ptr error_;
+};
+
+RowSpool::RowSpool(size_t row_bytes, const std::string& temp_dir, SpoolShape shape,
+                   const Tasks* tasks)
     : row_bytes_(row_bytes),
       blocks_(shape.blocks),
       shift_(static_cast<unsigned>(
           std::bit_width(std::max<size_t>(shape.block_bytes / row_bytes, 1)) - 1)),
-      temp_dir_(temp_dir) {}
+      temp_dir_(temp_dir),
+      tasks_(tasks && tasks->threads() > 1 ? tasks : nullptr) {}
+
+RowSpool::~RowSpool() {
+  if (behind_) (*behind_)->close();
+}
 
 size_t RowSpool::bytesOf(uint64_t block) const {
   const uint64_t in_block = std::min(rows_ - (block << shift_), uint64_t{1} << shift_);
@@ -23,17 +107,19 @@ size_t RowSpool::bytesOf(uint64_t block) const {
 
 // Whole blocks, at the end the last one, too.
 void RowSpool::writeBlocks(bool all) {
-  if (!file_) file_.emplace(temp_dir_);
-  size_t done = 0;
-  while (held_.size() - done >= (all ? 1 : blockBytes())) {
-    const size_t bytes = std::min(held_.size() - done, blockBytes());
-    const uint64_t sum = checkSum(held_.data() + done, bytes);
-    file_->append(held_.data() + done, bytes);
-    file_->append(&sum, sizeof sum);
-    done += bytes;
-    ++written_;
+  if (!file_) {
+    file_.emplace(temp_dir_);
+    if (tasks_) behind_.emplace(new Behind(*file_, blockBytes()));
   }
-  held_.erase(held_.begin(), held_.begin() + static_cast<std::ptrdiff_t>(done));
+  const size_t whole = all ? held_.size() : held_.size() - held_.size() % blockBytes();
+  const std::vector<unsigned char> rest(held_.begin() + static_cast<std::ptrdiff_t>(whole),
+                                        held_.end());
+  held_.resize(whole);
+  if (behind_)
+    (*behind_)->write(held_, *tasks_);
+  else
+    writeBlocksTo(*file_, held_, blockBytes());
+  held_.assign(rest.begin(), rest.end());
 }
 
 void RowSpool::append(const void* rows, size_t count) {
@@ -51,6 +137,11 @@ void RowSpool::append(const void* rows, size_t count) {
 void RowSpool::finish() {
   if (!file_) return;
   writeBlocks(true);
+  if (behind_) {
+    (*behind_)->settle();
+    (*behind_)->close();
+    behind_.reset();
+  }
   held_ = {};  // until it is read
   block_at_.assign(blocks_, 0);
 }

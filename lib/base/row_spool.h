@@ -1,4 +1,5 @@
-// base: rows of fixed width, written in one order and read in another. Depends on bytes.h.
+// base: rows of fixed width, written in one order and read in another. Depends on bytes.h,
+// tasks.h.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,7 @@
 #include <vector>
 
 #include "bytes.h"
+#include "tasks.h"
 
 namespace tetstream {
 
@@ -20,7 +22,12 @@ struct SpoolShape {
 // back: a file that was damaged is no mesh that is wrong. What fits the memory stays there.
 class RowSpool {
  public:
-  RowSpool(size_t row_bytes, const std::string& temp_dir, SpoolShape shape = {});
+  // With `tasks`, which may be null and are borrowed up to finish, another thread writes some
+  // blocks while rows are appended; they take their memory once more. A failure to write comes
+  // later then.
+  RowSpool(size_t row_bytes, const std::string& temp_dir, SpoolShape shape = {},
+           const Tasks* tasks = nullptr);
+  ~RowSpool();
   void append(const void* rows, size_t count);
   void finish();                    // before the first read
   const void* row(uint64_t index);  // lives until the next call
@@ -29,6 +36,7 @@ class RowSpool {
   uint64_t diskBytes() const { return file_ ? file_->size() : 0; }
 
  private:
+  class Behind;
   size_t blockBytes() const { return row_bytes_ << shift_; }
   size_t bytesOf(uint64_t block) const;
   void writeBlocks(bool all);
@@ -38,9 +46,11 @@ class RowSpool {
   unsigned shift_;  // rows in a block: 1 << shift_
   std::string temp_dir_;
   std::optional<SpoolFile> file_;
-  std::vector<unsigned char> held_;  // to be written; then the blocks that are held
-  std::vector<uint64_t> block_at_;   // per place: the block it holds, plus one
-  uint64_t rows_ = 0, written_ = 0;  // blocks
+  const Tasks* tasks_;
+  std::optional<Kept<Behind>> behind_;  // once there is a file
+  std::vector<unsigned char> held_;     // to be written; then the blocks that are held
+  std::vector<uint64_t> block_at_;      // per place: the block it holds, plus one
+  uint64_t rows_ = 0;
 };
 
 }  // namespace tetstream

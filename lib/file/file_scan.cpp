@@ -1,7 +1,6 @@
 #include "file_scan.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <limits>
 
@@ -13,16 +12,8 @@ namespace tetstream {
 namespace {
 
 constexpr size_t kBufferBytes = 1 << 18;
-// What is in the buffer before a number is parsed, so that it is parsed where it lies; and the
-// longest word.
-constexpr size_t kAhead = 1024;
-
-inline bool isSpace(char c) {
-  constexpr uint64_t spaces =
-      uint64_t{1} << ' ' | uint64_t{1} << '\n' | uint64_t{1} << '\t' | uint64_t{1} << '\r';
-  const auto code = static_cast<unsigned char>(c);
-  return code <= ' ' && (spaces >> code & 1);
-}
+// What is in the buffer before a number is parsed, so that it is parsed where it lies.
+constexpr size_t kAhead = kMostWordBytes;
 
 std::string countText(uint64_t count) {
   return std::to_string(count);
@@ -30,27 +21,47 @@ std::string countText(uint64_t count) {
 
 }  // namespace
 
-FileScan::FileScan(std::unique_ptr<ByteSource> bytes, char comment)
-    : bytes_(std::move(bytes)), comment_(comment), buffer_(kBufferBytes + 1) {}
+FileScan::FileScan(std::unique_ptr<ByteSource> bytes, char comment, const TextThreads& threads)
+    : bytes_(std::move(bytes)), comment_(comment), threads_(threads), buffer_(kBufferBytes + 1) {}
 
 bool FileScan::refill() {
-  if (ended_) return false;
+  if (ended_ && unread_at_ == unread_.size()) return false;
   std::memmove(buffer_.data(), buffer_.data() + at_, filled_ - at_);
   filled_ -= at_;
   origin_ += at_;
   at_ = 0;
   if (filled_ == kBufferBytes) return true;
-  const size_t got = bytes_->read(buffer_.data() + filled_, kBufferBytes - filled_);
-  ended_ = got == 0;
+  const size_t got = readText(buffer_.data() + filled_, kBufferBytes - filled_);
   filled_ += got;
   buffer_[filled_] = 0;
   return got > 0;
 }
 
+size_t FileScan::readText(char* out, size_t size) {
+  if (unread_at_ < unread_.size()) {
+    const size_t n = std::min(size, unread_.size() - unread_at_);
+    std::memcpy(out, unread_.data() + unread_at_, n);
+    unread_at_ += n;
+    return n;
+  }
+  unread_ = {};
+  unread_at_ = 0;
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
+  const size_t got = ended_ ? 0 : bytes_->read(out, size);
+  ended_ = got == 0;
+  return got;
+}
+
+bool FileScan::atEnd() {
+  leaveAhead();
+  return at_ == filled_ && !refill();
+}
+
 // To the next word; false at the end of the file.
 bool FileScan::passBlanks() {
+  leaveAhead();
   for (;;) {
-    while (isSpace(buffer_[at_])) line_ += buffer_[at_++] == '\n';
+    while (isBlank(buffer_[at_])) line_ += buffer_[at_++] == '\n';
     if (at_ == filled_) {
       if (!refill()) return false;
     } else if (buffer_[at_] == comment_ && comment_) {
@@ -66,7 +77,7 @@ bool FileScan::passBlanks() {
 size_t FileScan::wordSize() {
   size_t size = 0;
   const size_t most = std::min(filled_ - at_, kAhead);
-  while (size < most && !isSpace(buffer_[at_ + size])) ++size;
+  while (size < most && !isBlank(buffer_[at_ + size])) ++size;
   if (size == kAhead) failBad("a word of more than " + countText(kAhead) + " characters");
   return size;
 }
@@ -83,6 +94,7 @@ std::string_view FileScan::word() {
 }
 
 std::string_view FileScan::line() {
+  leaveAhead();
   size_t size = 0;
   const char* found = nullptr;
   for (;;) {
@@ -102,6 +114,7 @@ std::string_view FileScan::line() {
 }
 
 bool FileScan::lineEnds() {
+  leaveAhead();
   for (;;) {
     while (buffer_[at_] == ' ' || buffer_[at_] == '\t' || buffer_[at_] == '\r') ++at_;
     if (at_ < filled_) break;
@@ -111,7 +124,8 @@ bool FileScan::lineEnds() {
 }
 
 std::string FileScan::place() const {
-  return name() + (binary_ ? ": byte " + countText(offset()) : ": line " + countText(line_));
+  if (binary_) return name() + ": byte " + countText(offset());
+  return name() + ": line " + countText(line_ + (ahead_ ? ahead_->place().lines : 0));
 }
 
 void FileScan::failHere(Status status, const std::string& text) const {
@@ -123,20 +137,46 @@ void FileScan::failWord(std::string_view word, const char* what) const {
   failBad(quoted(word) + " is no number; " + what + " should be here");
 }
 
-int64_t FileScan::integer(const char* what) {
-  if (!passBlanks()) failWord({}, what);
-  const char* begin = buffer_.data() + at_;
-  const char* end = begin + std::min(filled_ - at_, kAhead);
-  int64_t value = 0;
-  const std::from_chars_result r = std::from_chars(begin, end, value);
-  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isSpace(*r.ptr))) {
-    at_ = static_cast<size_t>(r.ptr - buffer_.data());
-    return value;
+// ------------------------------------------------------------------------------ rows of numbers
+
+void FileScan::expectRows(uint64_t rows, const RowPattern& pattern) {
+  leaveAhead();
+  const bool is_long = rows >= threads_.piece_bytes / pattern.width();
+  if (!threads_.tasks || threads_.tasks->threads() < 2 || !is_long) return;
+  unread_.erase(unread_.begin(), unread_.begin() + static_cast<std::ptrdiff_t>(unread_at_));
+  unread_.insert(unread_.begin(), buffer_.data() + at_, buffer_.data() + filled_);
+  unread_at_ = 0;
+  origin_ += at_;
+  at_ = filled_ = 0;
+  buffer_[0] = 0;
+  ahead_ = std::make_unique<NumbersAhead>(
+      threads_, RowParser(pattern, comment_), rows,
+      [this](char* out, size_t size, bool* fails) { return readTextAhead(out, size, fails); });
+}
+
+// Up to `size` bytes, fewer only at the end, or where reading failed, which is said when all text
+// before was used.
+size_t FileScan::readTextAhead(char* out, size_t size, bool* fails) {
+  size_t done = 0;
+  try {
+    while (const size_t got = done < size && !error_ ? readText(out + done, size - done) : 0)
+      done += got;
+  } catch (...) {
+    error_ = std::current_exception();
   }
-  const std::string_view found(begin, wordSize());
-  if (!parseInteger(found, &value)) failWord(found, what);
-  at_ += found.size();
-  return value;
+  *fails = error_ != nullptr;
+  return done;
+}
+
+void FileScan::stopAhead() {
+  const RowParser::Place place = ahead_->place();
+  std::vector<char> text = ahead_->textLeft();
+  text.insert(text.end(), unread_.begin() + static_cast<std::ptrdiff_t>(unread_at_), unread_.end());
+  unread_ = std::move(text);
+  unread_at_ = 0;
+  origin_ += place.bytes;
+  line_ += place.lines;
+  ahead_.reset();
 }
 
 // Plain numbers, each with a blank behind it, within what is in the buffer. Returns how many.
@@ -148,10 +188,10 @@ size_t FileScan::plainNumbers(Number* out, size_t count) {
   uint64_t lines = 0;
   size_t done = 0;
   for (; done < count; ++done) {
-    while (isSpace(*at)) lines += *at++ == '\n';
+    while (isBlank(*at)) lines += *at++ == '\n';
     if (at > last) break;
     const char* end = readPlain(at, out + done);
-    if (!end || !isSpace(*end)) break;
+    if (!end || !isBlank(*end)) break;
     at = end;
   }
   at_ = static_cast<size_t>(at - buffer_.data());
@@ -160,24 +200,56 @@ size_t FileScan::plainNumbers(Number* out, size_t count) {
 }
 
 template <class Number>
-void FileScan::numbers(Number* out, size_t count, const char* what,
-                       Number (FileScan::*one)(const char*)) {
+Number FileScan::number(const char* what) {
+  if (!passBlanks()) failWord({}, what);
+  const char* begin = buffer_.data() + at_;
+  Number value = 0;
+  const char* end = readWord(begin, begin + std::min(filled_ - at_, kAhead), &value);
+  if (!end || end == begin + kAhead) failWord({begin, wordSize()}, what);
+  at_ = static_cast<size_t>(end - buffer_.data());
+  return value;
+}
+
+// Of numbers that were read ahead as many as there are, or one that is not plain. Returns how many.
+template <class Number>
+[[gnu::noinline]] size_t FileScan::otherNumbers(Number* out, size_t count, const char* what) {
+  const size_t taken = ahead_ ? ahead_->take(out, count) : 0;
+  if (taken == 0) *out = number<Number>(what);
+  return std::max<size_t>(taken, 1);
+}
+
+// note: in text that is read ahead nothing is in the buffer, and so no plain number.
+template <class Number>
+void FileScan::numbers(Number* out, size_t count, const char* what) {
   while (count > 0) {
     const size_t plain = plainNumbers(out, count);
     out += plain;
     count -= plain;
     if (count == 0) break;
-    *out++ = (this->*one)(what);
-    --count;
+    const size_t some = otherNumbers(out, count, what);
+    out += some;
+    count -= some;
   }
 }
 
+int64_t FileScan::integer(const char* what) {
+  int64_t value;
+  integers(&value, 1, what);
+  return value;
+}
+
+double FileScan::real(const char* what) {
+  double value;
+  reals(&value, 1, what);
+  return value;
+}
+
 void FileScan::integers(int64_t* out, size_t count, const char* what) {
-  numbers(out, count, what, &FileScan::integer);
+  numbers(out, count, what);
 }
 
 void FileScan::reals(double* out, size_t count, const char* what) {
-  numbers(out, count, what, &FileScan::real);
+  numbers(out, count, what);
 }
 
 void FileScan::checkRange(int64_t value, const char* what, int64_t least, int64_t most) const {
@@ -195,28 +267,6 @@ int64_t FileScan::integer(const char* what, int64_t least, int64_t most) {
 void FileScan::integers(int64_t* out, size_t count, const char* what, int64_t least, int64_t most) {
   integers(out, count, what);
   for (size_t i = 0; i < count; ++i) checkRange(out[i], what, least, most);
-}
-
-double FileScan::real(const char* what) {
-  if (!passBlanks()) failWord({}, what);
-  const char* begin = buffer_.data() + at_;
-  const char* end = begin + std::min(filled_ - at_, kAhead);
-  double value = 0;
-  const std::from_chars_result r = std::from_chars(begin, end, value);
-  if (r.ec == std::errc() && (r.ptr == buffer_.data() + filled_ || isSpace(*r.ptr))) {
-    at_ = static_cast<size_t>(r.ptr - buffer_.data());
-    return value;
-  }
-  const std::string_view found(begin, wordSize());
-  // A plus sign, a number out of range; and Fortran's exponents, as in 1.5D+03.
-  if (!parseNumber(found, ScalarType::kFloat64, &value)) {
-    std::string usual(found);
-    std::replace_if(
-        usual.begin(), usual.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
-    if (!parseNumber(usual, ScalarType::kFloat64, &value)) failWord(found, what);
-  }
-  at_ += found.size();
-  return value;
 }
 
 std::string FileScan::text(const char* what) {
@@ -238,6 +288,7 @@ void FileScan::expect(const char* wanted) {
 }
 
 void FileScan::bytes(void* out, size_t size, const char* what) {
+  leaveAhead();
   binary_ = true;
   char* to = static_cast<char*>(out);
   while (size > 0) {
@@ -252,12 +303,14 @@ void FileScan::bytes(void* out, size_t size, const char* what) {
 }
 
 std::string_view FileScan::peekBytes(size_t size) {
+  leaveAhead();
   while (filled_ - at_ < size && refill()) {
   }
   return {buffer_.data() + at_, std::min(size, filled_ - at_)};
 }
 
 void FileScan::skipPast(std::string_view mark) {
+  leaveAhead();
   for (;;) {
     const std::string_view held(buffer_.data() + at_, filled_ - at_);
     const size_t found = held.find(mark);
@@ -276,6 +329,7 @@ void FileScan::skipPast(std::string_view mark) {
 }
 
 void FileScan::skipTo(uint64_t place, const char* what) {
+  leaveAhead();
   while (offset() < place) {
     if (at_ == filled_ && !refill()) failBad(std::string("the file ends within ") + what);
     at_ += static_cast<size_t>(std::min<uint64_t>(filled_ - at_, place - offset()));

@@ -1,31 +1,34 @@
 // file: a file read from front to end: words and numbers of text, and binary numbers between
-// them. Depends on bytes.h.
+// them. Depends on bytes.h, numbers_ahead.h.
 #pragma once
 
 #include <cstdint>
+#include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bytes.h"
+#include "numbers_ahead.h"
 #include "status.h"
 
 namespace tetstream {
 
-// Memory is one buffer. Errors name the file and the line, or the byte once anything binary was
-// read; what is asked for is said in the words of `what`.
+// Memory is one buffer, and pieces of text where several threads read rows of numbers, which gives
+// the same numbers and the same errors. Errors name the file and the line, or the byte once
+// anything binary was read; what is asked for is said in the words of `what`.
 class FileScan {
  public:
   // From `comment` (0: none) to the end of the line is blank.
-  FileScan(std::unique_ptr<ByteSource> bytes, char comment);
+  FileScan(std::unique_ptr<ByteSource> bytes, char comment, const TextThreads& threads = {});
 
   // The next word between blanks; empty at the end of the file. Views live until the next call.
   std::string_view word();
   std::string_view peekWord();  // the same, which stays the next one
   // The rest of the line, without its end; the next call starts on the next line.
   std::string_view line();
-  bool atEnd() { return at_ == filled_ && !refill(); }
+  bool atEnd();
   // True, with nothing taken, if no word is left before the end of the line.
   bool lineEnds();
 
@@ -36,6 +39,17 @@ class FileScan {
   void integers(int64_t* out, size_t count, const char* what);
   void integers(int64_t* out, size_t count, const char* what, int64_t least, int64_t most);
   void reals(double* out, size_t count, const char* what);
+  // Says that so many rows come, which integers, reals and passLine are to read, in their order and
+  // nothing else: other threads may begin. Where the number of rows is not known, it may be larger.
+  void expectRows(uint64_t rows, const RowPattern& pattern);
+  void endRows() { leaveAhead(); }
+  // The rest of a row's line.
+  void passLine() {
+    if (ahead_)
+      ahead_->passLine();
+    else
+      line();
+  }
   // A text between quotes, or a word.
   std::string text(const char* what);
   void expect(const char* word);
@@ -48,7 +62,7 @@ class FileScan {
   void skipPast(std::string_view mark);
   void skipTo(uint64_t offset, const char* what);  // forward
 
-  uint64_t offset() const { return origin_ + at_; }
+  uint64_t offset() const { return origin_ + at_ + (ahead_ ? ahead_->place().bytes : 0); }
   // Bytes from here to the end, as far as that is known: else the largest number.
   uint64_t bytesLeft() const;
   const std::string& name() const { return bytes_->name(); }
@@ -61,18 +75,33 @@ class FileScan {
 
  private:
   bool refill();  // adds to the buffer; false at the end of the file
+  size_t readText(char* out, size_t size);
+  size_t readTextAhead(char* out, size_t size, bool* fails);
+  // What was read ahead and not taken is text again.
+  void leaveAhead() {
+    if (ahead_) stopAhead();
+  }
+  void stopAhead();
   void checkRange(int64_t value, const char* what, int64_t least, int64_t most) const;
   bool passBlanks();
   template <class Number>
   size_t plainNumbers(Number* out, size_t count);
-  // `one`: reads what is not plain.
   template <class Number>
-  void numbers(Number* out, size_t count, const char* what, Number (FileScan::*one)(const char*));
+  Number number(const char* what);  // which need not be plain
+  template <class Number>
+  size_t otherNumbers(Number* out, size_t count, const char* what);
+  template <class Number>
+  void numbers(Number* out, size_t count, const char* what);
   size_t wordSize();
   [[noreturn]] void failWord(std::string_view word, const char* what) const;
 
   std::unique_ptr<ByteSource> bytes_;
   char comment_;
+  const TextThreads threads_;
+  std::unique_ptr<NumbersAhead> ahead_;  // of the text behind the buffer, which is empty then
+  std::vector<char> unread_;             // text that was taken ahead in vain
+  size_t unread_at_ = 0;
+  std::exception_ptr error_;  // of the text behind that
   bool binary_ = false, ended_ = false;
   uint64_t origin_ = 0, line_ = 1;  // of buffer_[0] in the file; of at_
   size_t at_ = 0, filled_ = 0;

@@ -8,6 +8,7 @@
 
 #include "bytes.h"
 #include "source.h"
+#include "text_pieces.h"
 
 namespace tetstream {
 
@@ -20,6 +21,7 @@ struct ReadOptions {
   bool recover = false;      // .tets: what is whole of a file that is damaged or cut off
   bool split = false;        // hexahedra, prisms and pyramids into tetrahedra; else they are errors
   int64_t step = kLastStep;  // which of the time steps, from 0, of a file that has several
+  TextThreads threads;       // who helps the thread that opens
 };
 
 struct WriteOptions {

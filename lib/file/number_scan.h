@@ -22,6 +22,10 @@ class NumberScan {
     integers(&value, 1, width, what);
     return value;
   }
+  // As FileScan's: of text, several threads may read the rows.
+  void expectRows(uint64_t rows, const RowPattern& pattern) {
+    if (!binary_) file_.expectRows(rows, pattern);
+  }
   // The number of things to come, at least `least_bytes` each; checked against the file's size.
   uint64_t count(size_t width, size_t least_bytes, const char* what);
 

@@ -11,6 +11,14 @@
 
 namespace tetstream {
 
+// What parts words of text.
+inline bool isBlank(char c) {
+  constexpr uint64_t blanks =
+      uint64_t{1} << ' ' | uint64_t{1} << '\n' | uint64_t{1} << '\t' | uint64_t{1} << '\r';
+  const auto code = static_cast<unsigned char>(c);
+  return code <= ' ' && (blanks >> code & 1);
+}
+
 // Bytes from a number's first on that may be looked at, whatever they are; they must be there.
 constexpr size_t kPlainNumberBytes = 64;
 

@@ -1,8 +1,11 @@
 #include "text_number.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <type_traits>
+
+#include "plain_number.h"
 
 namespace tetstream {
 
@@ -88,6 +91,34 @@ bool parseNumber(std::string_view word, ScalarType type, void* out) {
 
 bool parseInteger(std::string_view word, int64_t* out) {
   return parseAs(withoutPlus(word), out) == std::errc();
+}
+
+static bool parseWord(std::string_view word, int64_t* out) {
+  return parseInteger(word, out);
+}
+
+static bool parseWord(std::string_view word, double* out) {
+  if (parseNumber(word, ScalarType::kFloat64, out)) return true;
+  std::string usual(word);
+  std::replace_if(
+      usual.begin(), usual.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
+  return parseNumber(usual, ScalarType::kFloat64, out);
+}
+
+template <class T>
+static const char* readWordAs(const char* begin, const char* end, T* value) {
+  const std::from_chars_result r = std::from_chars(begin, end, *value);
+  if (r.ec == std::errc() && (r.ptr == end || isBlank(*r.ptr))) return r.ptr;
+  const char* word_end = std::find_if(begin, end, isBlank);
+  return parseWord({begin, word_end}, value) ? word_end : nullptr;
+}
+
+const char* readWord(const char* begin, const char* end, int64_t* value) {
+  return readWordAs(begin, end, value);
+}
+
+const char* readWord(const char* begin, const char* end, double* value) {
+  return readWordAs(begin, end, value);
 }
 
 // note: general notation, for plain to_chars prints large floats as integers of more digits than

@@ -1,4 +1,4 @@
-// file: the words and numbers of an .sva line. Depends on scalar.h.
+// file: words and numbers of text. Depends on scalar.h.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,12 @@ inline std::string_view takeWord(std::string_view& rest) {
 // that does not fit. A float too large for the type becomes infinite.
 bool parseNumber(std::string_view word, ScalarType type, void* out);
 bool parseInteger(std::string_view word, int64_t* out);
+
+// The number that stands at `begin`, as all but .sva has them: a plus sign may stand before it, and
+// a real one may have Fortran's exponent, as in 1.5D+03. Returns the end of the word, which is at
+// the first blank or at `end`; null: it is no such number.
+const char* readWord(const char* begin, const char* end, int64_t* value);
+const char* readWord(const char* begin, const char* end, double* value);
 
 // The shortest text that reads back as the same number.
 void printNumber(const void* value, ScalarType type, std::string& out);

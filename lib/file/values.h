@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bytes.h"
+#include "plain_number.h"
 #include "scalar.h"
 
 namespace tetstream {
@@ -53,11 +54,6 @@ class ValueBytes {
 // `what` names the file and the array in messages.
 std::unique_ptr<Values> openBinaryValues(std::unique_ptr<ValueBytes> bytes, const std::string& what,
                                          ValueType type, bool big_endian);
-
-// What parts words of text.
-inline bool isBlank(char c) {
-  return c == ' ' || c == '\n' || c == '\t' || c == '\r';
-}
 
 // Exactly `count` numbers, at least one, as text between blanks in bytes [begin, end) of the file.
 struct TextPlace {

@@ -17,6 +17,7 @@ XmlFeed::XmlFeed(ByteSource& bytes, Doctype doctype)
   XML_SetElementHandler(expat_.get(), onStart, onEnd);
   if (doctype == Doctype::kRefused) XML_SetStartDoctypeDeclHandler(expat_.get(), onDoctype);
   XML_SetEntityDeclHandler(expat_.get(), onEntity);
+  XML_SetCdataSectionHandler(expat_.get(), onCdata, onCdataEnd);
   XML_SetDefaultHandler(expat_.get(), onOther);
 }
 
@@ -48,17 +49,51 @@ void XmlFeed::feed() {
     fed += got;
     if (fed - last_event_ > kMaxTagBytes)
       failAt(last_event_, "a tag or comment is longer than 1 MiB");
+    const bool in_text = depth_ > 0 && !in_cdata_ && last_event_ == fed;
+    if (in_text) fed = passText(fed, buffer.data());
   }
+}
+
+// To the next tag.
+uint64_t XmlFeed::passText(uint64_t begin, char* buffer) {
+  uint64_t at = begin;
+  for (;;) {
+    const size_t got = bytes_.readAt(at, buffer, kFeedBytes);
+    const void* tag = std::memchr(buffer, '<', got);
+    at += tag ? static_cast<size_t>(static_cast<const char*>(tag) - buffer) : got;
+    if (tag || got < kFeedBytes) break;
+  }
+  passed_ += at - begin;
+  last_event_ = at;
+  return at;
+}
+
+// As expat counts them, whose own count lacks what was passed over.
+uint64_t XmlFeed::lineOf(uint64_t byte) const {
+  std::vector<char> buffer(kFeedBytes);
+  uint64_t lines = 1;
+  char before = 0;
+  for (uint64_t at = 0; at < byte;) {
+    const auto wanted = static_cast<size_t>(std::min<uint64_t>(buffer.size(), byte - at));
+    const size_t got = bytes_.readAt(at, buffer.data(), wanted);
+    for (size_t i = 0; i < got; before = buffer[i++])
+      lines += buffer[i] == '\r' || (buffer[i] == '\n' && before != '\r');
+    if (got < wanted) break;
+    at += got;
+  }
+  return lines;
 }
 
 void XmlFeed::failXml() {
   const XML_Error code = XML_GetErrorCode(expat_.get());
   if (code == XML_ERROR_NO_MEMORY)
     fail(Status::kNoMemory, "%s: no memory for the XML parser", bytes_.name().c_str());
-  const XML_Index byte = XML_GetCurrentByteIndex(expat_.get());  // -1: there is not one byte
-  fail(Status::kBadData, "%s: line %llu, byte %lld: not XML: %s", bytes_.name().c_str(),
-       static_cast<unsigned long long>(XML_GetCurrentLineNumber(expat_.get())),
-       static_cast<long long>(std::max<XML_Index>(byte, 0)), XML_ErrorString(code));
+  const XML_Index found = XML_GetCurrentByteIndex(expat_.get());  // -1: there is not one byte
+  const uint64_t byte = found < 0 ? 0 : static_cast<uint64_t>(found) + passed_;
+  const uint64_t line = passed_ > 0 ? lineOf(byte) : XML_GetCurrentLineNumber(expat_.get());
+  fail(Status::kBadData, "%s: line %llu, byte %llu: not XML: %s", bytes_.name().c_str(),
+       static_cast<unsigned long long>(line), static_cast<unsigned long long>(byte),
+       XML_ErrorString(code));
 }
 
 void XmlFeed::failAt(uint64_t byte, const std::string& text, Status status) const {
@@ -71,7 +106,7 @@ void XmlFeed::stop() {
 }
 
 uint64_t XmlFeed::tagBegin() const {
-  return static_cast<uint64_t>(XML_GetCurrentByteIndex(expat_.get()));
+  return static_cast<uint64_t>(XML_GetCurrentByteIndex(expat_.get())) + passed_;
 }
 
 uint64_t XmlFeed::tagEnd() const {
@@ -93,16 +128,30 @@ void XmlFeed::guard(Function function) noexcept {
 
 void XMLCALL XmlFeed::onStart(void* user, const XML_Char* name, Attributes attributes) {
   XmlFeed& self = *static_cast<XmlFeed*>(user);
+  ++self.depth_;
   self.guard([&] { self.start(name, attributes); });
 }
 
 void XMLCALL XmlFeed::onEnd(void* user, const XML_Char*) {
   XmlFeed& self = *static_cast<XmlFeed*>(user);
+  --self.depth_;
   self.guard([&] { self.end(); });
 }
 
 void XMLCALL XmlFeed::onOther(void* user, const XML_Char*, int) {
   static_cast<XmlFeed*>(user)->guard([] {});
+}
+
+void XMLCALL XmlFeed::onCdata(void* user) {
+  XmlFeed& self = *static_cast<XmlFeed*>(user);
+  self.in_cdata_ = true;
+  self.guard([] {});
+}
+
+void XMLCALL XmlFeed::onCdataEnd(void* user) {
+  XmlFeed& self = *static_cast<XmlFeed*>(user);
+  self.in_cdata_ = false;
+  self.guard([] {});
 }
 
 void XMLCALL XmlFeed::onEntity(void* user, const XML_Char*, int, const XML_Char*, int,

@@ -12,7 +12,9 @@
 
 namespace tetstream {
 
-// Memory is bounded: no tag or comment may be longer than 1 MiB, no entities can be declared.
+// Text between tags is passed over, and where there is much of it, not looked at: numbers and
+// base64 tell who reads them what is wrong with them. Memory is bounded: no tag or comment may be
+// longer than 1 MiB, no entities can be declared.
 class XmlFeed {
  public:
   using Attributes = const XML_Char**;
@@ -46,11 +48,15 @@ class XmlFeed {
 
  private:
   [[noreturn]] void failXml();
+  uint64_t passText(uint64_t begin, char* buffer);
+  uint64_t lineOf(uint64_t byte) const;
   template <class Function>
   void guard(Function function) noexcept;
   static void XMLCALL onStart(void* user, const XML_Char* name, Attributes attributes);
   static void XMLCALL onEnd(void* user, const XML_Char* name);
   static void XMLCALL onOther(void* user, const XML_Char* text, int size);
+  static void XMLCALL onCdata(void* user);
+  static void XMLCALL onCdataEnd(void* user);
   static void XMLCALL onEntity(void* user, const XML_Char*, int, const XML_Char*, int,
                                const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*);
   static void XMLCALL onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*, int);
@@ -59,6 +65,9 @@ class XmlFeed {
   std::unique_ptr<XML_ParserStruct, void (*)(XML_Parser)> expat_;
   std::exception_ptr error_;
   uint64_t last_event_ = 0;
+  uint64_t passed_ = 0;  // bytes of text that expat has not seen
+  size_t depth_ = 0;     // of elements
+  bool in_cdata_ = false;
   bool stopped_ = false;
 };
 

@@ -22,8 +22,8 @@ MeshIntake::MeshIntake(const FileScan& file, const ReadOptions& options, ScalarT
     : file_(file),
       options_(options),
       name_(file.name()),
-      mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir)),
-      faces_(sizeof(int64_t[4]), options.temp_dir, {2, 256 << 10}) {}
+      mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir, options.threads.tasks)),
+      faces_(sizeof(int64_t[4]), options.temp_dir, {2, 256 << 10}, options.threads.tasks) {}
 
 void MeshIntake::addLabels(const char* name, bool wide, bool sure) {
   const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;

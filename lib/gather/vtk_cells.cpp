@@ -11,6 +11,9 @@ constexpr CellKind kNoKind = {CellShape::kPoint, 0};
 
 using Shape = CellShape;
 
+// Up to this one, rows stand in the place of their number.
+constexpr int kInPlace = 16;
+
 constexpr VtkCell kVtkCells[] = {
     {0, "an empty cell", VtkCell::kEmpty, kNoKind},
     {1, "a vertex", VtkCell::kKnown, {Shape::kPoint, 1}},
@@ -68,6 +71,8 @@ constexpr VtkCell kVtkCells[] = {
 
 const VtkCell& vtkCell(int64_t type) {
   static constexpr VtkCell unknown = {-1, "no tetrahedron", VtkCell::kOther, kNoKind};
+  static_assert(kVtkCells[kInPlace].type == kInPlace);
+  if (type >= 0 && type <= kInPlace) return kVtkCells[type];
   for (const VtkCell& row : kVtkCells)
     if (row.type == type) return row;
   return unknown;

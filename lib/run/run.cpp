@@ -39,11 +39,6 @@ class Nowhere final : public Sink {
   void finish() override {}
 };
 
-size_t threadsOf(const RunOptions& options) {
-  if (options.threads > 0) return static_cast<size_t>(options.threads);
-  return options.workers ? options.workers->threads() + 1 : coresToUse();
-}
-
 RunOptions withTasks(RunOptions options, const Tasks* tasks) {
   options.simplify.tasks = tasks;
   return options;
@@ -59,6 +54,11 @@ void tellCells(Progress& p, size_t more, double before, const ProgressFunction& 
 }
 
 }  // namespace
+
+size_t threadsOf(const RunOptions& options) {
+  if (options.threads > 0) return static_cast<size_t>(options.threads);
+  return options.workers ? options.workers->threads() + 1 : coresToUse();
+}
 
 struct SimplifyRun::State {
   State(const RunOptions& the_options, Sink& out, ProgressFunction the_progress)

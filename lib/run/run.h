@@ -33,6 +33,9 @@ struct RunOptions {
   CompareOptions compare;
 };
 
+// That are to be at work at once.
+size_t threadsOf(const RunOptions& options);
+
 // One simplification. Pull: run. Push: begin, put as often as wanted, finish; an indexed mesh that
 // is pushed is collected first and ordered at finish. Not to be used after an Error.
 class SimplifyRun {

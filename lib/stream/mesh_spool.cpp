@@ -11,25 +11,28 @@ namespace tetstream {
 constexpr SpoolShape kInSequence = {2, 256 << 10};
 constexpr size_t kFaceWords = 4;
 
-MeshSpool::MeshSpool(ScalarType position_type, const std::string& temp_dir)
+MeshSpool::MeshSpool(ScalarType position_type, const std::string& temp_dir, const Tasks* tasks)
     : temp_dir_(temp_dir),
-      positions_(3 * sizeOf(position_type), temp_dir, kInSequence),
-      cells_(4 * sizeof(int32_t), temp_dir, kInSequence),
-      wide_cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
-      faces_(kFaceWords * sizeof(int64_t), temp_dir, kInSequence),
+      tasks_(tasks),
+      positions_(3 * sizeOf(position_type), temp_dir, kInSequence, tasks),
+      cells_(4 * sizeof(int32_t), temp_dir, kInSequence, tasks),
+      wide_cells_(4 * sizeof(int64_t), temp_dir, kInSequence, tasks),
+      faces_(kFaceWords * sizeof(int64_t), temp_dir, kInSequence, tasks),
       locked_(account_) {
   schema_.position_type = position_type;
 }
 
 size_t MeshSpool::addField(const Column& column) {
   schema_.fields.push_back(column);
-  fields_.push_back(std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence));
+  fields_.push_back(
+      std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
   return fields_.size() - 1;
 }
 
 size_t MeshSpool::addCellData(const Column& column) {
   schema_.cell_data.push_back(column);
-  cell_data_.push_back(std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence));
+  cell_data_.push_back(
+      std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
   return cell_data_.size() - 1;
 }
 

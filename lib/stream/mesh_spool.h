@@ -16,7 +16,8 @@ namespace tetstream {
 // among each other. What is small stays in memory.
 class MeshSpool : public IndexedSource {
  public:
-  MeshSpool(ScalarType position_type, const std::string& temp_dir);
+  // `tasks`, which may be null, help to write up to finish and finishFaces.
+  MeshSpool(ScalarType position_type, const std::string& temp_dir, const Tasks* tasks = nullptr);
 
   size_t addField(const Column& column);
   size_t addCellData(const Column& column);
@@ -55,6 +56,7 @@ class MeshSpool : public IndexedSource {
 
   Schema schema_;
   std::string temp_dir_;
+  const Tasks* tasks_;
   // Cells as int32 up to the first point that needs more. A face: three points and its label.
   RowSpool positions_, cells_, wide_cells_, faces_;
   Spools fields_, cell_data_;

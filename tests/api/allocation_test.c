@@ -311,6 +311,25 @@ static tetstream_status simplify_file(void) {
   return status;
 }
 
+/* Text of so many points that two threads read it. */
+#define POINTS 40000
+static char long_text[POINTS * 8 + 200];
+
+static void write_long_text(void) {
+  char* at =
+      long_text + sprintf(long_text, "MeshVersionFormatted 2 Dimension 3 Vertices %d\n", POINTS);
+  for (int i = 0; i < POINTS; ++i) at += sprintf(at, "%d %d %d 0\n", i % 7, i % 5, i % 3);
+  strcpy(at, "Tetrahedra 1\n1 2 3 4 0\nEnd\n");
+}
+
+static tetstream_status open_long_text(void) {
+  tetstream_reader* reader = NULL;
+  const tetstream_status status =
+      tetstream_reader_open_memory(long_text, strlen(long_text), "mesh", &reader);
+  tetstream_reader_destroy(reader);
+  return status;
+}
+
 /* ---------------------------------------------------------------------------- one after another */
 
 /* From the first allocation to be refused on, every `step`-th. */
@@ -398,6 +417,8 @@ int main(void) {
   fails_cleanly_wherever_memory_ends("stream to .svb", simplify_stream_to_svb);
   fails_cleanly_wherever_memory_ends("arrays to .tets", simplify_arrays);
   fails_cleanly_wherever_memory_ends("push", push_into_callbacks);
+  write_long_text();
+  fails_cleanly_wherever_memory_ends("long text", open_long_text);
   for (kind = 0; kind < 4; ++kind) {
     make_bytes(kind, &writers[kind]);
     fails_cleanly_wherever_memory_ends(names[kind], inspect_file);

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """How fast the indexed formats are read: `reading --once` of this folder beside the readings of
-meshio, gmsh and VTK in turn, where those are installed and read the format. Processor seconds,
-medians; MB is 10^6 bytes of the file. "s" is the scan, after which points, cells and data are arrays
-in temporary files; of what is such where it lies (vtu, vtk, vtkhdf) it is the reading of all columns.
-"and columns s": with their reading in any case. Ordering comes later and is not in it."""
+meshio, gmsh and VTK in turn, where those are installed and read the format. Wall seconds, with one
+thread and with --threads: medians, or with --least the least, for machines that others use, too. MB
+is 10^6 bytes of the file. "s" is the scan, after which points, cells and data are arrays in temporary
+files; of what is such where it lies (vtu, vtk, vtkhdf) it is the reading of all columns. "and columns
+s": with their reading in any case, with all threads. Ordering comes later and is not in it. "times":
+against all threads, the others as they are."""
 import contextlib
 import io
 import os
@@ -15,8 +17,8 @@ import time
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import harness  # noqa: E402
 
-HEAD = ("file", "MB", "s", "MB/s", "and columns s", "meshio s", "times meshio", "gmsh s", "times gmsh",
-        "VTK s", "times VTK")
+HEAD = ("file", "MB", "1 thread s", "{} threads s", "MB/s", "and columns s", "meshio s",
+        "times meshio", "gmsh s", "times gmsh", "VTK s", "times VTK")
 WAYS = (("4.1 text.msh", "--encoding", "text"),
         ("2.2 text.msh", "--msh-version", "2.2", "--encoding", "text"),
         ("4.1 binary.msh",), ("2.2 binary.msh", "--msh-version", "2.2"),
@@ -125,46 +127,58 @@ def make(tetstream, name, words):
 
 def seconds(read, path):
     """None where that is not installed, or does not read the file."""
-    before = time.process_time()
+    before = time.monotonic()
     try:
         read(path)
     except (ImportError, ValueError, KeyError, SystemExit):
         return None
-    return time.process_time() - before
+    return time.monotonic() - before
 
 
-def measure(program, path, rounds):
-    """Medians of our two times and of the others', in turn."""
-    ours, columns, theirs = [], [], [[] for _ in OTHERS]
+def reading(program, threads, path):
+    """Our two times."""
+    words = subprocess.run([program, "--once", str(threads), path], check=True,
+                           stdout=subprocess.PIPE, text=True).stdout.split()
+    opened, both = float(words[2]), float(words[3])
+    return both if path.endswith((".vtu", ".vtk", ".vtkhdf")) else opened, both
+
+
+def measure(program, path, threads, rounds, figure):
+    """What `figure` makes of our times with one thread, with all and with the columns, and of the others', in
+    turn."""
+    ours, theirs = [[], [], []], [[] for _ in OTHERS]
     for _ in range(rounds):
-        words = subprocess.run([program, "--once", path], check=True, stdout=subprocess.PIPE,
-                               text=True).stdout.split()
-        ours.append(float(words[path.endswith((".vtu", ".vtk", ".vtkhdf"))]))
-        columns.append(float(words[1]))
+        ours[0].append(reading(program, 1, path)[0])
+        for taken, took in zip(ours[1:], reading(program, threads, path)):
+            taken.append(took)
         for read, taken in zip(OTHERS, theirs):
             taken.append(seconds(read, path))
-    return (statistics.median(ours), statistics.median(columns),
-            [None if None in taken else statistics.median(taken) for taken in theirs])
+    return ([figure(taken) for taken in ours],
+            [None if None in taken else figure(taken) for taken in theirs])
 
 
 def main():
     parser = harness.bench_parser(__doc__)
     parser.add_argument("--cells", type=float, default=2e6, metavar="N")
     parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)), metavar="N")
+    parser.add_argument("--least", action="store_true")
     options = parser.parse_args()
     tetstream = harness.bench_programs(options.build)[0]
     program = harness.bench_path(options.build, "reading")
     tetstream.run("generate", "fluid", "--cells", str(int(options.cells)),
                   tetstream.path("mesh.tets"))
     tetstream.run("convert", tetstream.path("mesh.tets"), tetstream.path("made.vtk"), "--quiet")
-    print("| " + " | ".join(HEAD) + " |")
+    print("| " + " | ".join(HEAD).format(options.threads) + " |")
     print("|" + " --- |" * len(HEAD))
     for name, *words in WAYS:
         path, size = make(tetstream, name, words)
         if not path:
             continue
-        ours, columns, theirs = measure(program, path, options.rounds)
-        cells = [name, f"{size:.1f}", f"{ours:.3f}", f"{size / max(ours, 1e-4):.0f}", f"{columns:.3f}"]
+        (alone, ours, columns), theirs = measure(program, path, options.threads, options.rounds,
+                                                 min if options.least else statistics.median)
+        cells = [name, f"{size:.1f}", f"{alone:.3f}", f"{ours:.3f}", f"{size / max(ours, 1e-4):.0f}",
+                 f"{columns:.3f}"]
         for other in theirs:
             cells += [f"{other:.3f}", f"{other / max(ours, 1e-4):.1f}"] if other else ["-", "-"]
         print("| " + " | ".join(cells) + " |", flush=True)

@@ -1,8 +1,8 @@
 // reading [--rounds N] FILE...: how fast indexed files are read, all columns from front to end,
 // beside the plain reading of their bytes in the same minute; the best of N rounds, 5 unless said.
 // Both with the file in the system's memory, and uncached, where the system gives it up when asked.
-// reading --once FILE: one such reading; prints the processor seconds of opening, which scans what
-// is no array where it lies, those of both, and the wall seconds of both.
+// reading --once THREADS FILE: one such reading; prints the processor seconds of opening, which
+// scans what is no array where it lies, and of both, and the wall seconds of opening and of both.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -19,6 +19,7 @@
 #include "memory.h"
 #include "registry.h"
 #include "status.h"
+#include "tasks.h"
 
 namespace tetstream {
 namespace {
@@ -45,8 +46,9 @@ void forRows(int64_t rows, const std::function<void(uint64_t, size_t)>& read) {
          static_cast<size_t>(std::min<int64_t>(rows - at, static_cast<int64_t>(kBatchCells))));
 }
 
-std::unique_ptr<IndexedSource> openIndexed(const std::string& path) {
+std::unique_ptr<IndexedSource> openIndexed(const std::string& path, const Tasks* tasks = nullptr) {
   ReadOptions options;
+  options.threads.tasks = tasks;
   options.path = path;
   Input input = needFormat("", path).open(openFile(path), options);
   if (!input.indexed) fail(Status::kBadArgument, "%s holds a stream", path.c_str());
@@ -109,15 +111,19 @@ double processorSeconds() {
          1e-6 * static_cast<double>(u.ru_utime.tv_usec + u.ru_stime.tv_usec);
 }
 
-void readOnce(const std::string& path) {
+void readOnce(const std::string& path, size_t threads) {
   const double before = processorSeconds();
   double opened = 0;
+  double wall_opened = 0;
   const double wall = seconds([&] {
-    const std::unique_ptr<IndexedSource> mesh = openIndexed(path);
+    const Tasks tasks(threads);
+    std::unique_ptr<IndexedSource> mesh;
+    wall_opened = seconds([&] { mesh = openIndexed(path, &tasks); });
     opened = processorSeconds();
     readColumns(*mesh);
   });
-  std::printf("%.4f %.4f %.4f\n", opened - before, processorSeconds() - before, wall);
+  std::printf("%.4f %.4f %.4f %.4f\n", opened - before, processorSeconds() - before, wall_opened,
+              wall);
 }
 
 }  // namespace
@@ -125,7 +131,7 @@ void readOnce(const std::string& path) {
 
 int main(int argc, char** argv) {
   int rounds = 5, first = 1;
-  const bool once = argc == 3 && std::strcmp(argv[1], "--once") == 0;
+  const bool once = argc == 4 && std::strcmp(argv[1], "--once") == 0;
   if (argc > 2 && std::strcmp(argv[1], "--rounds") == 0) {
     rounds = std::atoi(argv[2]);
     first = 3;
@@ -136,7 +142,7 @@ int main(int argc, char** argv) {
         "uncached columns MB/s | columns / plain, uncached | peak MB |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
   try {
-    if (once) tetstream::readOnce(argv[2]);
+    if (once) tetstream::readOnce(argv[3], static_cast<size_t>(std::atoi(argv[2])));
     for (int i = first; i < argc && !once; ++i) tetstream::measure(argv[i], rounds);
   } catch (const tetstream::Error& error) {
     std::fprintf(stderr, "reading: %s\n", error.text().c_str());

@@ -25,6 +25,9 @@ CellKind needKind(MshMesh& mesh, int64_t number) {
 
 void readTextElements(MshMesh& mesh, uint64_t count) {
   int64_t tags[kMostTags], nodes[kMostMshNodes];
+  // Integers, of which nobody knows how many there are: most elements have fewer.
+  constexpr uint64_t kMostExpected = 32;
+  mesh.file.expectRows(count, {{{false, kMostExpected}}});
   for (uint64_t i = 0; i < count; ++i) {
     int64_t head[3];  // number, type, tags
     mesh.file.integers(head, 3, "an element");
@@ -37,6 +40,7 @@ void readTextElements(MshMesh& mesh, uint64_t count) {
     mesh.file.integers(nodes, static_cast<size_t>(kind.nodes), "a node of an element");
     addElement(mesh, kind, tag, tags, static_cast<size_t>(tag_count), nodes);
   }
+  mesh.file.endRows();
 }
 
 void readBlocks(MshMesh& mesh, uint64_t count) {
@@ -75,6 +79,7 @@ void readNodes2(MshMesh& mesh) {
       static_cast<uint64_t>(mesh.file.integer("the number of nodes", 0, INT64_MAX));
   mesh.file.checkClaim(count, mesh.numbers.binary() ? kMshInt + 3 * kMshDouble : 8, "nodes");
   if (mesh.numbers.binary()) mesh.file.line();
+  mesh.numbers.expectRows(count, {{{false, 1}, {true, 3}}});
   for (uint64_t i = 0; i < count; ++i) {
     double position[3];
     const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");

@@ -80,6 +80,7 @@ void checkTag(MshMesh& mesh, int64_t tag) {
 
 void readNodeTags(MshMesh& mesh, uint64_t first, uint64_t count) {
   int64_t tags[kRowsAtOnce];
+  mesh.numbers.expectRows(count, {{{false, 1}}});
   for (uint64_t done = 0; done < count;) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - done));
     mesh.numbers.integers(tags, n, mesh.size_bytes, "the tag of a node");
@@ -94,6 +95,7 @@ void readNodeTags(MshMesh& mesh, uint64_t first, uint64_t count) {
 void readPositions(MshMesh& mesh, uint64_t count, size_t parameters) {
   const size_t width = 3 + parameters;
   double rows[kRowsAtOnce];
+  mesh.numbers.expectRows(count, {{{true, width}}});
   for (uint64_t done = 0; done < count;) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce / width, count - done));
     mesh.numbers.reals(rows, n * width, kMshDouble, "the position of a node");
@@ -151,6 +153,7 @@ void readElements4(MshMesh& mesh) {
     const uint64_t rows = rowsOfBlock(mesh, left, "the number of elements of a block");
     const size_t width = 1 + static_cast<size_t>(kind->nodes);
     elements.resize(width * kRowsAtOnce);
+    mesh.numbers.expectRows(rows, {{{false, width}}});
     for (uint64_t done = 0; done < rows;) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, rows - done));
       mesh.numbers.integers(elements.data(), n * width, mesh.size_bytes, "an element");

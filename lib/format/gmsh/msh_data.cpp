@@ -69,6 +69,7 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
       kept ? dataFor(mesh, head.name, head.step, of_cells, static_cast<int>(head.components)) : 0;
   std::vector<double> values(static_cast<size_t>(head.components));
   TagTable& tags = of_cells ? mesh.cells : mesh.points;
+  mesh.numbers.expectRows(static_cast<uint64_t>(head.rows), {{{false, 1}, {true, values.size()}}});
   for (int64_t i = 0; i < head.rows; ++i) {
     const int64_t tag = mesh.numbers.integer(kMshInt, of_cells ? "an element" : "a node");
     mesh.numbers.reals(values.data(), values.size(), kMshDouble, "a value");

@@ -15,7 +15,7 @@ namespace {
 class MshReader {
  public:
   MshReader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
-      : file_(std::move(bytes), 0), mesh_(file_, options) {}
+      : file_(std::move(bytes), 0, options.threads), mesh_(file_, options) {}
 
   std::unique_ptr<IndexedSource> read() {
     readFormat();

@@ -17,7 +17,7 @@ constexpr size_t kMostMeditNodes = 27;
 class MeditReader {
  public:
   MeditReader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
-      : scan_(std::move(bytes)),
+      : scan_(std::move(bytes), options.threads),
         options_(options),
         // note: text of version 1 is written with a double's digits by many.
         intake_(
@@ -67,6 +67,7 @@ class MeditReader {
     any_vertices_ = true;
     const uint64_t count = scan_.rows(1, 3, "vertices");
     double position[3];
+    scan_.expectRows(count, {{{true, 3}, {false, 1}}});
     for (uint64_t i = 0; i < count; ++i) {
       int64_t reference;
       scan_.reals(position, 3, "the position of a vertex");
@@ -85,6 +86,7 @@ class MeditReader {
       rows_.tetrahedra = count;
     }
     int64_t row[kMostMeditNodes + 1];
+    scan_.expectRows(count, {{{false, nodes + 1}}});
     for (uint64_t i = 0; i < count; ++i) {
       scan_.integers(row, nodes + 1, section.name.c_str());
       for (int k = 0; k < cornersOf(kind.shape); ++k) checkVertex(row[k]--);
@@ -126,7 +128,8 @@ class MeditReader {
     std::unique_ptr<ByteSource> bytes = openMeditSolution(options_.path, &path);
     if (!bytes) return;
     intake_.note("its solutions are read from " + path);
-    solutions_.readFile(std::move(bytes), intake_, rows_);
+    MeditScan scan(std::move(bytes), options_.threads);
+    solutions_.readFile(scan, intake_, rows_);
   }
 
   MeditScan scan_;

@@ -10,8 +10,8 @@ namespace tetstream {
 
 // Binary files begin with the integer 1, text with a word; versions 1 and 2 have 32-bit places,
 // versions 1 to 3 32-bit integers, and version 1 float32.
-MeditScan::MeditScan(std::unique_ptr<ByteSource> bytes)
-    : file_(std::move(bytes), '#'), numbers_(file_) {
+MeditScan::MeditScan(std::unique_ptr<ByteSource> bytes, const TextThreads& threads)
+    : file_(std::move(bytes), '#', threads), numbers_(file_) {
   const std::string_view head = file_.peekBytes(4);
   uint32_t first = 0;
   if (head.size() == sizeof first) std::memcpy(&first, head.data(), sizeof first);

@@ -18,13 +18,15 @@ struct MeditSection {
 class MeditScan {
  public:
   // Reads the version and the byte order.
-  explicit MeditScan(std::unique_ptr<ByteSource> bytes);
+  explicit MeditScan(std::unique_ptr<ByteSource> bytes, const TextThreads& threads = {});
 
   // The next section, whose contents come next; false at the end.
   bool next(MeditSection* section);
   void skip();  // the contents, or what is left of them
   // The number of rows, each of so many integers and reals.
   uint64_t rows(size_t integers, size_t reals, const char* what);
+  // Before they are read.
+  void expectRows(uint64_t rows, const RowPattern& pattern) { numbers_.expectRows(rows, pattern); }
   void integers(int64_t* out, size_t count, const char* what) {
     numbers_.integers(out, count, integer_bytes_, what);
   }

@@ -52,6 +52,7 @@ void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& 
   }
   std::vector<double> values(width);
   const uint64_t first = of_cells ? rows.first_tetrahedron : 0;
+  scan.expectRows(count, {{{true, width}}});
   for (uint64_t i = 0; i < count; ++i) {
     scan.reals(values.data(), width, "a value of a solution");
     for (size_t k = 0; k < columns.size(); ++k)
@@ -59,9 +60,7 @@ void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& 
   }
 }
 
-void MeditSolutions::readFile(std::unique_ptr<ByteSource> bytes, MeshIntake& intake,
-                              const MeditRows& rows) {
-  MeditScan scan(std::move(bytes));
+void MeditSolutions::readFile(MeditScan& scan, MeshIntake& intake, const MeditRows& rows) {
   for (MeditSection section; scan.next(&section);) {
     if (section.number == kMeditDimension) {
       const int64_t dimension = scan.small("the dimension");

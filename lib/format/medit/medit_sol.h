@@ -19,7 +19,7 @@ class MeditSolutions {
   // A section SolAtVertices or SolAtTetrahedra, after its keyword.
   void read(MeditScan& scan, MeshIntake& intake, const MeditRows& rows, bool of_cells);
   // All of them in a file of their own; other sections are left out.
-  void readFile(std::unique_ptr<ByteSource> bytes, MeshIntake& intake, const MeditRows& rows);
+  void readFile(MeditScan& scan, MeshIntake& intake, const MeditRows& rows);
 
  private:
   size_t fields_ = 0, cell_data_ = 0;  // so far

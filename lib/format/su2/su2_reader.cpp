@@ -26,7 +26,8 @@ const CellKind* kindOf(int64_t type) {
 class Su2Reader {
  public:
   Su2Reader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
-      : file_(std::move(bytes), '%'), intake_(file_, options, ScalarType::kFloat64) {
+      : file_(std::move(bytes), '%', options.threads),
+        intake_(file_, options, ScalarType::kFloat64) {
     intake_.addLabels(kZone);
   }
 
@@ -122,8 +123,15 @@ class Su2Reader {
     return *kind;
   }
 
+  // The points of an element of that type.
+  static size_t pointsOf(int64_t type) {
+    const CellKind* kind = kindOf(type);
+    return kind ? static_cast<size_t>(kind->nodes) : SIZE_MAX;
+  }
+
   void readElements() {
     const uint64_t elements = count("the number of elements");
+    file_.expectRows(elements, {{{false, 1}}, pointsOf, true});
     int64_t corners[8];
     for (uint64_t i = 0; i < elements; ++i) {
       const CellKind& kind = readRow(corners);
@@ -131,17 +139,18 @@ class Su2Reader {
         intake_.addCell(kind, corners, &zone_, static_cast<int64_t>(i));
       else
         intake_.leaveOut("elements of a lower dimension among the cells");
-      file_.line();  // its number
+      file_.passLine();  // its number
     }
   }
 
   void readPoints() {
     const uint64_t points = count("the number of points");
+    file_.expectRows(points, {{{true, 3}}, nullptr, true});
     for (uint64_t i = 0; i < points; ++i) {
       double position[3];
       file_.reals(position, 3, "the position of a point");
       intake_.addPoint(position);
-      file_.line();  // its number
+      file_.passLine();  // its number
     }
     any_points_ = true;
     zone_points_ = static_cast<int64_t>(points);

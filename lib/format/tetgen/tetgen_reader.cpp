@@ -20,7 +20,9 @@ class TetgenReader {
  public:
   // The points, whose numbers tell whether all count from 0 or from 1.
   TetgenReader(std::unique_ptr<ByteSource> nodes, const ReadOptions& options)
-      : nodes_(std::move(nodes), '#'), intake_(nodes_, options, ScalarType::kFloat64) {}
+      : nodes_(std::move(nodes), '#', options.threads),
+        threads_(options.threads),
+        intake_(nodes_, options, ScalarType::kFloat64) {}
 
   std::unique_ptr<IndexedSource> read(std::unique_ptr<ByteSource> cells,
                                       std::unique_ptr<ByteSource> faces) {
@@ -44,6 +46,8 @@ class TetgenReader {
     for (int64_t a = 0; a < attributes; ++a)
       columns.push_back(
           intake_.addData({"attribute" + std::to_string(a), 1, ScalarType::kFloat64}, false));
+    nodes_.expectRows(count,
+                      {{{false, 1}, {true, 3 + columns.size()}, {false, markers ? 1U : 0U}}});
     for (uint64_t i = 0; i < count; ++i) {
       int64_t number;
       nodes_.integers(&number, 1, "the number of a point");
@@ -71,7 +75,7 @@ class TetgenReader {
 
   // Cells, corners of each (4, or 10 of second order), attributes: the first one is the region.
   void readCells(std::unique_ptr<ByteSource> bytes) {
-    FileScan file(std::move(bytes), '#');
+    FileScan file(std::move(bytes), '#', threads_);
     const auto count = static_cast<uint64_t>(file.integer("the number of cells", 0, INT64_MAX));
     file.checkClaim(count, 10, "cells");
     const int64_t nodes = file.integer("the number of corners", 4, 10);
@@ -82,6 +86,7 @@ class TetgenReader {
       columns.push_back(
           intake_.addCellNumbers(a == 0 ? "region" : "attribute" + std::to_string(a)));
     const CellKind kind = {CellShape::kTetra, static_cast<int>(nodes)};
+    file.expectRows(count, {{{false, 1 + static_cast<size_t>(nodes)}, {true, columns.size()}}});
     for (uint64_t i = 0; i < count; ++i) {
       int64_t number;
       file.integers(&number, 1, "the number of a cell");
@@ -98,17 +103,18 @@ class TetgenReader {
 
   // Faces, whether there are markers.
   void readFaces(std::unique_ptr<ByteSource> bytes) {
-    FileScan file(std::move(bytes), '#');
+    FileScan file(std::move(bytes), '#', threads_);
     const auto count = static_cast<uint64_t>(file.integer("the number of faces", 0, INT64_MAX));
     file.checkClaim(count, 8, "faces");
     const bool markers = file.integer("whether there are markers", 0, 1) != 0;
     if (!markers) return intake_.leaveOut("faces without markers", count);
+    file.expectRows(count, {{{false, 5}}, nullptr, true});
     for (uint64_t i = 0; i < count; ++i) {
       file.integer("the number of a face");
       int64_t corners[3];
       readCorners(file, 3, corners);
       const int64_t label = file.integer("the marker of a face");
-      file.line();  // the cells on both sides
+      file.passLine();  // the cells on both sides
       if (label == 0)
         intake_.leaveOut("faces whose marker is 0");
       else
@@ -117,6 +123,7 @@ class TetgenReader {
   }
 
   FileScan nodes_;
+  const TextThreads threads_;
   MeshIntake intake_;
   int64_t first_ = 0;
 };

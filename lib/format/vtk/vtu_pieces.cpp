@@ -1,6 +1,7 @@
 #include "vtu_pieces.h"
 
 #include "vtu_run.h"
+#include "vtu_side_by_side.h"
 
 namespace tetstream {
 
@@ -24,9 +25,11 @@ std::optional<MeshArray> arrayOf(const std::shared_ptr<OpenVtu>& vtu,
 
 }  // namespace
 
-void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes) {
+void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const Tasks* tasks) {
   VtuFile parsed = parseVtuHeader(*bytes);
   mesh.name = bytes->name();
+  parsed.helpers = {tasks, std::this_thread::get_id()};
+  if (parsed.compressor && parsed.helpers.areHere()) bytes = openShared(std::move(bytes));
   const auto vtu = std::make_shared<OpenVtu>(OpenVtu{std::move(bytes), std::move(parsed)});
   for (const std::string& note : vtu->file.notes) mesh.addNote(note);
   if (!vtu->file.global_ids.empty()) mesh.global_ids = vtu->file.global_ids;

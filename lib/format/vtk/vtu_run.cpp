@@ -7,6 +7,7 @@
 #include "base64.h"
 #include "status.h"
 #include "vtu_blocks.h"
+#include "vtu_side_by_side.h"
 
 namespace tetstream {
 
@@ -107,7 +108,14 @@ std::unique_ptr<ValueBytes> openVtuBytes(ByteSource& bytes, const VtuFile& file,
   VtuArray place = array;
   if (array.format == VtuFormat::kInlineBase64) place = trimmed(bytes, array);
   const EncodedRun run(bytes, placeOf(bytes, array.name), place.begin, place.end, base64);
-  if (file.compressor) return file.compressor->open(run, file, size);
+  if (file.compressor) {
+    const OpenBytes open = [run, &file, size] { return file.compressor->open(run, file, size); };
+    std::unique_ptr<ValueBytes> blocks = open();
+    if (!file.helpers.areHere()) return blocks;
+    EncodedRun table = run;
+    return openSideBySide(file.helpers, size, readVtuWord(table, file.word_bytes, file),
+                          std::move(blocks), open);
+  }
   return std::make_unique<PlainBytes>(run, file, size);
 }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "status.h"
+#include "tasks.h"
 #include "vtu_encode.h"
 #include "vtu_read.h"
 
@@ -69,6 +70,75 @@ TEST(VtuCodecs, NameTheDamagedBlock) {
     const std::string text = vtuFailure(file);
     EXPECT_NE(text.find("compressed block 0 (byte 0 of the values): "), std::string::npos) << text;
   }
+}
+
+// The two cells so many times, each time with points of their own.
+VtuTestPiece manyCellPiece(int64_t times) {
+  VtuTestPiece piece = twoCellPiece();
+  VtuTestArray& connectivity = piece.cells_element[0];
+  for (VtuTestArray* array : {&piece.point_data[0], &piece.points_element[0]}) {
+    const std::vector<double> once = array->reals;
+    for (int64_t i = 1; i < times; ++i)
+      for (const double value : once) array->reals.push_back(value + 0.01 * static_cast<double>(i));
+  }
+  for (int64_t i = 1; i < times; ++i) {
+    for (size_t k = 0; k < 8; ++k)
+      connectivity.integers.push_back(connectivity.integers[k] + 5 * i);
+    for (const int64_t end : {8 * i + 4, 8 * i + 8}) piece.cells_element[1].integers.push_back(end);
+    for (int k = 0; k < 2; ++k) {
+      piece.cells_element[2].integers.push_back(10);
+      piece.cell_data[0].integers.push_back(i % 7 - k);
+    }
+  }
+  piece.points *= static_cast<uint64_t>(times);
+  piece.cells *= static_cast<uint64_t>(times);
+  return piece;
+}
+
+std::string failureWith(const std::string& file, const Tasks* tasks) {
+  ReadOptions options;
+  options.threads.tasks = tasks;
+  try {
+    readVtu(file, 1000, options);
+  } catch (const Error& error) {
+    return error.text();
+  }
+  return "";
+}
+
+TEST(VtuCodecs, GiveTheSameToAnyNumberOfThreads) {
+  const VtuTestPiece piece = manyCellPiece(3000);
+  const VtuMesh plain = readVtu(makeVtu({piece}, {VtuCoding::kAppendedRaw}));
+  const Tasks two(2), three(3), eight(8);
+  for (const char* codec : kCodecs)
+    for (const size_t block_bytes : {5000, 65536, 2000000}) {
+      const VtuCoding coding = block_bytes == 5000 ? VtuCoding::kInline : VtuCoding::kAppendedRaw;
+      const std::string file = makeVtu({piece}, styleOf(codec, coding, block_bytes));
+      for (const Tasks* tasks : {&two, &three, &eight}) {
+        ReadOptions options;
+        options.threads.tasks = tasks;
+        EXPECT_TRUE(readVtu(file, 777, options) == plain)
+            << codec << " in blocks of " << block_bytes << ", " << tasks->threads() << " threads";
+      }
+    }
+}
+
+TEST(VtuCodecs, NameTheFirstProblemOfAnyNumberOfThreads) {
+  const Tasks two(2), eight(8);
+  const VtuTestPiece good = manyCellPiece(3000);
+  VtuTestPiece wrong = good;  // in a part that is decompressed with those that are damaged
+  wrong.cells_element[0].integers[9000] = 123456;
+  for (const char* codec : kCodecs)
+    for (const VtuTestPiece* piece : std::initializer_list<const VtuTestPiece*>{&good, &wrong}) {
+      const std::string file = makeVtu({*piece}, styleOf(codec, VtuCoding::kAppendedRaw, 10000));
+      for (size_t byte = file.size() / 40; byte < file.size(); byte += file.size() / 9) {
+        std::string damaged = file;
+        for (size_t i = byte; i < std::min(byte + 8, file.size()); ++i) damaged[i] ^= '\x55';
+        const std::string alone = failureWith(damaged, nullptr);
+        EXPECT_EQ(failureWith(damaged, &two), alone) << codec << " " << byte;
+        EXPECT_EQ(failureWith(damaged, &eight), alone) << codec << " " << byte;
+      }
+    }
 }
 
 #ifdef TETSTREAM_WITH_LZ4

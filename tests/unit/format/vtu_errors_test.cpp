@@ -1,6 +1,8 @@
 // Broken and hostile .vtu files: each gives a status and a sentence that names the place.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "memory.h"
 #include "status.h"
 #include "vtu_encode.h"
@@ -180,6 +182,30 @@ void damageEverywhere(const VtuStyle& style) {
     std::string bad = good;
     bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << bit % 8));
     expectSafe(bad, "bit " + std::to_string(bit));
+  }
+}
+
+// Much text between the tags is not parsed; what stands behind it is found, and named.
+TEST(VtuErrors, NamesThePlaceOfWhatIsNoXmlBehindLongTexts) {
+  const VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
+  for (const size_t size : {1000, 65000, 65536 - 700, 65536, 131072, 200001}) {
+    std::string blanks;
+    while (blanks.size() < size) blanks += blanks.size() % 3 ? " " : "\r\n";
+    std::string text = makeVtu({twoCellPiece()}, {});
+    for (size_t at = 0; (at = text.find("</DataArray>", at)) != text.npos; at += size + 20)
+      text.insert(at, blanks);
+    const size_t root_end = text.find("</VTKFile>");
+    text.insert(root_end, "<x>" + blanks + "<![CDATA[<a>" + blanks + "<b>]]><!--" + blanks +
+                              "<a>-->" + blanks + "<y/></x>");
+    EXPECT_TRUE(readVtu(text) == mesh) << size;
+    const std::string broken = replaced(text, "</VTKFile>", "</VTKfile>");
+    const size_t byte = broken.find("</VTKfile>") + 2;
+    const auto line =
+        1 + std::count(broken.begin(), broken.begin() + static_cast<ptrdiff_t>(byte), '\n');
+    EXPECT_TRUE(has(vtuFailure(broken), "line " + std::to_string(line) + ", byte " +
+                                            std::to_string(byte) + ": not XML: mismatched tag"))
+        << vtuFailure(broken) << " " << line << " " << byte;
+    EXPECT_NE(vtuFailure(text.substr(0, text.size() - 40)), "");
   }
 }
 

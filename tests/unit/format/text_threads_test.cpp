@@ -1,0 +1,464 @@
+// Rows of text that several threads read: the same mesh, and of what is wrong the same sentence,
+// for any number of threads and wherever the text is cut.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "file_scan.h"
+#include "indexed_testing.h"
+#include "strange_workers.h"
+#include "tasks.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+constexpr int kPoints = 60, kCells = 70;
+
+// ----------------------------------------------------------------------------- texts of all
+// formats
+
+// Numbers in many ways; a comment where the format has them.
+class Words {
+ public:
+  std::string real() {
+    const double value = std::uniform_real_distribution<>(-9, 9)(random_);
+    const char* const forms[] = {"%.17g", "%.3f", "%+.5e", "%.0f", "%12.4g"};
+    return textOf(forms[random_() % std::size(forms)], value);
+  }
+  std::string reals(int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += real() + " ";
+    return text;
+  }
+  // Four points of a cell, from `first` on.
+  std::string corners(int first, int count) {
+    std::string text;
+    for (int i = 0, at = static_cast<int>(random_() % (kPoints - 20)); i < count; ++i)
+      text += std::to_string(first + (at += 1 + static_cast<int>(random_() % 4))) + " ";
+    return text;
+  }
+  std::string label() { return std::to_string(random_() % 3); }
+
+ private:
+  std::mt19937_64 random_{5};
+};
+
+std::string meshText() {
+  Words w;
+  std::string text = textOf("MeshVersionFormatted 2\nDimension 3\nVertices %d\n", kPoints);
+  for (int i = 0; i < kPoints; ++i) text += w.reals(3) + w.label() + "\n";
+  text += textOf("Tetrahedra %d\n", kCells);
+  for (int i = 0; i < kCells; ++i) text += w.corners(1, 4) + w.label() + "\n";
+  text += textOf("Triangles %d\n", kCells);
+  for (int i = 0; i < kCells; ++i) text += w.corners(1, 3) + w.label() + "\n";
+  text += textOf("SolAtVertices %d\n2 1 2\n", kPoints);
+  for (int i = 0; i < kPoints; ++i) text += w.reals(4) + "\n";
+  return text + "End\n";
+}
+
+std::string msh2Text() {
+  Words w;
+  std::string text = textOf("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", kPoints);
+  for (int i = 0; i < kPoints; ++i) text += std::to_string(i + 3) + " " + w.reals(3) + "\n";
+  text += textOf("$EndNodes\n$Elements\n%d\n", 2 * kCells);
+  for (int i = 0; i < kCells; ++i)
+    text += textOf("%d 2 1 7 ", i) + w.corners(3, 3) + "\n" + textOf("%d 4 3 1 2 3 ", kCells + i) +
+            w.corners(3, 4) + "\n";
+  text += textOf("$EndElements\n$NodeData\n1\n\"f\"\n1\n0.0\n3\n0\n3\n%d\n", kPoints);
+  for (int i = 0; i < kPoints; ++i) text += std::to_string(i + 3) + " " + w.reals(3) + "\n";
+  return text + "$EndNodeData\n";
+}
+
+std::string msh4Text() {
+  Words w;
+  std::string text =
+      textOf("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n2 %d 1 %d\n", kPoints, kPoints);
+  for (int block = 0; block < 2; ++block) {
+    text += textOf("3 1 0 %d\n", kPoints / 2);
+    for (int i = 0; i < kPoints / 2; ++i)
+      text += std::to_string(block * kPoints / 2 + i + 1) + "\n";
+    for (int i = 0; i < kPoints / 2; ++i) text += w.reals(3) + "\n";
+  }
+  text += textOf("$EndNodes\n$Elements\n2 %d 1 %d\n3 1 4 %d\n", 2 * kCells, 2 * kCells, kCells);
+  for (int i = 0; i < kCells; ++i) text += std::to_string(i + 1) + " " + w.corners(1, 4) + "\n";
+  text += textOf("2 5 2 %d\n", kCells);
+  for (int i = 0; i < kCells; ++i)
+    text += std::to_string(kCells + i + 1) + " " + w.corners(1, 3) + "\n";
+  return text + "$EndElements\n";
+}
+
+std::string su2Text() {
+  Words w;
+  std::string text = textOf("NDIME= 3\nNELEM= %d\n", kCells);
+  for (int i = 0; i < kCells; ++i)
+    text += (i % 9 == 4 ? "5 " + w.corners(0, 3) : "10 " + w.corners(0, 4)) + std::to_string(i) +
+            " and words\n";
+  text += textOf("NPOIN= %d\n", kPoints);
+  for (int i = 0; i < kPoints; ++i) text += w.reals(3) + std::to_string(i) + "\n";
+  text += textOf("NMARK= 1\nMARKER_TAG= wall\nMARKER_ELEMS= %d\n", kCells);
+  for (int i = 0; i < kCells; ++i) text += "5 " + w.corners(0, 3) + "\n";
+  return text;
+}
+
+std::string nodeText() {
+  Words w;
+  std::string text = textOf("%d 3 2 1\n", kPoints);
+  for (int i = 0; i < kPoints; ++i)
+    text += std::to_string(i + 1) + " " + w.reals(5) + w.label() + "\n";
+  return text;
+}
+
+std::string eleText() {
+  Words w;
+  std::string text = textOf("%d 4 1\n", kCells);
+  for (int i = 0; i < kCells; ++i)
+    text += std::to_string(i + 1) + " " + w.corners(1, 4) + w.label() + "\n";
+  return text;
+}
+
+std::string faceText() {
+  Words w;
+  std::string text = textOf("%d 1\n", kCells);
+  for (int i = 0; i < kCells; ++i)
+    text += std::to_string(i + 1) + " " + w.corners(1, 3) + w.label() + " -1 9\n";
+  return text;
+}
+
+// ------------------------------------------------------------------------------ what comes of a
+// text
+
+template <class Read>
+void appendRows(std::string& out, size_t row_bytes, int64_t rows, Read read) {
+  std::string held(row_bytes * static_cast<size_t>(rows), '\0');
+  if (rows > 0) read(static_cast<size_t>(rows), held.data());
+  out += held;
+}
+
+std::string bytesOfMesh(IndexedSource& mesh) {
+  const Schema& schema = mesh.schema();
+  std::string all;
+  appendRows(all, 3 * sizeOf(schema.position_type), schema.vertex_count,
+             [&](size_t n, void* to) { mesh.readPositions(0, n, to); });
+  for (size_t k = 0; k < schema.fields.size(); ++k) {
+    all += schema.fields[k].name;
+    appendRows(all, schema.fields[k].bytesPerRow(), schema.vertex_count,
+               [&](size_t n, void* to) { mesh.readField(k, 0, n, to); });
+  }
+  appendRows(all, 4 * sizeof(int64_t), schema.cell_count,
+             [&](size_t n, void* to) { mesh.readCells(0, n, static_cast<int64_t*>(to)); });
+  for (size_t k = 0; k < schema.cell_data.size(); ++k) {
+    all += schema.cell_data[k].name;
+    appendRows(all, schema.cell_data[k].bytesPerRow(), schema.cell_count,
+               [&](size_t n, void* to) { mesh.readCellData(k, 0, n, to); });
+  }
+  std::vector<int64_t> labels(static_cast<size_t>(std::max<int64_t>(schema.face_count, 0)));
+  appendRows(all, 3 * sizeof(int64_t), schema.face_count, [&](size_t n, void* to) {
+    mesh.readFaces(0, n, static_cast<int64_t*>(to), labels.data());
+  });
+  for (const int64_t label : labels) all += std::to_string(label) + " ";
+  return all;
+}
+
+// The bytes of the mesh with the notes, or the sentence of the error.
+using OpenIt = std::function<Input(const ReadOptions&)>;
+std::string outcomeOf(const OpenIt& open, const TextThreads& threads = {}) {
+  std::string notes;
+  ReadOptions options;
+  options.threads = threads;
+  options.note = [&notes](const std::string& note) { notes += note + "\n"; };
+  try {
+    Input input = open(options);
+    return bytesOfMesh(*input.indexed) + notes;
+  } catch (const Error& error) {
+    return "error: " + error.text();
+  }
+}
+
+// Tasks of 2, 3 and 8 threads, which the tests share.
+const std::vector<std::unique_ptr<const Tasks>>& someTasks() {
+  static const auto tasks = [] {
+    std::vector<std::unique_ptr<const Tasks>> all;
+    for (const size_t threads : {2, 3, 8}) all.push_back(std::make_unique<const Tasks>(threads));
+    return all;
+  }();
+  return tasks;
+}
+
+// Returns what one thread makes of it.
+std::string expectSame(const OpenIt& open, std::initializer_list<size_t> piece_bytes) {
+  const std::string alone = outcomeOf(open);
+  for (const auto& tasks : someTasks())
+    for (const size_t bytes : piece_bytes)
+      EXPECT_TRUE(outcomeOf(open, {tasks.get(), bytes}) == alone)
+          << tasks->threads() << " threads, pieces of " << bytes
+          << " bytes: " << outcomeOf(open, {tasks.get(), bytes}).substr(0, 200)
+          << "\nalone: " << alone.substr(0, 200);
+  return alone;
+}
+
+OpenIt opening(Open open, const std::string& text) {
+  return [=](const ReadOptions& options) { return openText(open, text, options); };
+}
+
+const struct TextFormat {
+  const char* name;
+  Open open;
+  std::string text;
+  char comment;
+} kFormats[] = {{"mesh", openMedit, meshText(), '#'},
+                {"msh 2.2", openMsh, msh2Text(), 0},
+                {"msh 4.1", openMsh, msh4Text(), 0},
+                {"su2", openSu2, su2Text(), '%'}};
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  for (size_t at = 0, end; at < text.size(); at = end + 1) {
+    end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+  }
+  return lines;
+}
+
+std::string joined(const std::vector<std::string>& lines, const std::string& end) {
+  std::string text;
+  for (const std::string& line : lines) text += line + end;
+  return text;
+}
+
+// --------------------------------------------------------------------------------------- the tests
+
+TEST(TextThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
+  for (const TextFormat& format : kFormats) {
+    SCOPED_TRACE(format.name);
+    const std::string mesh = outcomeOf(opening(format.open, format.text));
+    EXPECT_NE(mesh.substr(0, 6), "error:") << mesh.substr(0, 200);
+    for (size_t bytes = 8; bytes < 200; bytes += 5)
+      EXPECT_TRUE(outcomeOf(opening(format.open, format.text),
+                            {someTasks()[bytes % 3].get(), bytes}) == mesh)
+          << bytes;
+    EXPECT_EQ(expectSame(opening(format.open, format.text), {40, 1000, 100000}).size(),
+              mesh.size());
+  }
+}
+
+TEST(TextThreads, KnowEveryWayToEndALine) {
+  for (const TextFormat& format : kFormats) {
+    SCOPED_TRACE(format.name);
+    const std::string mesh = outcomeOf(opening(format.open, format.text));
+    std::vector<std::string> lines = linesOf(format.text);
+    const auto same = [&](const std::string& text) {
+      EXPECT_TRUE(expectSame(opening(format.open, text), {30, 64, 300}) == mesh);
+    };
+    same(joined(lines, "\r\n"));
+    same(format.text.substr(0, format.text.size() - 1));
+    same(joined(lines, " \t\n"));
+    if (std::strcmp(format.name, "su2") != 0) same(joined(lines, "\n\n"));
+    if (format.comment == 0) continue;
+    const std::string comment(1, format.comment);
+    std::vector<std::string> remarked;
+    for (const std::string& line : lines) {
+      remarked.push_back(line + (line.find('=') == line.npos ? " " + comment + " 1 2 3 4 5" : ""));
+      remarked.push_back(comment + "10 1 2 3 4 0 \r");
+    }
+    same(joined(remarked, "\n"));
+  }
+}
+
+// Rows need not stand in lines of their own, where the rest of a line means nothing.
+TEST(TextThreads, ReadRowsThatShareLinesOrRunOverSeveral) {
+  for (const TextFormat& format : kFormats) {
+    if (std::strcmp(format.name, "su2") == 0) continue;
+    SCOPED_TRACE(format.name);
+    const std::string mesh = outcomeOf(opening(format.open, format.text));
+    std::string one_line = format.text, short_lines = format.text;
+    std::replace(one_line.begin() + 60, one_line.end(), '\n', ' ');
+    std::replace(short_lines.begin() + 60, short_lines.end(), ' ', '\n');
+    EXPECT_TRUE(expectSame(opening(format.open, one_line), {30, 300}) == mesh);
+    EXPECT_TRUE(expectSame(opening(format.open, short_lines), {30, 300}) == mesh);
+  }
+}
+
+// Strange things in a line: its error, with the line, is that of one thread.
+const std::function<std::string(const std::string&)> kDamages[] = {
+    [](const std::string& line) { return line.substr(0, line.find_last_of(' ', line.size() - 2)); },
+    [](const std::string& line) { return "x" + line; },
+    [](const std::string& line) { return line + "1.5D+01 +2 -3"; },
+    [](const std::string& line) { return "99999999999999999999 " + line; },
+    [](const std::string& line) { return "400 " + line; },
+    [](const std::string& line) { return std::string("0\0 ", 3) + line; },
+    [](const std::string& line) { return "nan nan nan " + line; },
+    [](const std::string& line) { return std::string(1500, '7') + " " + line; },
+    [](const std::string&) { return std::string(); },
+};
+
+TEST(TextThreads, FindTheFirstBadLineOfOneThread) {
+  for (const TextFormat& format : kFormats) {
+    SCOPED_TRACE(format.name);
+    const std::vector<std::string> lines = linesOf(format.text);
+    size_t errors = 0, tried = 0;
+    for (size_t i = 2; i < lines.size(); i += 7, ++tried) {
+      std::vector<std::string> damaged = lines;
+      damaged[i] = kDamages[tried % std::size(kDamages)](lines[i]);
+      if (i + 20 < lines.size()) damaged[i + 20] = "y" + lines[i + 20];  // and one that comes later
+      SCOPED_TRACE(damaged[i].substr(0, 60));
+      errors += expectSame(opening(format.open, joined(damaged, "\n")), {50, 200})
+                    .starts_with("error: mesh: line");
+    }
+    EXPECT_GT(errors, tried / 2);
+  }
+}
+
+TEST(TextThreads, StopWhereATextIsCutOff) {
+  for (const TextFormat& format : kFormats) {
+    SCOPED_TRACE(format.name);
+    for (size_t size = 61; size < format.text.size(); size += 211)
+      expectSame(opening(format.open, format.text.substr(0, size)), {50});
+  }
+}
+
+// Bytes that cannot be read from some place on.
+class FailingBytes final : public ByteSource {
+ public:
+  FailingBytes(std::string text, size_t fails_at)
+      : ByteSource("mesh"), text_(std::move(text)), fails_at_(fails_at) {}
+  size_t read(void* out, size_t size) override {
+    if (at_ >= fails_at_) fail(Status::kIo, "mesh: the disk is broken");
+    const size_t n = std::min({size, fails_at_ - at_, size_t{37}});
+    std::memcpy(out, text_.data() + at_, n);
+    at_ += n;
+    return n;
+  }
+  size_t readAt(uint64_t, void*, size_t) override { return 0; }
+  bool seekable() const override { return true; }
+  uint64_t size() const override { return text_.size(); }
+
+ private:
+  std::string text_;
+  size_t fails_at_, at_ = 0;
+};
+
+TEST(TextThreads, SayThatReadingFailedOnlyAfterWhatIsWrongBefore) {
+  for (const TextFormat& format : kFormats) {
+    SCOPED_TRACE(format.name);
+    const size_t place = format.text.size() * 3 / 4;
+    std::string damaged = format.text;
+    damaged.insert(format.text.rfind('\n', place - 1500) + 1, "?");
+    const std::string whats_wrong = outcomeOf(opening(format.open, damaged));
+    for (size_t fails_at = place; fails_at < place + 30; fails_at += 3)
+      for (const std::string& text : {format.text, damaged}) {
+        const OpenIt open = [&](const ReadOptions& options) {
+          return format.open(std::make_unique<FailingBytes>(text, fails_at), options);
+        };
+        EXPECT_EQ(expectSame(open, {150}),
+                  text == damaged ? whats_wrong : "error: mesh: the disk is broken");
+      }
+  }
+}
+
+TEST(TextThreads, NeedNobodyWhoComes) {
+  NoWorkers none;
+  HastyWorkers hasty;
+  LazyWorkers lazy;
+  for (const TextFormat& format : kFormats) {
+    const OpenIt open = opening(format.open, format.text);
+    const std::string mesh = outcomeOf(open);
+    for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
+      const Tasks tasks(4, workers);
+      EXPECT_TRUE(outcomeOf(open, {&tasks, 50}) == mesh) << format.name;
+    }
+  }
+  EXPECT_GT(none.refused, 0U);
+  EXPECT_GT(lazy.waiting.size(), 0U);
+  lazy.workAll();  // too late
+}
+
+// A long text, of which it is known how far it was read.
+class CountedBytes final : public ByteSource {
+ public:
+  CountedBytes(uint64_t size, uint64_t* at) : ByteSource("mesh"), size_(size), at_(at) {}
+  size_t read(void* out, size_t size) override {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(size, size_ - *at_));
+    for (size_t i = 0; i < n; ++i) static_cast<char*>(out)[i] = "17 4.5\n "[(*at_ + i) % 8];
+    *at_ += n;
+    return n;
+  }
+  size_t readAt(uint64_t, void*, size_t) override { return 0; }
+  bool seekable() const override { return true; }
+  uint64_t size() const override { return size_; }
+
+ private:
+  uint64_t size_, *at_;
+};
+
+TEST(TextThreads, ReadSomePiecesAheadAndNoMore) {
+  constexpr uint64_t kRows = 50000, kPieceBytes = 1000;
+  for (const auto& tasks : someTasks()) {
+    uint64_t read = 0;
+    FileScan scan(std::make_unique<CountedBytes>(8 * kRows, &read), '#',
+                  {tasks.get(), kPieceBytes});
+    scan.expectRows(kRows, {{{false, 1}, {true, 1}}});
+    for (uint64_t i = 0; i < kRows; ++i) {
+      int64_t whole;
+      double real;
+      scan.integers(&whole, 1, "a number");
+      scan.reals(&real, 1, "a number");
+      ASSERT_TRUE(whole == 17 && real == 4.5);
+      ASSERT_LE(read, 8 * i + (2 * tasks->threads() + 1) * kPieceBytes);
+      if (i % 1000 == 0) {
+        EXPECT_EQ(scan.offset(), 8 * i + 6);
+        EXPECT_EQ(scan.place(), "mesh: line " + std::to_string(i + 1));
+      }
+    }
+    EXPECT_TRUE(scan.word().empty());
+    EXPECT_EQ(read, 8 * kRows);
+  }
+}
+
+class TetgenThreads : public testing::Test {
+ protected:
+  TetgenThreads() : folder_(std::filesystem::temp_directory_path() / "tetstream_threads.XXXXXX") {
+    EXPECT_NE(::mkdtemp(folder_.data()), nullptr);
+  }
+  ~TetgenThreads() override { std::filesystem::remove_all(folder_); }
+  // Any of the three may be another one.
+  std::string expectSameOf(const std::string& node, const std::string& ele,
+                           const std::string& face) {
+    const std::pair<const char*, const std::string*> files[] = {
+        {"/m.node", &node}, {"/m.ele", &ele}, {"/m.face", &face}};
+    for (const auto& [name, text] : files) std::ofstream(folder_ + name, std::ios::binary) << *text;
+    return expectSame(
+        [this](ReadOptions options) {
+          options.path = folder_ + "/m.ele";
+          return openTetgen(openFile(options.path), options);
+        },
+        {40, 150});
+  }
+
+ private:
+  std::string folder_;
+};
+
+TEST_F(TetgenThreads, GiveTheMeshAndTheErrorsOfOneThread) {
+  const std::string texts[] = {nodeText(), eleText(), faceText()};
+  EXPECT_NE(expectSameOf(texts[0], texts[1], texts[2]).substr(0, 6), "error:");
+  for (size_t file = 0; file < 3; ++file) {
+    const std::vector<std::string> lines = linesOf(texts[file]);
+    for (size_t i = 1; i < lines.size(); i += 7) {
+      std::vector<std::string> damaged = lines;
+      damaged[i] = kDamages[i % std::size(kDamages)](lines[i]);
+      damaged[i / 2 + 1] += "# 1 2 3";
+      std::string now[] = {texts[0], texts[1], texts[2]};
+      now[file] = joined(damaged, i % 2 ? "\n" : "\r\n");
+      SCOPED_TRACE(damaged[i].substr(0, 60));
+      expectSameOf(now[0], now[1], now[2]);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tetstream
