@@ -29,7 +29,8 @@ TestMesh squeezed(int n) {
 
 struct Squeezed : WholePatch<double> {
   explicit Squeezed(const std::string& region_names = "auto")
-      : WholePatch<double>(squeezed(8), options(region_names)), reshaper(core, patch, account) {
+      : WholePatch<double>(squeezed(8), options(region_names)),
+        reshaper(core, patch, core.tally, account) {
     core.poor = thinnessOfAngle(25);
     core.tally.error = core.volume;  // any change of the field is allowed
     mergeSome();
@@ -84,7 +85,7 @@ TEST(Reshape, KeepsTheDomainItsTopologyAndWhatCellsStandFor) {
   untouched.patch.store();
   const MeshFacts before = factsOf(untouched.live());
   ASSERT_TRUE(s.reshape(0, 1 << 30));
-  EXPECT_GT(s.core.report.flips, 30);
+  EXPECT_GT(s.core.tally.flips, 30);
   EXPECT_LT(s.poorCells(), 0.6 * poor);
   const auto after_amounts = s.amounts();
   ASSERT_EQ(after_amounts.size(), amounts.size());
@@ -120,12 +121,12 @@ TEST(Reshape, PassesOverCellsRoundWhichNothingChanged) {
   ASSERT_FALSE(s.reshape(0, 1 << 30));
   s.core.tally.error = s.core.volume;
   EXPECT_FALSE(s.reshape(0, 1 << 30, false));
-  EXPECT_EQ(s.core.report.flips, 0);
+  EXPECT_EQ(s.core.tally.flips, 0);
   const uint32_t moved = s.patch.ownedEnd() / 8;
   EXPECT_TRUE(s.reshaper.reshape(0, 1 << 30, [&](uint32_t v) { return v < moved; }));
-  const int64_t near = s.core.report.flips;
+  const int64_t near = s.core.tally.flips;
   EXPECT_TRUE(s.reshape(0, 1 << 30));
-  EXPECT_GT(s.core.report.flips, near);
+  EXPECT_GT(s.core.tally.flips, near);
 }
 
 // Cells of one material are not made of those of two.
