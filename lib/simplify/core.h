@@ -190,6 +190,9 @@ struct Core {
   // Whether the input has so many cells below the smaller of the dear angles that each has its
   // price.
   bool isFlat() const { return dear.size() > 1; }
+  // Whether cells are flipped for their shapes more than for the field. Where so many are below a
+  // degree no flips that are small beside the error would bring them above the solver's floor.
+  bool shapesFirst() const { return options.shape == Shape::kSolver && !isFlat(); }
   bool flips() const { return options.shape == Shape::kSolver || !dear.empty(); }
   // Made so far, with what a part has made that is not added yet.
   double errorWith(const Tally& part) const {

@@ -288,7 +288,7 @@ void Metric<S>::chooseFloor() {
     if (is_above && below > kShareToSpare * static_cast<double>(sampled_))
       core_.dear.push_back(dear_[k]);
   }
-  const bool to_dear = core_.options.shape == Shape::kField && !core_.dear.empty();
+  const bool to_dear = !core_.shapesFirst() && !core_.dear.empty();
   core_.poor = thinnessOfAngle(to_dear ? core_.dear.back().degrees
                                        : std::min(kPoor * core_.thin.degrees, 90.0));
 }

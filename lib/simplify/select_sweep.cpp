@@ -42,7 +42,7 @@ class SweepSelector final : public Selector {
     const bool sweeps_out = goal.last && core_.options.last_resort && !mustStop();
     if (sweeps_out) sweepOut(tick);
     // Twice, with seams that lie elsewhere.
-    for (int round = 0; shapesFirst() && round < 2; ++round)
+    for (int round = 0; core_.shapesFirst() && round < 2; ++round)
       reshapeAll(sweeps_out && round == 0, tick);
   }
 
@@ -76,7 +76,6 @@ class SweepSelector final : public Selector {
     return *lanes_.back();
   }
   void begin(Lane& lane);
-  bool shapesFirst() const { return core_.options.shape == Shape::kSolver; }
   Lane& lane() { return *lanes_[0]; }
   void sweep(const std::function<void()>& tick);
   void sweepOut(const std::function<void()>& tick);
@@ -186,7 +185,7 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
 // labelled faces, common to all; on flips that are measured by the error made so far.
 template <class S>
 bool SweepSelector<S>::worksInOrder() const {
-  return shapesFirst() || std::isfinite(core_.error_limit) || core_.tracer ||
+  return core_.shapesFirst() || std::isfinite(core_.error_limit) || core_.tracer ||
          core_.window.faces.anyPlaced();
 }
 
@@ -294,10 +293,10 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
   tryEverything(tick);
   while (!mustStop()) {
     const double floor = core_.thin.degrees;
-    if (shapesFirst()) reshapeAll(true, tick);
-    core_.thin = ThinAngle(shapesFirst() ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
+    if (core_.shapesFirst()) reshapeAll(true, tick);
+    core_.thin = ThinAngle(core_.shapesFirst() ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
     tryEverything(tick);
-    if (!shapesFirst() || floor == kLeastFloor) return;
+    if (!core_.shapesFirst() || floor == kLeastFloor) return;
   }
 }
 
@@ -305,7 +304,7 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
 template <class S>
 bool SweepSelector<S>::reshape(Lane& lane, float bound) {
   const auto hasMoved = [&](uint32_t v) { return lane.sweep.hasMoved(v); };
-  if (!shapesFirst())
+  if (!core_.shapesFirst())
     return lane.reshaper->thinOut(goal_.least_cells, static_cast<double>(bound) / unit_, hasMoved);
   addOf(lane);
   return reshapeFirst(hasMoved);

@@ -148,6 +148,26 @@ TYPED_TEST(Collapsers, SpareCellsOfDearAngles) {
   w.core.dear = {ThinAngle(10)};
   EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kDone);
 }
+// The more cells below the smaller dear angle are left, the higher: paid, it is done.
+TYPED_TEST(Collapsers, PriceCellsOfTheSmallerDearAngleByTheirNumber) {
+  TypeParam w(gridWithField(4));
+  w.core.thin = ThinAngle(3);
+  w.core.dear = {ThinAngle(20), ThinAngle(10)};
+  const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
+  double before = 0, z[4] = {0, 0, 0, 0};
+  for (double way : {0.8, 0.9, 0.92}) {
+    z[0] = way * 1.5 * w.core.scale[0];  // towards the star's outer faces
+    ASSERT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kDear) << way;
+    const float price = w.collapser.price();
+    EXPECT_GE(price, before) << way;
+    EXPECT_GE(price, 2) << way;  // without any, beside cells below the larger one
+    EXPECT_EQ(price > 2, way > 0.8) << way;
+    before = price;
+    ASSERT_EQ(collapse(w, u, v, z, 0, 0, 0.99f * price), Outcome::kDear) << way;
+  }
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, static_cast<float>(before)), Outcome::kDone);
+}
+
 TYPED_TEST(Collapsers, TakeDearAnglesWhereNobodySpares) {
   TypeParam w(gridWithField(4));
   w.core.thin = ThinAngle(3);

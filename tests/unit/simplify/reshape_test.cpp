@@ -108,6 +108,37 @@ TEST(Reshape, StaysWithinTheLimitsOfCells) {
   }
 }
 
+// Where the field comes first: fewer thin cells, no more of others, and the change is an error
+// made.
+TEST(Reshape, ThinsOutForALittleOfTheBound) {
+  Squeezed s;
+  const int poor = s.poorCells();
+  const int64_t live = s.patch.liveCells();
+  const auto anywhere = [](uint32_t) { return true; };
+  const double before = s.core.tally.error, bound = 1e-3 * s.core.volume;
+  EXPECT_FALSE(s.reshaper.thinOut(0, 1e-12 * bound, anywhere));
+  ASSERT_TRUE(s.reshaper.thinOut(0, bound, anywhere));
+  const int64_t few = s.core.tally.flips;
+  EXPECT_GT(few, 0);
+  EXPECT_LE(s.poorCells(), poor - few);
+  EXPECT_LE(s.patch.liveCells(), live);
+  EXPECT_GT(s.core.tally.error, before);
+  EXPECT_LE(s.core.tally.error, before + 0.01 * bound * static_cast<double>(few));
+  const int left = s.poorCells();
+  ASSERT_TRUE(s.reshaper.thinOut(0, 1e6 * bound, anywhere));
+  EXPECT_LT(s.poorCells(), left);
+  EXPECT_LE(s.patch.liveCells(), live);
+  s.patch.store();
+  EXPECT_EQ(topologyChange(factsOf(s.mesh), factsOf(s.live())), "");
+}
+
+TEST(Reshape, ThinsOutWithinTheLimitOfTheError) {
+  Squeezed s;
+  s.core.error_limit = s.core.tally.error;
+  s.reshaper.thinOut(0, s.core.volume, [](uint32_t) { return true; });
+  EXPECT_EQ(s.core.tally.error, s.core.error_limit);
+}
+
 TEST(Reshape, LeavesFieldsAloneThatWouldChange) {
   Squeezed s;
   s.core.tally.error = 0;
