@@ -193,7 +193,11 @@ struct Core {
   // Whether cells are flipped for their shapes more than for the field. Where so many are below a
   // degree no flips that are small beside the error would bring them above the solver's floor.
   bool shapesFirst() const { return options.shape == Shape::kSolver && !isFlat(); }
-  bool flips() const { return options.shape == Shape::kSolver || !dear.empty(); }
+  // A log of collapses from which the cells follow has no flips.
+  bool flips() const {
+    const bool is_logged = tracer && tracer->keepsLog();
+    return options.shape == Shape::kSolver || (!dear.empty() && !is_logged);
+  }
   // Made so far, with what a part has made that is not added yet.
   double errorWith(const Tally& part) const {
     return (&part == &tally ? 0 : tally.error) + part.error;
