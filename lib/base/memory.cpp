@@ -24,8 +24,8 @@ void Account::charge(size_t bytes) {
   do {
     after = checkedAdd(before, bytes);
     if (limit_ != 0 && after > limit_)
-      fail(Status::kNoMemory, "the memory budget of %zu bytes is too small: %zu are needed", limit_,
-           after);
+      fail(Status::kNoMemory,
+           "the memory budget of %zu bytes is too small: at least %zu are needed", limit_, after);
   } while (!used_.compare_exchange_weak(before, after, std::memory_order_relaxed));
   size_t peak = this->peak();
   while (after > peak && !peak_.compare_exchange_weak(peak, after, std::memory_order_relaxed)) {

@@ -179,10 +179,10 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
 
 // `determinant`: 6 V in the window's units.
 template <class S>
-void Metric<S>::countVolume(uint32_t cell, double determinant) {
+double Metric<S>::volumeOf(uint32_t cell, double determinant) {
   const double volume = std::fabs(determinant) / 6;
-  core_.volume += volume;
   if (core_.plan.cell_means) core_.window.cellMeans(cell)[0] = volume;
+  return volume;
 }
 
 template <class S>
@@ -194,8 +194,9 @@ void Metric<S>::lockFlat(uint32_t cell) {
   ++core_.locked.bad_cells;
 }
 
+// Returns the volume with that of the cell.
 template <class S>
-void Metric<S>::addCell(uint32_t cell) {
+double Metric<S>::addCell(uint32_t cell, double volume) {
   Window<S>& window = core_.window;
   const uint32_t* v = window.mesh.corners(cell);
   double p[4][3];
@@ -209,16 +210,17 @@ void Metric<S>::addCell(uint32_t cell) {
   const int side = orientation(p[0], p[1], p[2], p[3]);
   if (side == 0) {
     window.mesh.flagCell(cell, kFlat);
-    return;
+    return volume;
   }
   if (side < 0) window.mesh.flagCell(cell, kNegative);
-  countVolume(cell,
-              core_.kernels.addCell(x, core_.scale.data(), core_.plan.dimension, shapeWeight(), q));
+  const double determinant =
+      core_.kernels.addCell(x, core_.scale.data(), core_.plan.dimension, shapeWeight(), q);
+  return volume + volumeOf(cell, determinant);
 }
 
 // Several side by side, where all have their sign beyond doubt.
 template <class S>
-bool Metric<S>::addLanes(uint32_t first) {
+bool Metric<S>::addLanes(uint32_t first, double* volume) {
   Window<S>& window = core_.window;
   double determinants[kCellLanes];
   const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
@@ -229,7 +231,7 @@ bool Metric<S>::addLanes(uint32_t first) {
     return false;
   for (uint32_t k = 0; k < kCellLanes; ++k) {
     if (determinants[k] < 0) window.mesh.flagCell(first + k, kNegative);
-    countVolume(first + k, determinants[k]);
+    *volume += volumeOf(first + k, determinants[k]);
   }
   return true;
 }
@@ -254,8 +256,10 @@ bool Metric<S>::isRegular(uint32_t cell) const {
 template <class S>
 void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
   const Topology& mesh = core_.window.mesh;
+  const int64_t before = seen_ - first;
+  seen_ += end - first;
   for (uint32_t c = first; c < end; ++c) {
-    if (seen_++ % kCellsPerSample != 0 || (mesh.cellFlags(c) & kFlat)) continue;
+    if ((before + c) % kCellsPerSample != 0 || (mesh.cellFlags(c) & kFlat)) continue;
     ++sampled_;
     if (isRegular(c)) continue;
     const StarCell cell = mesh.starCell(4 * c);
@@ -303,12 +307,14 @@ void Metric<S>::prepare(uint32_t first, uint32_t end) {
 
 template <class S>
 void Metric<S>::addCells(uint32_t first, uint32_t end) noexcept {
+  double volume = core_.volume;  // note: not there, where other threads look at what lies beside it
   for (uint32_t c = first; c < end;) {
-    if (end - c >= kCellLanes && addLanes(c))
+    if (end - c >= kCellLanes && addLanes(c, &volume))
       c += kCellLanes;
     else
-      addCell(c++);
+      volume = addCell(c++, volume);
   }
+  core_.volume = volume;
 }
 
 template <class S>

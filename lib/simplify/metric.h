@@ -39,10 +39,10 @@ class Metric {
   void updateScales();
   void rescaleQuadrics(const std::vector<S>& factor);
   double shapeWeight() const;
-  void addCell(uint32_t cell);
+  double addCell(uint32_t cell, double volume);
   double faceWeight(bool interface) const;
-  bool addLanes(uint32_t first);
-  void countVolume(uint32_t cell, double determinant);
+  bool addLanes(uint32_t first, double* volume);
+  double volumeOf(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);
   bool isRegular(uint32_t cell) const;
   void chooseFloor();

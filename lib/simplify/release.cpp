@@ -53,15 +53,18 @@ void Release<S>::countUses() {
   const size_t vertices = mesh.vertexEnd();
   if (core_.tasks() && other_uses_.size() < vertices) other_uses_.resize(mesh.vertexCapacity());
   uint32_t* const uses[2] = {core_.window.scratch(), other_uses_.data()};
-  int64_t front[2] = {0, 0};
+  int64_t front[2];
   core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
+    int64_t touching = 0;  // a vertex not yet final
+    front[half] = 0;
     if (!uses[half]) return;  // one thread counts them all
     std::memset(uses[half], 0, vertices * sizeof(uint32_t));
     for (uint32_t c = first; c < end; ++c) {
       if (!mesh.isLive(c)) continue;
       for (int j = 0; j < 4; ++j) ++uses[half][mesh.corners(c)[j]];
-      front[half] += !mayGo(c);
+      touching += !mayGo(c);
     }
+    front[half] = touching;
   });
   front_ = front[0] + front[1];
   if (core_.tasks())

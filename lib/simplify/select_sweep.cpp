@@ -84,7 +84,7 @@ class SweepSelector final : public Selector {
   bool worksInOrder() const;
   size_t groupEnd(size_t first) const;
   void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
-  Swept sweepTile(const TilePiece& tile, float bound, Lane& lane);
+  Swept sweepTile(size_t tile, float bound, Lane& lane, TileQueue& queue);
   bool add(const Swept& swept);
   void addOf(Lane& lane) { add({lane.sweep.takeTally(), lane.sweep.takeDied()}); }
   template <class Work>
@@ -216,7 +216,7 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
   const auto work = [&](size_t l) {
     try {
       while (const std::optional<size_t> tile = queue.take()) {
-        swept_[*tile - first] = sweepTile(tiling_.tiles()[*tile], bound, *lanes_[l]);
+        swept_[*tile - first] = sweepTile(*tile, bound, *lanes_[l], queue);
         queue.finish(*tile);
         if (std::this_thread::get_id() == caller) tick();  // the user's callbacks know one thread
       }
@@ -231,13 +231,19 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
     tasks->forParts(lanes, work);
 }
 
+// Others may load what is stored of it while this one settles it.
 template <class S>
-auto SweepSelector<S>::sweepTile(const TilePiece& tile, float bound, Lane& lane) -> Swept {
+auto SweepSelector<S>::sweepTile(size_t number, float bound, Lane& lane, TileQueue& queue)
+    -> Swept {
+  const TilePiece& tile = tiling_.tiles()[number];
   Swept swept;
   const auto work = [&] {
+    if (!queue.waitForEarlier(number)) return;
     swept.more = lane.sweep.sweep(bound) || swept.more;
     const bool reshaped = core_.flips() && reshape(lane, bound);
     lane.sweep.store();
+    const bool is_whole = lane.sweep.patch().ownedEnd() == tile.vertexCount();
+    if (is_whole) queue.store(number);
     lane.sweep.settleAll();
     if (reshaped) lane.reshaper->unsettleChanged();
   };

@@ -65,16 +65,21 @@ RowCosts costsOf(const Plan& plan, const SimplifyOptions& options) {
           Core<S>::tileVertexBytes(plan)};
 }
 
-// The window that a memory budget allows. A seventh is left for meshes with more vertices to a
-// cell than usual.
+// The window that a memory budget allows. A sixth is left for meshes with more vertices to a
+// cell than usual. Where much of the window is front, which no patch owns, patches have as much of
+// it around them again as they own.
 int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
   if (options.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
   const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
   const int64_t patch = followsPaper(options.mode)
                             ? 0
                             : tileVertices(options, bytes.patch_vertex) * bytes.patch_vertex;
-  const int64_t cells = (options.memory_bytes - kFixedBytes - patch - map) * 6 / 7 / bytes.cell;
-  return std::max<int64_t>(cells, 64);
+  const auto beside = [&](int64_t patches) {
+    const int64_t left = options.memory_bytes - kFixedBytes - patches - map;
+    return std::max<int64_t>(left * 5 / 6 / bytes.cell, 64);
+  };
+  const int64_t cells = beside(patch);
+  return 2 * cells < 5 * std::min(schema.front_cells, kWidestFront) ? beside(2 * patch) : cells;
 }
 
 // A budget that is smaller than four fronts gets what fits; whether that is enough shows later.

@@ -4,11 +4,17 @@
 
 namespace tetstream {
 
-bool TileQueue::mayStart(size_t tile) const {
-  if (state_[tile - first_] != State::kWaiting) return false;
-  return std::all_of(earlier_[tile].begin(), earlier_[tile].end(), [this](uint32_t other) {
-    return other < first_ || state_[other - first_] == State::kDone;
+// That far at least.
+bool TileQueue::earlierAre(State least, size_t tile) const {
+  return std::all_of(earlier_[tile].begin(), earlier_[tile].end(), [this, least](uint32_t other) {
+    return other < first_ || state_[other - first_] >= least;
   });
+}
+
+void TileQueue::set(size_t tile, State state) {
+  const std::lock_guard lock(mutex_);
+  state_[tile - first_] = state;
+  changed_.notify_all();
 }
 
 std::optional<size_t> TileQueue::take() {
@@ -19,18 +25,29 @@ std::optional<size_t> TileQueue::take() {
     if (given_up_ || taken_before_ == state_.size()) return std::nullopt;
     const size_t end = first_ + state_.size();
     size_t best = end;
-    for (size_t tile = first_ + taken_before_; tile < end; ++tile)
-      if (mayStart(tile) && (best == end || ahead_[tile] > ahead_[best])) best = tile;
+    for (size_t tile = first_ + taken_before_; tile < end; ++tile) {
+      const bool is_free =
+          state_[tile - first_] == State::kWaiting && earlierAre(State::kStored, tile);
+      if (is_free && (best == end || ahead_[tile] > ahead_[best])) best = tile;
+    }
     if (best == end) continue;
     state_[best - first_] = State::kTaken;
     return best;
   }
 }
 
+bool TileQueue::waitForEarlier(size_t tile) {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this, tile] { return given_up_ || earlierAre(State::kDone, tile); });
+  return !given_up_;
+}
+
+void TileQueue::store(size_t tile) {
+  set(tile, State::kStored);
+}
+
 void TileQueue::finish(size_t tile) {
-  const std::lock_guard lock(mutex_);
-  state_[tile - first_] = State::kDone;
-  changed_.notify_all();
+  set(tile, State::kDone);
 }
 
 void TileQueue::giveUp() {

@@ -13,6 +13,9 @@ namespace tetstream {
 // A tile waits for those before it that share a cell with it. So each finds what it would if they
 // were worked on one after the other, however many threads there are. Never are all threads that
 // ask kept waiting: the first tile that nobody has is free when nothing is being worked on.
+//
+// A tile is given out, to be loaded, when those before it are stored; before more is done with it
+// they must be finished, too.
 class TileQueue {
  public:
   // Tiles [first, end); of each tile of all: those before it that it shares cells with, and how
@@ -21,15 +24,21 @@ class TileQueue {
             size_t first, size_t end)
       : earlier_(earlier), ahead_(ahead), first_(first), state_(end - first, State::kWaiting) {}
 
-  // Of the tiles that may be worked on, the first of those with most ahead; waits for one. None
-  // when all were given out, or somebody gave up.
+  // Of the tiles that may be loaded, the first of those with most ahead; waits for one. None when
+  // all were given out, or somebody gave up.
   std::optional<size_t> take();
+  // Waits until those before the tile that share a cell with it are finished; false: somebody gave
+  // up.
+  bool waitForEarlier(size_t tile);
+  // Its cells and vertices will not change any more. What is not stored is when it is finished.
+  void store(size_t tile);
   void finish(size_t tile);
   void giveUp();
 
  private:
-  enum class State : uint8_t { kWaiting, kTaken, kDone };
-  bool mayStart(size_t tile) const;
+  enum class State : uint8_t { kWaiting, kTaken, kStored, kDone };
+  bool earlierAre(State least, size_t tile) const;
+  void set(size_t tile, State state);
 
   const std::vector<std::vector<uint32_t>>& earlier_;
   const std::vector<size_t>& ahead_;

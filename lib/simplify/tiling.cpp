@@ -36,7 +36,8 @@ void TileCells::copy(size_t tile, uint32_t* to) const {
   }
 }
 
-// In scratch: 1 for a vertex with an edge to be looked at, 2 for its neighbours.
+// In scratch: 1 for a vertex with an edge to be looked at. Near it: each half of the cells tells
+// its neighbours.
 template <class S>
 void Tiling<S>::markVertices(float bound) {
   const Topology& mesh = core_.window.mesh;
@@ -50,12 +51,18 @@ void Tiling<S>::markVertices(float bound) {
     looking_ += mark[v];
     others_wait_ |= free && least > bound && least < std::numeric_limits<float>::infinity();
   }
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
-    if (!mesh.isLive(c)) continue;
-    const uint32_t* v = mesh.corners(c);
-    if (((mark[v[0]] | mark[v[1]] | mark[v[2]] | mark[v[3]]) & 1) == 0) continue;
-    for (int j = 0; j < 4; ++j) mark[v[j]] |= 2;
-  }
+  for (Part& part : parts_)
+    if (part.near.size() < mesh.vertexEnd()) part.near.resize(mesh.vertexCapacity());
+  core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
+    uint8_t* const near = parts_[half].near.data();
+    std::fill_n(near, mesh.vertexEnd(), uint8_t{0});
+    for (uint32_t c = first; c < end; ++c) {
+      if (!mesh.isLive(c)) continue;
+      const uint32_t* v = mesh.corners(c);
+      if ((mark[v[0]] | mark[v[1]] | mark[v[2]] | mark[v[3]]) == 0) continue;
+      for (int j = 0; j < 4; ++j) near[v[j]] = 1;
+    }
+  });
 }
 
 template <class S>
@@ -66,7 +73,7 @@ size_t Tiling<S>::listVertices() {
   size_t count = 0;
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     vertices_[count] = v;
-    count += mark[v] != 0 && mesh.isFree(v);
+    count += (mark[v] | parts_[0].near[v] | parts_[1].near[v]) != 0 && mesh.isFree(v);
     mark[v] = 0;
   }
   return count;

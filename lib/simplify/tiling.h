@@ -26,7 +26,8 @@ class TileCells {
   void copy(size_t tile, uint32_t* to) const;  // in the order in which they were added
 
  private:
-  struct List {
+  // note: each in a cache line, which two threads do not share.
+  struct alignas(64) List {
     size_t count;
     uint32_t last_block;
   };
@@ -67,7 +68,8 @@ class Tiling {
   using Earlier = std::vector<std::vector<uint32_t>>;
   // What was found in a part of the window's cells.
   struct Part {
-    explicit Part(Account& account) : cells(account) {}
+    explicit Part(Account& account) : near(account), cells(account) {}
+    Array<uint8_t> near;  // of each vertex: whether a cell has it and one to be looked at
     TileCells cells;
     Earlier earlier;
   };

@@ -141,8 +141,7 @@ const std::vector<unsigned char>& ChunkBuilder::encode(uint64_t rank, bool compr
 
   const size_t start_bytes = chunkStartBytes(schema_), box_bytes = box_.min.size() * sizeof(double);
   const size_t payload_at = sizeof(SectionHead) + start_bytes;
-  section_.clear();
-  section_.resize(payload_at + shape_.payloadBytes(), 0);
+  makeZeros(section_, payload_at + shape_.payloadBytes());
   const ChunkStart start = {first_cell_, 0};
   unsigned char* at = section_.data() + sizeof(SectionHead);
   std::memcpy(at, &start, sizeof start);
@@ -151,14 +150,9 @@ const std::vector<unsigned char>& ChunkBuilder::encode(uint64_t rank, bool compr
   writeColumns(flags, section_.data() + payload_at);
 
   size_t stored = shape_.payloadBytes();
-  packed_.clear();
-  const size_t packed =
-      compress ? codec_.compress(shape_, section_.data() + payload_at, packed_) : 0;
-  if (packed) {
+  if (const size_t packed = compress ? codec_.compress(shape_, payload_at, section_) : 0) {
     flags |= kCodecZstd << kCodecShift;
     stored = packed;
-    section_.resize(payload_at);
-    section_.insert(section_.end(), packed_.begin(), packed_.end());
   }
   SectionHead head = makeHead(kChunk, flags);
   head.value = static_cast<uint32_t>(stored);

@@ -46,7 +46,7 @@ class ChunkBuilder {
   std::vector<Bytes> columns_;  // as in the shape, but cells always as int64
   std::vector<int64_t> cells_;
   Box box_;
-  Bytes section_, packed_;
+  Bytes section_;
 };
 
 }  // namespace tetstream::tets

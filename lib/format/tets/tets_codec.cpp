@@ -1,5 +1,7 @@
 #include "tets_codec.h"
 
+#include <algorithm>
+
 #include "status.h"
 
 #ifdef TETSTREAM_WITH_ZSTD
@@ -17,17 +19,17 @@ static constexpr int kLevel = 1;
 struct Codec::State {
   ZSTD_CCtx* to = nullptr;
   ZSTD_DCtx* from = nullptr;
-  std::vector<unsigned char> filtered, ids;
+  std::vector<unsigned char> filtered;
   ~State() {
     ZSTD_freeCCtx(to);
     ZSTD_freeDCtx(from);
   }
 };
 
-// out[b * count + i] = byte b of number i.
+// out[b * count + i] = byte b of number i, of n numbers of a column that has `count`.
 template <size_t kWidth>
-static void transpose(const unsigned char* in, unsigned char* out, size_t count) {
-  for (size_t i = 0; i < count; ++i)
+static void transpose(const unsigned char* in, unsigned char* out, size_t n, size_t count) {
+  for (size_t i = 0; i < n; ++i)
     for (size_t b = 0; b < kWidth; ++b) out[b * count + i] = in[i * kWidth + b];
 }
 
@@ -37,19 +39,34 @@ static void transposeBack(const unsigned char* in, unsigned char* out, size_t co
     for (size_t b = 0; b < kWidth; ++b) out[i * kWidth + b] = in[b * count + i];
 }
 
-// Unsigned arithmetic wraps, so every value comes back, whatever it is.
+// Of the numbers from `first` on. Unsigned arithmetic wraps, so every value comes back, whatever it
+// is.
 template <class U>
-static void toDifferences(const unsigned char* in, unsigned char* out, size_t count, size_t step) {
+static void toDifferences(const unsigned char* in, unsigned char* out, size_t first, size_t n,
+                          size_t step) {
   const auto at = [in](size_t i) {
     U u;
     std::memcpy(&u, in + i * sizeof(U), sizeof u);
     return u;
   };
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = first; i < first + n; ++i) {
     const U d = at(i) - (i < step ? U{0} : at(i - step));
     const U sign = static_cast<U>(U{0} - (d >> (8 * sizeof(U) - 1)));
     const U u = static_cast<U>(d << 1) ^ sign;
-    std::memcpy(out + i * sizeof(U), &u, sizeof u);
+    std::memcpy(out + (i - first) * sizeof(U), &u, sizeof u);
+  }
+}
+
+// By blocks, whose differences stay in the cache.
+template <class U>
+static void filterIds(const ColumnPlace& c, const unsigned char* in, unsigned char* out) {
+  static constexpr size_t kBlock = 1024;
+  const size_t count = c.rows * c.components;
+  unsigned char differences[kBlock * sizeof(U)];
+  for (size_t first = 0; first < count; first += kBlock) {
+    const size_t n = std::min(kBlock, count - first);
+    toDifferences<U>(in, differences, first, n, c.components);
+    transpose<sizeof(U)>(differences, out + first, n, count);
   }
 }
 
@@ -64,23 +81,16 @@ static void fromDifferences(unsigned char* data, size_t count, size_t step) {
   }
 }
 
-static void filter(const ColumnPlace& c, const unsigned char* in, unsigned char* out,
-                   std::vector<unsigned char>& ids) {
+static void filter(const ColumnPlace& c, const unsigned char* in, unsigned char* out) {
   const size_t count = c.rows * c.components;
-  if (c.ids) {
-    ids.resize(c.bytes);
-    if (c.width == 4)
-      toDifferences<uint32_t>(in, ids.data(), count, c.components);
-    else
-      toDifferences<uint64_t>(in, ids.data(), count, c.components);
-    in = ids.data();
-  }
-  if (c.width == 1)
+  if (c.ids)
+    c.width == 4 ? filterIds<uint32_t>(c, in, out) : filterIds<uint64_t>(c, in, out);
+  else if (c.width == 1)
     std::memcpy(out, in, c.bytes);
   else if (c.width == 4)
-    transpose<4>(in, out, count);
+    transpose<4>(in, out, count, count);
   else
-    transpose<8>(in, out, count);
+    transpose<8>(in, out, count, count);
 }
 
 static void filterBack(const ColumnPlace& c, const unsigned char* in, unsigned char* out) {
@@ -110,28 +120,40 @@ bool Codec::builtIn() {
   return true;
 }
 
-size_t Codec::compress(const ChunkShape& shape, const unsigned char* payload,
-                       std::vector<unsigned char>& out) {
+static void unfilter(const ChunkShape& shape, const unsigned char* filtered,
+                     unsigned char* payload) {
+  for (const ColumnPlace& c : shape.columns())
+    if (c.bytes) {
+      filterBack(c, filtered, payload + c.offset);
+      filtered += c.bytes;
+    }
+}
+
+size_t Codec::compress(const ChunkShape& shape, size_t payload_at,
+                       std::vector<unsigned char>& section) {
   State& s = *state_;
   if (!s.to && !(s.to = ZSTD_createCCtx()))
     fail(Status::kNoMemory, "no memory for zstd's compression");
-  s.filtered.resize(filteredBytes(shape));
+  makeZeros(s.filtered, filteredBytes(shape));
   size_t at = 0;
   for (const ColumnPlace& c : shape.columns())
     if (c.bytes) {
-      filter(c, payload + c.offset, s.filtered.data() + at, s.ids);
+      filter(c, section.data() + payload_at + c.offset, s.filtered.data() + at);
       at += c.bytes;
     }
-  const size_t begin = out.size();
-  const size_t room = ZSTD_compressBound(at);
-  out.resize(begin + room);
+  unsigned char* const payload = section.data() + payload_at;
   const size_t got =
-      ZSTD_compressCCtx(s.to, out.data() + begin, room, s.filtered.data(), at, kLevel);
+      ZSTD_compressCCtx(s.to, payload, shape.payloadBytes(), s.filtered.data(), at, kLevel);
   // Where less than an eighth is saved, columns that can be used in place are worth more.
   const bool pays =
       !ZSTD_isError(got) && alignUp(got) <= shape.payloadBytes() - shape.payloadBytes() / 8;
-  out.resize(begin + (pays ? got : 0));
-  return pays ? got : 0;
+  if (pays) {
+    section.resize(payload_at + got);
+    return got;
+  }
+  std::memset(payload, 0, shape.payloadBytes());
+  unfilter(shape, s.filtered.data(), payload);
+  return 0;
 }
 
 bool Codec::decompress(const ChunkShape& shape, const unsigned char* stored, size_t stored_bytes,
@@ -141,15 +163,10 @@ bool Codec::decompress(const ChunkShape& shape, const unsigned char* stored, siz
     fail(Status::kNoMemory, "no memory for zstd's decompression");
   const size_t bytes = filteredBytes(shape);
   if (ZSTD_getFrameContentSize(stored, stored_bytes) != bytes) return false;
-  s.filtered.resize(bytes);
+  makeZeros(s.filtered, bytes);
   const size_t got = ZSTD_decompressDCtx(s.from, s.filtered.data(), bytes, stored, stored_bytes);
   if (ZSTD_isError(got) || got != bytes) return false;
-  size_t at = 0;
-  for (const ColumnPlace& c : shape.columns())
-    if (c.bytes) {
-      filterBack(c, s.filtered.data() + at, payload + c.offset);
-      at += c.bytes;
-    }
+  unfilter(shape, s.filtered.data(), payload);
   return true;
 }
 
@@ -161,7 +178,7 @@ Codec::~Codec() = default;
 bool Codec::builtIn() {
   return false;
 }
-size_t Codec::compress(const ChunkShape&, const unsigned char*, std::vector<unsigned char>&) {
+size_t Codec::compress(const ChunkShape&, size_t, std::vector<unsigned char>&) {
   return 0;
 }
 bool Codec::decompress(const ChunkShape&, const unsigned char*, size_t, unsigned char*) {

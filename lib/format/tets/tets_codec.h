@@ -18,10 +18,10 @@ class Codec {
   ~Codec();
   static bool builtIn();  // without it, compress never pays and decompress is not to be called
 
-  // The columns at `payload`, compressed, appended to `out`; returns their bytes, or 0, and appends
-  // nothing, where that saves too little.
-  size_t compress(const ChunkShape& shape, const unsigned char* payload,
-                  std::vector<unsigned char>& out);
+  // Of a section that ends with the columns, which begin at `payload_at`: compressed in their
+  // place, with nothing behind; returns their bytes, or 0, and leaves all as it was, where that
+  // saves too little.
+  size_t compress(const ChunkShape& shape, size_t payload_at, std::vector<unsigned char>& section);
   // False if the bytes are not what compress made of columns of that shape.
   bool decompress(const ChunkShape& shape, const unsigned char* stored, size_t stored_bytes,
                   unsigned char* payload);

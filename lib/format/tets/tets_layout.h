@@ -30,6 +30,16 @@ constexpr size_t kMaxHeaderBytes = 1 << 20;       // the header section
 constexpr size_t kMaxEntryBytes = 1024;           // of an index entry, with what later versions add
 constexpr uint32_t kIndexEntries = 1024;          // of one index section
 
+// As many zeros; a vector that grows by itself would take twice the room.
+inline void makeZeros(std::vector<unsigned char>& bytes, size_t count) {
+  bytes.clear();
+  if (count > bytes.capacity()) {
+    bytes = {};
+    bytes.reserve(count + count / 8);
+  }
+  bytes.resize(count);
+}
+
 constexpr size_t alignUp(size_t bytes) {
   return (bytes + (kAlign - 1)) & ~(kAlign - 1);
 }

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <thread>
 
 namespace tetstream::test {
@@ -46,6 +47,39 @@ TEST(TileQueue, TakesTilesBeforeItsOwnAsDone) {
   EXPECT_EQ(queue.take(), 1u);
   queue.finish(1);
   EXPECT_EQ(queue.take(), 2u);
+}
+
+TEST(TileQueue, GivesOutWhatIsToBeLoadedWhileThoseBeforeItAreSettled) {
+  const Earlier earlier = {{}, {0}, {1}};
+  const std::vector<size_t> ahead = {3, 2, 1};
+  TileQueue queue(earlier, ahead, 0, 3);
+  EXPECT_EQ(queue.take(), 0u);
+  EXPECT_TRUE(queue.waitForEarlier(0)) << "it waits for none";
+  queue.store(0);
+  EXPECT_EQ(queue.take(), 1u);
+  std::atomic<bool> is_settled = false;
+  std::thread other([&] {
+    EXPECT_TRUE(queue.waitForEarlier(1));
+    EXPECT_TRUE(is_settled);
+    queue.finish(1);
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  is_settled = true;
+  queue.finish(0);
+  EXPECT_EQ(queue.take(), 2u) << "not stored, but finished";
+  other.join();
+}
+
+TEST(TileQueue, EndsTheWaitingForThoseBeforeWhenSomebodyGivesUp) {
+  const Earlier earlier = {{}, {0}};
+  const std::vector<size_t> ahead = {2, 1};
+  TileQueue queue(earlier, ahead, 0, 2);
+  EXPECT_EQ(queue.take(), 0u);
+  queue.store(0);
+  EXPECT_EQ(queue.take(), 1u);
+  std::thread other([&] { EXPECT_FALSE(queue.waitForEarlier(1)); });
+  queue.giveUp();
+  other.join();
 }
 
 TEST(TileQueue, LetsThreadsWaitUntilATileIsDoneOrSomebodyGivesUp) {
