@@ -162,15 +162,15 @@ void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, R
 }
 
 template <class S>
-bool Reconnector<S>::removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out) {
+bool Reconnector<S>::removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out,
+                                uint32_t most_ring) {
   out = {};
   uint32_t u = patch_.vertexOf(c, i), v = patch_.vertexOf(c, j);
   if (u >= patch_.ownedEnd()) std::swap(u, v);
   if (u >= patch_.ownedEnd()) return false;
   patch_.gather(u, v, star_, ring_);
   uint32_t ring[Reconnection::kMostRing];
-  if (ring_.size() < 3 || ring_.size() > Reconnection::kMostRing || !orderRing(v, ring))
-    return false;
+  if (ring_.size() < 3 || ring_.size() > most_ring || !orderRing(v, ring)) return false;
   for (const StarCell& s : ring_) addGone(s.cell, out);
   triangulate(u, v, ring, out);
   return true;

@@ -38,8 +38,9 @@ class Reconnector {
   bool removeFace(uint32_t c, uint32_t j, Reconnection& out);
   // The edge between corners i and j of cell c makes way for triangles spanning its ring: n cells
   // become 2 (n - 2), by the best triangulation. False where it is on the boundary, its ring is not
-  // known or has more than kMostRing cells.
-  bool removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out);
+  // known or has more than `most_ring` cells.
+  bool removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out,
+                  uint32_t most_ring = Reconnection::kMostRing);
   double thinnessOfCell(uint32_t c);
 
  private:

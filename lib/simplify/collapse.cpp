@@ -9,6 +9,11 @@ namespace tetstream {
 // A place that keeps the volumes of regions and has more than this times the error of the best one
 // has its price: where curves and sheets are tightly curved, the step to it may be large.
 constexpr float kDearGrowth = 1.5f;
+// Of meshes with many cells below the smaller dear angle. With an error of one part in kFlatParts
+// of the bound an edge may be collapsed that leaves as large a share of them; each cell that it
+// leaves more of them, or fewer, counts as kFlatCost of the bound. Larger ones leave fewer such
+// cells, at a larger error and for more time: an edge is tried again at the bound of its price.
+constexpr double kFlatParts = 2, kFlatCost = 0.2;
 // Of an edge's length: nearer to it than this is on it.
 constexpr double kOnEdge = 1e-3;
 
@@ -26,7 +31,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
 
 template <class Mesh>
 void Collapser<Mesh>::forget() {
-  std::fill_n(refusals_.data(), refusals_.size(), Refusal{kNone, kNone, kNone});
+  refusals_.forget();
   sound_.forget();
 }
 
@@ -65,9 +70,7 @@ StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size
 template <class Mesh>
 bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) {
   if (after == 0) return true;
-  const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
-  const size_t before = thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +
-                        thinIn(stars_.v, at_v, angle);
+  const size_t before = thinBefore(u, v, angle);
   if (before == 0 && core_.options.shape == Shape::kSolver) {
     sound_.add(u);
     sound_.add(v);
@@ -76,15 +79,28 @@ bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, s
   return after * (left + stars_.ring.size()) <= before * left;
 }
 
-// `after`: cells that would be below the largest angle in question.
 template <class Mesh>
-Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, bool spares, size_t after) {
-  if (!thinsOut(u, v, core_.thin, spares ? thinAfter(core_.thin) : after))
+float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) const {
+  const auto before = static_cast<double>(thinBefore(u, v, core_.dear.back()));
+  const auto left = static_cast<double>(stars_.u.size() + stars_.v.size());
+  const double share_left = left / (left + static_cast<double>(stars_.ring.size()));
+  const double more = static_cast<double>(flat_after) - before * share_left;
+  const double part = 1 / kFlatParts - kFlatCost * more;
+  return static_cast<float>(1 / std::clamp(part, 1.0 / kHighestPrice, 1.0));
+}
+
+// `thin_after`: cells that would be below the largest angle in question.
+template <class Mesh>
+Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, size_t thin_after) {
+  if (!isPriced(most_price))
+    return thinsOut(u, v, core_.thin, thin_after) ? Outcome::kDone : Outcome::kOrientation;
+  const size_t flat_after =
+      core_.isFlat() && thin_after > 0 ? thinAfter(core_.dear.back()) : thin_after;
+  if (flat_after > 0 && !thinsOut(u, v, core_.thin, thinAfter(core_.thin)))
     return Outcome::kOrientation;
-  for (size_t i = 0; spares && i < core_.dear.size(); ++i)
-    if (!thinsOut(u, v, core_.dear[i], i > 0 ? thinAfter(core_.dear[i]) : after))
-      return Outcome::kDear;
-  return Outcome::kDone;
+  if (core_.isFlat()) price_ = std::max(price_, flatPrice(u, v, flat_after));
+  if (price_ < kThinPrice && !thinsOut(u, v, core_.dear.front(), thin_after)) price_ = kThinPrice;
+  return price_ > most_price ? Outcome::kDear : Outcome::kDone;
 }
 
 // Whether u is farther from the new place than v is.
@@ -101,12 +117,7 @@ bool Collapser<Mesh>::isFarther(uint32_t u, uint32_t v) const {
 
 template <class Mesh>
 Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turned) {
-  if (u > v) std::swap(u, v);
-  if (refusals_.size() == 0) {
-    refusals_.resize(kRefusals);
-    forget();
-  }
-  refusals_[placeOf(u, v)] = {u, v, turned.cell};
+  refusals_.put(u, v, turned.cell);
   return Outcome::kOrientation;
 }
 
@@ -114,17 +125,14 @@ Outcome Collapser<Mesh>::refuseFor(uint32_t u, uint32_t v, const StarCell& turne
 // or thin. Slots may have changed hands since: any cell of one end tells.
 template <class Mesh>
 bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const {
-  if (refusals_.size() == 0) return false;
-  if (u > v) std::swap(u, v);
-  const Refusal& last = refusals_[placeOf(u, v)];
-  if (last.u != u || last.v != v || last.cell >= mesh_.cellEnd() || !mesh_.isLive(last.cell))
-    return false;
+  const uint32_t* const last = refusals_.find(u, v);
+  if (!last || *last >= mesh_.cellEnd() || !mesh_.isLive(*last)) return false;
   uint32_t ends = 0, at = 0;
   for (uint32_t j = 0; j < 4; ++j) {
-    const uint32_t x = mesh_.vertexOf(last.cell, j);
+    const uint32_t x = mesh_.vertexOf(*last, j);
     if (x != u && x != v) continue;
     ++ends;
-    at = 4 * last.cell + j;
+    at = 4 * *last + j;
   }
   if (ends != 1) return false;
   const StarCell cell = mesh_.starCell(at);
@@ -224,7 +232,9 @@ bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Strata& strata
 
 // Half of all edges fail, most of them by the cells of the end that moves most.
 template <class Mesh>
-Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares) {
+Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells,
+                              float most_price) {
+  price_ = 1;
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
@@ -250,11 +260,11 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (strata.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
     gather(!u_first);
     const S moved = adjust(strata);
-    if (spares && moved > kDearGrowth * *error) return Outcome::kDear;
+    if (moved > kDearGrowth * *error) price_ = kThinPrice;
+    if (price_ > most_price) return Outcome::kDear;
     *error = std::max(*error, moved);
   }
-  spares = spares && !core_.dear.empty();
-  const ThinAngle& angle = spares ? core_.dear.front() : floor;
+  const ThinAngle& angle = isPriced(most_price) ? core_.dear.front() : floor;
   const Star& farther = u_first ? stars_.u : stars_.v;
   const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size(), angle);
   if (!a.positive) return refuseFor(u, v, farther[a.turned]);
@@ -263,8 +273,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size(), angle);
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
   const size_t thin = a.thin + b.thin;
-  if (thin > 0)
-    if (const Outcome o = thins(u, v, spares, thin); o != Outcome::kDone) return o;
+  if (const Outcome o = thins(u, v, most_price, thin); o != Outcome::kDone) return o;
   if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
   leaves_thin_ = thin > 0;
   return Outcome::kDone;
@@ -280,14 +289,14 @@ double Collapser<Mesh>::growth(uint32_t u, uint32_t v, S error) {
 
 template <class Mesh>
 Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
-                                  bool spares) {
+                                  float most_price) {
   std::copy_n(z, z_.size(), z_.data());
   placeAt(u, v, z);
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               merged_.data() + core_.plan.dimension);
   Outcome outcome = Outcome::kNotFinite;
   if (std::isfinite(error)) {
-    outcome = test(u, v, &error, least_cells, spares);
+    outcome = test(u, v, &error, least_cells, most_price);
     if (outcome == Outcome::kDone && passesLimit(u, v, error)) {
       tally_.error_reached = true;
       outcome = Outcome::kTooFar;
@@ -303,8 +312,7 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
 
 template <class Mesh>
 bool Collapser<Mesh>::passesLimit(uint32_t u, uint32_t v, S error) {
-  const double of_others = &tally_ == &core_.tally ? 0 : core_.tally.error;
-  return of_others + tally_.error + growth(u, v, error) > core_.error_limit;
+  return core_.errorWith(tally_) + growth(u, v, error) > core_.error_limit;
 }
 
 template <class Mesh>

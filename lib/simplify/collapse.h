@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core.h"
+#include "edge_notes.h"
 #include "link.h"
 #include "patch.h"
 #include "region_volumes.h"
@@ -11,6 +12,9 @@
 #include "strata.h"
 
 namespace tetstream {
+
+// An edge whose collapse makes more cells thin than it should is taken at this times its error.
+constexpr float kThinPrice = 2, kHighestPrice = 64;
 
 enum class Outcome {
   kDone,
@@ -44,10 +48,12 @@ class Collapser {
   // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
   // before, decided exactly on the values as they will be written, and the share of thin ones no
   // larger; the whole error within its limit; no fewer than `least_cells` cells left in the window.
-  // Where it spares, the share of those below the dear angles may not grow either, and keeping the
-  // volumes of regions may not cost much: kDear otherwise.
+  // kDear, where it would have a higher price than `most_price`, in its error: more cells below the
+  // dear angles have theirs, and so has keeping the volumes of regions where that costs much.
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
-                   bool spares = false);
+                   float most_price = std::numeric_limits<float>::infinity());
+  // Of the edge that was dear.
+  float price() const { return price_; }
 
   // z of an end.
   void endOf(uint32_t u, uint32_t v, bool at_v, S* z) const;
@@ -68,7 +74,7 @@ class Collapser {
   StrataCondition::End strataEnd(uint32_t v, const Embedded& embedded) const;
   Strata strataOf(uint32_t u, uint32_t v) const;
   bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
-  Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, bool spares);
+  Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, float most_price);
   S adjust(const Strata& strata);
   bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
   S errorHere(uint32_t u, uint32_t v) const;
@@ -88,8 +94,18 @@ class Collapser {
   size_t thinAfter(const ThinAngle& angle) const {
     return thinIn(stars_.u, merged_.data(), angle) + thinIn(stars_.v, merged_.data(), angle);
   }
+  // Whether its thin cells may cost a collapse more than that.
+  bool isPriced(float most_price) const {
+    return !core_.dear.empty() && most_price < (core_.isFlat() ? kHighestPrice : kThinPrice);
+  }
+  Outcome thins(uint32_t u, uint32_t v, float most_price, size_t thin_after);
+  size_t thinBefore(uint32_t u, uint32_t v, const ThinAngle& angle) const {
+    const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
+    return thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +
+           thinIn(stars_.v, at_v, angle);
+  }
   bool thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after);
-  Outcome thins(uint32_t u, uint32_t v, bool spares, size_t after);
+  float flatPrice(uint32_t u, uint32_t v, size_t flat_after) const;
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void handOverCellData(uint32_t v);
@@ -103,19 +119,15 @@ class Collapser {
   struct Heirs {
     uint32_t dying, cell[2], count;
   };
-  // The cell for which an edge was refused. Tried again, it mostly is for the same.
-  struct Refusal {
-    uint32_t u, v, cell;
-  };
-  static constexpr uint32_t kRefusals = 4096;
-  static uint32_t placeOf(uint32_t u, uint32_t v) { return (u * 61 + v) % kRefusals; }
 
   Core<S>& core_;
   Mesh& mesh_;
   Tally& tally_;
-  Array<Refusal> refusals_;
+  // The cell for which an edge was refused: tried again, it mostly is for the same.
+  EdgeNotes<uint32_t> refusals_;
   SoundVertices sound_;       // where shapes come first
   bool leaves_thin_ = false;  // the edge that was tested
+  float price_ = 1;
   LinkCondition link_;
   StrataCondition strata_;
   RegionVolumes volumes_;

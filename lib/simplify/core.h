@@ -92,7 +92,7 @@ inline int64_t tileVertices(const SimplifyOptions& options, int64_t vertex_bytes
 // What collapses did: to the whole mesh, or to a part of the window that is worked on beside others
 // and is added when its turn comes. Sums of errors are added part by part, whoever worked on them.
 struct Tally {
-  int64_t collapses = 0;
+  int64_t collapses = 0, flips = 0;
   int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
   double error = 0;            // made: volume times squared error, normalised
   double largest_error = 0;    // in the report's unit
@@ -100,6 +100,7 @@ struct Tally {
 
   void add(const Tally& part) {
     collapses += part.collapses;
+    flips += part.flips;
     rejected_orientation += part.rejected_orientation;
     rejected_link += part.rejected_link;
     rejected_locked += part.rejected_locked;
@@ -186,6 +187,21 @@ struct Core {
 
   // Whether some collapses have more than the price of their error.
   bool spares() const { return !dear.empty() || interfaces || exact_curves; }
+  // Whether the input has so many cells below the smaller of the dear angles that each has its
+  // price.
+  bool isFlat() const { return dear.size() > 1; }
+  // Whether cells are flipped for their shapes more than for the field. Where so many are below a
+  // degree no flips that are small beside the error would bring them above the solver's floor.
+  bool shapesFirst() const { return options.shape == Shape::kSolver && !isFlat(); }
+  // A log of collapses from which the cells follow has no flips.
+  bool flips() const {
+    const bool is_logged = tracer && tracer->keepsLog();
+    return options.shape == Shape::kSolver || (!dear.empty() && !is_logged);
+  }
+  // Made so far, with what a part has made that is not added yet.
+  double errorWith(const Tally& part) const {
+    return (&part == &tally ? 0 : tally.error) + part.error;
+  }
 
   const Plan& plan;
   const SimplifyOptions& options;

@@ -285,7 +285,6 @@ void Metric<S>::chooseFloor() {
          static_cast<double>(below_[i]) > kShareBelow * static_cast<double>(sampled_))
     ++i;
   core_.thin = floors_[i];
-  core_.poor = thinnessOfAngle(std::min(kPoor * core_.thin.degrees, 90.0));
   core_.dear.clear();
   for (size_t k = 0; k < dear_.size(); ++k) {
     const bool is_above = dear_[k].cos2 < core_.thin.cos2;
@@ -293,6 +292,9 @@ void Metric<S>::chooseFloor() {
     if (is_above && below > kShareToSpare * static_cast<double>(sampled_))
       core_.dear.push_back(dear_[k]);
   }
+  const bool to_dear = !core_.shapesFirst() && !core_.dear.empty();
+  core_.poor = thinnessOfAngle(to_dear ? core_.dear.back().degrees
+                                       : std::min(kPoor * core_.thin.degrees, 90.0));
 }
 
 template <class S>

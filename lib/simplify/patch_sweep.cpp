@@ -11,8 +11,6 @@ namespace tetstream {
 constexpr uint32_t kAlways = 0xffffffffu, kAtSeam = kAlways - 1;  // marks above all others
 // Within a patch edges are taken at bounds rising to the pass's, nearly in order of their error.
 constexpr float kFirstLevel = 1.0f / 256, kLevelStep = 2;
-// An edge whose collapse makes more cells thin than it should is taken at this times its error.
-constexpr float kThinPrice = 2;
 
 template <class S>
 PatchSweep<S>::PatchSweep(Core<S>& core, Account& account)
@@ -154,9 +152,10 @@ S PatchSweep<S>::solve(uint32_t v, uint32_t w, float level) {
                                  z_.data());
 }
 
-// Tries v's edges of errors up to the level, best first, until one is collapsed.
+// Tries v's edges of errors up to the level, best first, until one is collapsed that has no higher
+// price, in errors, than `most`; 0: than its error.
 template <class S>
-void PatchSweep<S>::collapseFrom(uint32_t v, float level, bool spares) {
+void PatchSweep<S>::collapseFrom(uint32_t v, float level, float most) {
   while (choices_.least(v) <= level) {
     if (choices_.mustLookAgain(v)) {
       listNeighbours(v);
@@ -166,26 +165,29 @@ void PatchSweep<S>::collapseFrom(uint32_t v, float level, bool spares) {
     }
     const uint32_t w = choices_.target(v);
     const S error = solve(v, w, level);
-    const Outcome outcome = collapser_.collapse(v, w, z_.data(), error, goal_.least_cells, spares);
+    const float most_price = most > 0 ? std::max(most / choices_.least(v), 1.0f) : 1.0f;
+    const Outcome outcome =
+        collapser_.collapse(v, w, z_.data(), error, goal_.least_cells, most_price);
     if (outcome == Outcome::kDone) {
       pushAfter(v, w);
       return;
     }
-    if (outcome == Outcome::kDear) spared_[v] = std::min(spared_[v], choices_.least(v));
+    if (outcome == Outcome::kDear)
+      spared_[v] = std::min(spared_[v], collapser_.price() * choices_.least(v));
     choices_.refuse(v, w);
   }
 }
 
 // Returns the least error of an edge that is left, infinity if none is.
 template <class S>
-float PatchSweep<S>::sweepLevel(float level, bool spares) {
+float PatchSweep<S>::sweepLevel(float level, float most) {
   float least = std::numeric_limits<float>::infinity();
   solutions_.clear();
   for (uint32_t block = 0; block < patch_.ownedEnd(); block += Choices::kBlock) {
     if (choices_.leastOfBlock(block) <= level)
       for (uint32_t v = block; v < block + Choices::kBlock; ++v) {
         if (!(choices_.least(v) <= level)) continue;
-        collapseFrom(v, level, spares);
+        collapseFrom(v, level, most);
         if (mustStop()) return std::numeric_limits<float>::infinity();
       }
     least = std::min(least, choices_.leastOfBlock(block));
@@ -201,7 +203,8 @@ void PatchSweep<S>::sweepSpared(float level) {
     spared_[v] = std::numeric_limits<float>::infinity();
     choices_.reconsider(v);
   }
-  while (sweepLevel(level, false) <= level) {
+  const float reach = core_.isFlat() ? level : level / kThinPrice;
+  while (sweepLevel(reach, level) <= reach) {
   }
 }
 
@@ -212,8 +215,8 @@ bool PatchSweep<S>::sweep(float bound) {
   float level = bound * kFirstLevel, least;
   for (;;) {
     choices_.reconsider();
-    if (core_.spares()) sweepSpared(level / kThinPrice);
-    do least = sweepLevel(level, true);
+    if (core_.spares()) sweepSpared(level);
+    do least = sweepLevel(level, 0);
     while (least <= level);
     if (level >= bound || mustStop()) break;
     level = std::min(std::max(level * kLevelStep, least), bound);
@@ -287,7 +290,7 @@ void PatchSweep<S>::settleAll() {
       least = std::min(least, leastAcrossSeam(v));
     const bool spared = spared_[v] < std::numeric_limits<float>::infinity();
     settle(core_.window, patch_.slotOf(v),
-           {std::min(least, kThinPrice * spared_[v]), choices_.hasRefused(v), spared});
+           {std::min(least, spared_[v]), choices_.hasRefused(v), spared});
   }
 }
 

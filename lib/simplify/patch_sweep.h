@@ -44,6 +44,7 @@ class PatchSweep {
   Tally takeTally() { return std::exchange(tally_, {}); }
   int64_t takeDied() { return std::exchange(died_, 0); }
 
+  Tally& tally() { return tally_; }
   Patch<S>& patch() { return patch_; }
   Collapser<Patch<S>>& collapser() { return collapser_; }
 
@@ -53,12 +54,12 @@ class PatchSweep {
   float leastAcrossSeam(uint32_t v);
   void findSeams();
   void addEdges(uint32_t v);
-  float sweepLevel(float level, bool spares);
+  float sweepLevel(float level, float most);
   void sweepSpared(float level);
   VertexTable<S> vertices() const;
   void solveFrom(uint32_t v, float level);
   S solve(uint32_t v, uint32_t w, float level);
-  void collapseFrom(uint32_t v, float level, bool spares);
+  void collapseFrom(uint32_t v, float level, float most);
   void pushAfter(uint32_t u, uint32_t gone);
   void startList(uint32_t v, size_t cells);
   void listNeighbours(uint32_t v);
@@ -80,7 +81,7 @@ class PatchSweep {
   Array<S> errors_;
   Array<uint32_t> neighbours_, seen_;     // seen_: per vertex, the mark_ of its last listing
   Array<uint8_t> looks_;                  // of an owned vertex: at all its edges
-  Array<float> spared_;                   // and the least error of those that were spared
+  Array<float> spared_;                   // and the least price of those that were spared
   Array<S> seam_values_, seam_quadrics_;  // rows of the window: a vertex, its neighbours
   std::vector<S> z_;
   size_t count_ = 0;  // of the neighbours listed

@@ -14,16 +14,18 @@ namespace tetstream {
 constexpr double kMostChange = 10;
 
 template <class S>
-Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, Account& account)
+Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, Tally& tally, Account& account)
     : core_(core),
       patch_(patch),
+      tally_(tally),
       reconnector_(patch, account),
       marks_(account),
       means_(static_cast<size_t>(core.plan.cell_means)) {}
 
 template <class S>
 void Reshaper<S>::start() {
-  allowed_change_ = core_.volume > 0 ? kMostChange * core_.tally.error / core_.volume : 0;
+  counts_thin_ = false;
+  most_change_ = core_.volume > 0 ? kMostChange * core_.tally.error / core_.volume : 0;
   patch_.listGone();
   reconnector_.start();
   if (marks_.size() < patch_.vertexEnd()) marks_.resize(patch_.vertexEnd() + 1024);
@@ -87,26 +89,59 @@ void Reshaper<S>::unsettleChanged() {
       unsettle(core_.window, patch_.slotOf(v));
 }
 
-// Of all flips that the cell takes part in, the one that improves the worst cell most.
+// Of all flips that the cell takes part in, the one that is worth most. No more cells than before
+// come of rings of four and less.
 template <class S>
 bool Reshaper<S>::flipAt(uint32_t c) {
   Reconnection best, r;
+  double most = 0;
   const auto offer = [&] {
-    if (r.improves() && r.before - r.after > best.before - best.after && isLegal(r)) best = r;
+    if (!r.improves()) return;
+    const double worth = worthOf(r);
+    if (!(worth > most) || !isLegal(r)) return;
+    most = worth;
+    best = r;
   };
   // Faces and edges between vertices that the caller locked stay: they may be locked themselves.
   bool locked[4];
   for (uint32_t j = 0; j < 4; ++j) locked[j] = isLockedByCaller(c, j);
-  for (uint32_t j = 0; j < 4; ++j)
+  for (uint32_t j = 0; j < 4 && !counts_thin_; ++j)
     if (!(locked[(j + 1) % 4] && locked[(j + 2) % 4] && locked[(j + 3) % 4]) &&
         reconnector_.removeFace(c, j, r))
       offer();
+  const uint32_t most_ring = counts_thin_ ? 4 : Reconnection::kMostRing;
   for (uint32_t i = 0; i < 4; ++i)
     for (uint32_t j = 0; j < i; ++j)
-      if (!(locked[i] && locked[j]) && reconnector_.removeEdge(c, i, j, r)) offer();
+      if (!(locked[i] && locked[j]) && reconnector_.removeEdge(c, i, j, r, most_ring)) offer();
   if (!best.improves()) return false;
   apply(best);
   return true;
+}
+
+// By how much the worst cell is improved; or how many thin cells there are fewer, for each unit of
+// change. Where that is next to nothing it is the same for all.
+template <class S>
+double Reshaper<S>::worthOf(const Reconnection& r) {
+  constexpr double kNextToNothing = 1e-3;
+  if (!counts_thin_) return r.before - r.after;
+  const int fewer = thinFewer(r);
+  if (fewer <= 0) return 0;
+  const double changed = change(r).integral;
+  if (!(changed <= most_change_) || core_.errorWith(tally_) + changed > core_.error_limit) return 0;
+  return fewer / std::max(changed, kNextToNothing * most_change_);
+}
+
+template <class S>
+int Reshaper<S>::thinFewer(const Reconnection& r) {
+  int fewer = 0;
+  double p[4][3];
+  for (uint32_t g = 0; g < r.gone_count; ++g)
+    fewer += reconnector_.thinnessOfCell(r.gone[g]) > core_.poor;
+  for (uint32_t m = 0; m < r.made_count; ++m) {
+    positionsOf(r.made[m], p);
+    fewer -= thinness(p) > core_.poor;
+  }
+  return fewer;
 }
 
 template <class S>
@@ -139,7 +174,7 @@ bool Reshaper<S>::isLegal(const Reconnection& r) const {
     if (labels.count > 0 && labels.differ(first, slot)) return false;
     if (core_.window.faces.anyPlaced() && hasLabelledFace(slot)) return false;
   }
-  return change(r) <= allowed_change_;
+  return counts_thin_ || change(r).mean <= most_change_;
 }
 
 template <class S>
@@ -153,11 +188,10 @@ void Reshaper<S>::cornersOf(uint32_t c, uint32_t corners[4]) const {
   for (uint32_t j = 0; j < 4; ++j) corners[j] = patch_.vertexOf(c, j);
 }
 
-// Mean squared difference of the measured fields, normalised, taken at the centroids of the new
-// cells.
+// Taken at the centroids of the new cells.
 template <class S>
-double Reshaper<S>::change(const Reconnection& r) const {
-  if (core_.scale.size() == 3) return 0;
+auto Reshaper<S>::change(const Reconnection& r) const -> Change {
+  if (core_.scale.size() == 3) return {0, 0};
   double sum = 0, volume = 0, p[4][3];
   CellFrame frames[Reconnection::kMostRing];
   uint32_t corners[Reconnection::kMostRing][4];
@@ -191,19 +225,20 @@ double Reshaper<S>::change(const Reconnection& r) const {
     }
     volume += part;
   }
-  return volume > 0 ? sum / volume : 0;
+  return {sum / 6, volume > 0 ? sum / volume : 0};
 }
 
 // The one place where cells are replaced.
 template <class S>
 void Reshaper<S>::apply(const Reconnection& r) {
   uint32_t slots[Reconnection::kMostCells];
+  if (counts_thin_) tally_.error += change(r).integral;
   reconnector_.replace(r, slots);
   for (uint32_t m = 0; m < r.made_count; ++m)
     for (uint32_t v : r.made[m]) marks_[v] |= kFlipped;
   handOverCellData(r, slots);
   if (observer_) tell(r, slots);
-  ++core_.report.flips;
+  ++tally_.flips;
 }
 
 // Float cell data: each new cell stands for its share, by its volume, of what the old ones stood

@@ -30,23 +30,20 @@ class SweepSelector final : public Selector {
         account_(account),
         tiling_(core, account),
         bounds_(core),
-        exhaustive_(makeExhaustiveSelector(core, addLane().sweep.collapser())) {
-    if (core.options.shape == Shape::kSolver)
-      reshaper_.emplace(core, lanes_[0]->sweep.patch(), account);
-  }
+        exhaustive_(makeExhaustiveSelector(core, addLane().sweep.collapser())) {}
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
     goal_ = goal;
     int exponent;
     unit_ = std::frexp(core_.error_unit, &exponent);
-    for (auto& lane : lanes_) lane->sweep.begin(goal_, unit_);
+    for (auto& lane : lanes_) begin(*lane);
     core_.tally.error_reached = false;
-    if (reshaper_ && core_.tracer && core_.tracer->tracesPoints()) reshaper_->observe(core_.tracer);
     sweep(tick);
     const bool sweeps_out = goal.last && core_.options.last_resort && !mustStop();
     if (sweeps_out) sweepOut(tick);
     // Twice, with seams that lie elsewhere.
-    for (int round = 0; reshaper_ && round < 2; ++round) reshapeAll(sweeps_out && round == 0, tick);
+    for (int round = 0; core_.shapesFirst() && round < 2; ++round)
+      reshapeAll(sweeps_out && round == 0, tick);
   }
 
   double bound() const override { return bound_ / unit_; }
@@ -56,7 +53,8 @@ class SweepSelector final : public Selector {
   struct Lane {
     Lane(Core<S>& core, Account& account) : sweep(core, account), cells(account) {}
     PatchSweep<S> sweep;
-    Array<uint32_t> cells;  // of a tile
+    Array<uint32_t> cells;                // of a tile
+    std::optional<Reshaper<S>> reshaper;  // where cells are flipped
   };
   struct Swept {  // of a tile
     Tally tally;
@@ -74,9 +72,10 @@ class SweepSelector final : public Selector {
   }
   Lane& addLane() {
     lanes_.push_back(std::make_unique<Lane>(core_, account_));
-    lanes_.back()->sweep.begin(goal_, unit_);
+    begin(*lanes_.back());
     return *lanes_.back();
   }
+  void begin(Lane& lane);
   Lane& lane() { return *lanes_[0]; }
   void sweep(const std::function<void()>& tick);
   void sweepOut(const std::function<void()>& tick);
@@ -97,8 +96,9 @@ class SweepSelector final : public Selector {
     onPatch(lane, tiling_.vertices(tile), tile.vertexCount(), cells, tile.cell_count, work);
   }
   void tryEverything(const std::function<void()>& tick);
+  bool reshape(Lane& lane, float bound);
   template <class HasMoved>
-  bool reshape(HasMoved hasMoved);
+  bool reshapeFirst(HasMoved hasMoved);
   void reshapeAll(bool any_moved, const std::function<void()>& tick);
 
   Core<S>& core_;
@@ -106,7 +106,6 @@ class SweepSelector final : public Selector {
   Tiling<S> tiling_;
   SweepBounds<S> bounds_;
   std::vector<std::unique_ptr<Lane>> lanes_;
-  std::optional<Reshaper<S>> reshaper_;  // where shapes come first
   std::unique_ptr<Selector> exhaustive_;
   std::vector<Swept> swept_;
   Goal goal_{};
@@ -114,6 +113,15 @@ class SweepSelector final : public Selector {
   bool is_ready_ = false;  // the only tile is loaded in the first lane, and its edges are evaluated
   unsigned round_ = 0;
 };
+
+template <class S>
+void SweepSelector<S>::begin(Lane& lane) {
+  lane.sweep.begin(goal_, unit_);
+  if (!core_.flips()) return;
+  if (!lane.reshaper)
+    lane.reshaper.emplace(core_, lane.sweep.patch(), lane.sweep.tally(), account_);
+  if (core_.tracer && core_.tracer->tracesPoints()) lane.reshaper->observe(core_.tracer);
+}
 
 template <class S>
 void SweepSelector<S>::sweep(const std::function<void()>& tick) {
@@ -174,10 +182,10 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
 
 // Whether what a tile does may hang on the one before, whatever lies between them: on the error
 // made so far, where it has a limit; on the order in which a log or a map is told; the hash of
-// labelled faces, common to all; on flips, which are measured by the error made so far.
+// labelled faces, common to all; on flips that are measured by the error made so far.
 template <class S>
 bool SweepSelector<S>::worksInOrder() const {
-  return reshaper_ || std::isfinite(core_.error_limit) || core_.tracer ||
+  return core_.shapesFirst() || std::isfinite(core_.error_limit) || core_.tracer ||
          core_.window.faces.anyPlaced();
 }
 
@@ -232,16 +240,12 @@ auto SweepSelector<S>::sweepTile(size_t number, float bound, Lane& lane, TileQue
   const auto work = [&] {
     if (!queue.waitForEarlier(number)) return;
     swept.more = lane.sweep.sweep(bound) || swept.more;
-    bool reshaped = false;
-    if (reshaper_) {
-      addOf(lane);
-      reshaped = reshape([&](uint32_t v) { return lane.sweep.hasMoved(v); });
-    }
+    const bool reshaped = core_.flips() && reshape(lane, bound);
     lane.sweep.store();
     const bool is_whole = lane.sweep.patch().ownedEnd() == tile.vertexCount();
     if (is_whole) queue.store(number);
     lane.sweep.settleAll();
-    if (reshaped) reshaper_->unsettleChanged();
+    if (reshaped) lane.reshaper->unsettleChanged();
   };
   if (is_ready_) {  // of several tiles, which threads share, none is
     is_ready_ = false;
@@ -295,19 +299,29 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
   tryEverything(tick);
   while (!mustStop()) {
     const double floor = core_.thin.degrees;
-    if (reshaper_) reshapeAll(true, tick);
-    core_.thin = ThinAngle(reshaper_ ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
+    if (core_.shapesFirst()) reshapeAll(true, tick);
+    core_.thin = ThinAngle(core_.shapesFirst() ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
     tryEverything(tick);
-    if (!reshaper_ || floor == kLeastFloor) return;
+    if (!core_.shapesFirst() || floor == kLeastFloor) return;
   }
+}
+
+// After a sweep up to the bound.
+template <class S>
+bool SweepSelector<S>::reshape(Lane& lane, float bound) {
+  const auto hasMoved = [&](uint32_t v) { return lane.sweep.hasMoved(v); };
+  if (!core_.shapesFirst())
+    return lane.reshaper->thinOut(goal_.least_cells, static_cast<double>(bound) / unit_, hasMoved);
+  addOf(lane);
+  return reshapeFirst(hasMoved);
 }
 
 // A target that is reached stays so.
 template <class S>
 template <class HasMoved>
-bool SweepSelector<S>::reshape(HasMoved hasMoved) {
+bool SweepSelector<S>::reshapeFirst(HasMoved hasMoved) {
   const bool is_reached = goal_.last && lane().sweep.patch().liveCells() <= goal_.cells;
-  return reshaper_->reshape(
+  return lane().reshaper->reshape(
       goal_.least_cells, is_reached ? goal_.cells : std::numeric_limits<int64_t>::max(), hasMoved);
 }
 
@@ -317,9 +331,9 @@ void SweepSelector<S>::reshapeAll(bool any_moved, const std::function<void()>& t
   tiling_.build(round_++, std::numeric_limits<float>::infinity());
   for (const TilePiece& tile : tiling_.tiles()) {
     onTile(lane(), tile, [&] {
-      if (!reshape([&](uint32_t) { return any_moved; })) return;
+      if (!reshapeFirst([&](uint32_t) { return any_moved; })) return;
       lane().sweep.store();
-      reshaper_->unsettleChanged();
+      lane().reshaper->unsettleChanged();
     });
     addOf(lane());
     tick();

@@ -331,6 +331,7 @@ class WindowedEngine final : public Simplifier::Engine {
     Report& r = core_.report;
     const Tally& t = core_.tally;
     r.collapses = t.collapses;
+    r.flips = t.flips;
     r.rejected_orientation = t.rejected_orientation;
     r.rejected_link = t.rejected_link;
     r.rejected_locked = t.rejected_locked;

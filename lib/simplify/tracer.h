@@ -34,6 +34,7 @@ class Tracer final : public FlipObserver {
   Tracer(Window<S>& window, const Plan& plan, TraceSinks sinks, Account& account);
 
   bool tracesPoints() const { return sinks_.map != nullptr; }
+  bool keepsLog() const { return sinks_.log != nullptr; }
   void collapsed(const TracedCollapse<S>& collapse);
   void flipped(const uint32_t* before, size_t before_count, const PlacedCell* after,
                size_t after_count) override;

@@ -76,8 +76,8 @@ TYPED_TEST_SUITE(Collapsers, Places);
 
 template <class Place>
 Outcome collapse(Place& w, uint32_t u, uint32_t v, const double* z, double error = 0,
-                 int64_t least = 0, bool spares = false) {
-  return w.collapser.collapse(w.slot(u), w.slot(v), z, error, least, spares);
+                 int64_t least = 0, float most_price = std::numeric_limits<float>::infinity()) {
+  return w.collapser.collapse(w.slot(u), w.slot(v), z, error, least, most_price);
 }
 
 TYPED_TEST(Collapsers, TellTheTracerOfEachCollapse) {
@@ -139,15 +139,35 @@ TYPED_TEST(Collapsers, SpareCellsOfDearAngles) {
   const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
   const double distance = 1.5 * w.core.scale[0];  // of the star's outer faces
   double z[4] = {0.98 * distance, 0, 0, 0};
-  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kOrientation);
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kOrientation);
   z[0] = 0.9 * distance;
-  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDear);
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kDear);
   EXPECT_EQ(w.core.tally.rejected_other, 1);
   z[0] = 0.8 * distance;  // above the second, below the first
-  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDear);
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kDear);
   w.core.dear = {ThinAngle(10)};
-  EXPECT_EQ(collapse(w, u, v, z, 0, 0, true), Outcome::kDone);
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kDone);
 }
+// The more cells below the smaller dear angle are left, the higher: paid, it is done.
+TYPED_TEST(Collapsers, PriceCellsOfTheSmallerDearAngleByTheirNumber) {
+  TypeParam w(gridWithField(4));
+  w.core.thin = ThinAngle(3);
+  w.core.dear = {ThinAngle(20), ThinAngle(10)};
+  const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
+  double before = 0, z[4] = {0, 0, 0, 0};
+  for (double way : {0.8, 0.9, 0.92}) {
+    z[0] = way * 1.5 * w.core.scale[0];  // towards the star's outer faces
+    ASSERT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kDear) << way;
+    const float price = w.collapser.price();
+    EXPECT_GE(price, before) << way;
+    EXPECT_GE(price, 2) << way;  // without any, beside cells below the larger one
+    EXPECT_EQ(price > 2, way > 0.8) << way;
+    before = price;
+    ASSERT_EQ(collapse(w, u, v, z, 0, 0, 0.99f * price), Outcome::kDear) << way;
+  }
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, static_cast<float>(before)), Outcome::kDone);
+}
+
 TYPED_TEST(Collapsers, TakeDearAnglesWhereNobodySpares) {
   TypeParam w(gridWithField(4));
   w.core.thin = ThinAngle(3);

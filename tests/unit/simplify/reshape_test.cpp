@@ -29,7 +29,8 @@ TestMesh squeezed(int n) {
 
 struct Squeezed : WholePatch<double> {
   explicit Squeezed(const std::string& region_names = "auto")
-      : WholePatch<double>(squeezed(8), options(region_names)), reshaper(core, patch, account) {
+      : WholePatch<double>(squeezed(8), options(region_names)),
+        reshaper(core, patch, core.tally, account) {
     core.poor = thinnessOfAngle(25);
     core.tally.error = core.volume;  // any change of the field is allowed
     mergeSome();
@@ -84,7 +85,7 @@ TEST(Reshape, KeepsTheDomainItsTopologyAndWhatCellsStandFor) {
   untouched.patch.store();
   const MeshFacts before = factsOf(untouched.live());
   ASSERT_TRUE(s.reshape(0, 1 << 30));
-  EXPECT_GT(s.core.report.flips, 30);
+  EXPECT_GT(s.core.tally.flips, 30);
   EXPECT_LT(s.poorCells(), 0.6 * poor);
   const auto after_amounts = s.amounts();
   ASSERT_EQ(after_amounts.size(), amounts.size());
@@ -107,6 +108,37 @@ TEST(Reshape, StaysWithinTheLimitsOfCells) {
   }
 }
 
+// Where the field comes first: fewer thin cells, no more of others, and the change is an error
+// made.
+TEST(Reshape, ThinsOutForALittleOfTheBound) {
+  Squeezed s;
+  const int poor = s.poorCells();
+  const int64_t live = s.patch.liveCells();
+  const auto anywhere = [](uint32_t) { return true; };
+  const double before = s.core.tally.error, bound = 1e-3 * s.core.volume;
+  EXPECT_FALSE(s.reshaper.thinOut(0, 1e-12 * bound, anywhere));
+  ASSERT_TRUE(s.reshaper.thinOut(0, bound, anywhere));
+  const int64_t few = s.core.tally.flips;
+  EXPECT_GT(few, 0);
+  EXPECT_LE(s.poorCells(), poor - few);
+  EXPECT_LE(s.patch.liveCells(), live);
+  EXPECT_GT(s.core.tally.error, before);
+  EXPECT_LE(s.core.tally.error, before + 0.01 * bound * static_cast<double>(few));
+  const int left = s.poorCells();
+  ASSERT_TRUE(s.reshaper.thinOut(0, 1e6 * bound, anywhere));
+  EXPECT_LT(s.poorCells(), left);
+  EXPECT_LE(s.patch.liveCells(), live);
+  s.patch.store();
+  EXPECT_EQ(topologyChange(factsOf(s.mesh), factsOf(s.live())), "");
+}
+
+TEST(Reshape, ThinsOutWithinTheLimitOfTheError) {
+  Squeezed s;
+  s.core.error_limit = s.core.tally.error;
+  s.reshaper.thinOut(0, s.core.volume, [](uint32_t) { return true; });
+  EXPECT_EQ(s.core.tally.error, s.core.error_limit);
+}
+
 TEST(Reshape, LeavesFieldsAloneThatWouldChange) {
   Squeezed s;
   s.core.tally.error = 0;
@@ -120,12 +152,12 @@ TEST(Reshape, PassesOverCellsRoundWhichNothingChanged) {
   ASSERT_FALSE(s.reshape(0, 1 << 30));
   s.core.tally.error = s.core.volume;
   EXPECT_FALSE(s.reshape(0, 1 << 30, false));
-  EXPECT_EQ(s.core.report.flips, 0);
+  EXPECT_EQ(s.core.tally.flips, 0);
   const uint32_t moved = s.patch.ownedEnd() / 8;
   EXPECT_TRUE(s.reshaper.reshape(0, 1 << 30, [&](uint32_t v) { return v < moved; }));
-  const int64_t near = s.core.report.flips;
+  const int64_t near = s.core.tally.flips;
   EXPECT_TRUE(s.reshape(0, 1 << 30));
-  EXPECT_GT(s.core.report.flips, near);
+  EXPECT_GT(s.core.tally.flips, near);
 }
 
 // Cells of one material are not made of those of two.

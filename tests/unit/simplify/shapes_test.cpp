@@ -83,6 +83,20 @@ TEST(Shapes, AreNoWorseWhereSomeAreThin) {
   }
 }
 
+// Stretched, but for a part: the field asks for flat cells, and some can be had for next to
+// nothing.
+TEST(Shapes, AreFlippedWhereManyAreFlat) {
+  for (double flatness : {12.0, 70.0}) {
+    const TestMesh mesh = layered(side(), 6, flatness);
+    const Result result = simplified(mesh, toRatio(0.1, fourFronts()));
+    expectSound(mesh, result);
+    expectReached(result);
+    EXPECT_GT(result.report.flips, 0) << flatness;
+    EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
+    EXPECT_LT(shareBelow(result.out.mesh, 10), 0.4 * shareBelow(mesh, 10)) << flatness;
+  }
+}
+
 SimplifyOptions forSolvers(double ratio, int64_t window = 0) {
   SimplifyOptions options = toRatio(ratio, window);
   options.shape = Shape::kSolver;

@@ -68,6 +68,7 @@ void expectSame(const TestMesh& mesh, const SimplifyOptions& options,
     EXPECT_TRUE(many.out.allBytes() == one.out.allBytes());
     EXPECT_TRUE(many.out.faces == one.out.faces);
     EXPECT_EQ(many.report.collapses, one.report.collapses);
+    EXPECT_EQ(many.report.flips, one.report.flips);
     EXPECT_EQ(many.report.rejected_orientation, one.report.rejected_orientation);
     EXPECT_EQ(many.report.rejected_other, one.report.rejected_other);
     EXPECT_EQ(many.report.largest_error, one.report.largest_error);
@@ -98,6 +99,18 @@ TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
   SimplifyOptions options = toRatio(0.2);
   options.shape = Shape::kSolver;
   expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+}
+
+// Of stretched meshes, whose flips no tile waits for.
+TEST(SweepThreads, GiveTheSameBytesWhereThinCellsAre) {
+  const TestMesh grid = fullGrid(side(), side(), side(), 0.2);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v)
+    for (int i = 0; i < 3; ++i) positions.push_back(grid.position(v, i) / (i < 2 ? 1 : 50));
+  const TestMesh mesh =
+      withWaves(makeMesh(ScalarType::kFloat64, positions, grid.cells), ScalarType::kFloat64);
+  EXPECT_GT(ran(mesh, toRatio(0.2), 1).report.flips, 0);
+  for (int64_t window : {0, 2500}) expectSame(mesh, toRatio(0.2, window));
 }
 
 TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlat) {

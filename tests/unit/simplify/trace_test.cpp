@@ -168,6 +168,21 @@ TEST(Traces, TellOfDomainsWithHolesCracksAndSingularPlaces) {
     for (Mode mode : kModes) expectTraces(mesh, toRatio(0.4, 0, mode));
 }
 
+// Where cells are flipped otherwise: of flips no log tells.
+TEST(Traces, LogCollapsesThatMakeTheCellsWhereSomeAreThin) {
+  const TestMesh grid = fullGrid(6, 6, 12, 0.2);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v)
+    for (int i = 0; i < 3; ++i) positions.push_back(grid.position(v, i) / (i < 2 ? 1 : 50));
+  const TestMesh mesh = withField(makeMesh(ScalarType::kFloat64, positions, grid.cells));
+  const SimplifyOptions options = toRatio(0.2);
+  EXPECT_GT(simplified(mesh, options).report.flips, 0);
+  const Traced t = traced(mesh, options);
+  EXPECT_EQ(t.result.report.flips, 0);
+  expectMap(mesh, t);
+  EXPECT_EQ(cellsOf(replayed(mesh, t.traces)), cellsOf(t.result.out.mesh));
+}
+
 TEST(Traces, OfAnOutputThatIsTheInputAreOnes) {
   const TestMesh mesh = fullGrid(3, 3, 3);
   const Traced t = traced(mesh, toRatio(1));
