@@ -206,8 +206,9 @@ typedef struct tetstream_pool_callbacks {
 } tetstream_pool_callbacks;
 
 /* Simplifiers with these options, and readers opened with them, start no thread, but give work to
- * the pool. The option `threads` then says how many are at work at once, the caller's among them;
- * 0: those of the pool and the caller's. The table is copied; `user` must stay as long as the
+ * the pool. The option `threads` then says how many work on cells or text at once, the caller's
+ * among them; 0: those of the pool and the caller's. What is read ahead or written behind them may
+ * take others. The table is copied; `user` must stay as long as the
  * options and what was created with them. NULL: threads of the library again. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_set_pool(tetstream_options *options,
                                                           const tetstream_pool_callbacks *pool);
@@ -336,11 +337,10 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
  * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
  * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none
- * of them), `tmpdir`, and `threads`, `memory` and the pool: several threads read long runs of rows of
- * MSH, MEDIT, TetGen and SU2 text, in this function, and, where the mesh is read on the thread that
- * called it, decompress .vtu; those of the pool or, without options, too, the library's own, which
- * end with the reader. With `memory` there is no other thread.
- * Since 0.1. */
+ * of them), `tmpdir`, and `threads`, `memory` and the pool: several threads read long runs of rows
+ * of MSH, MEDIT, TetGen and SU2 text, in this function, and, where the mesh is read on the thread
+ * that called it, decompress .vtu; those of the pool or, without options, too, the library's own,
+ * which end with the reader. With `memory` there is no other thread. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
                                                                const tetstream_options *options,
                                                                tetstream_reader **reader);
@@ -536,8 +536,8 @@ TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifie
 
 /* A run can tell, while it runs, where each vertex of its input lies in its output (a map: the
  * prolongation of a multigrid, a restart, a comparison), and which collapses it did (a log: the
- * hierarchy). Neither changes the output, unless the option `memory` bounds both. Vertices of the
- * input are named by their origins: their ids in the stream, or, of an indexed mesh and of a stream
+ * hierarchy). A map does not change the output, unless the option `memory` bounds both; for a log
+ * no thin cells are flipped (below). Vertices of the input are named by their origins: their ids in the stream, or, of an indexed mesh and of a stream
  * that the library put into another order, the rank of the point in the input as it was. Positions
  * are those of the input; where the output's format holds float32 alone, as they were rounded for
  * it. */

@@ -98,8 +98,8 @@ void TextPieces::readPiece(Piece& piece, Lock& lock) noexcept {
 
 void TextPieces::run() noexcept {
   Lock lock(mutex_);
-  --helpers_;
   while (Piece* piece = is_closed_ ? nullptr : nextWaiting()) readPiece(*piece, lock);
+  --helpers_;
 }
 
 // While others read the first one, the caller's thread reads those that follow.

@@ -79,7 +79,7 @@ class TextPieces final : public Work {
 
   std::mutex mutex_;  // of the pieces' states and of what follows
   std::condition_variable changed_;
-  size_t helpers_ = 0;  // asked to come, and not here yet
+  size_t helpers_ = 0;  // asked to come, and here
   bool is_closed_ = false;
 };
 

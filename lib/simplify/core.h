@@ -80,7 +80,7 @@ constexpr double kLeastFloor = 0.05;
 // fields, fewer seams are worth more than the cache: on 10^5 cells smaller patches took 1 to 16 %
 // longer with 7, 20 and 125 components. A memory budget may want less.
 constexpr int64_t kTileVertices = 4096;
-constexpr int64_t kTileVertexBytes = 451;  // with all that a patch and its sweep hold, of one field
+constexpr int64_t kTileVertexBytes = 530;  // with all that a patch and its sweep hold, of one field
 constexpr int64_t kOneFieldValues = 4, kOneFieldQuadric = 11;  // numbers, of these
 
 inline int64_t tileVertices(const SimplifyOptions& options, int64_t vertex_bytes) {
@@ -149,6 +149,7 @@ struct Core {
   static size_t budgetPerCell(const Plan& plan, const SimplifyOptions& options) {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options.feature_angle);
+    bytes += 1;  // what is tiled is marked by halves: two bytes of a vertex
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
       bytes += sizeof(uint32_t) + static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
@@ -196,7 +197,7 @@ struct Core {
   // A log of collapses from which the cells follow has no flips.
   bool flips() const {
     const bool is_logged = tracer && tracer->keepsLog();
-    return options.shape == Shape::kSolver || (!dear.empty() && !is_logged);
+    return shapesFirst() || (!dear.empty() && !is_logged);
   }
   // Made so far, with what a part has made that is not added yet.
   double errorWith(const Tally& part) const {

@@ -324,9 +324,14 @@ static void write_long_text(void) {
 
 static tetstream_status open_long_text(void) {
   tetstream_reader* reader = NULL;
-  const tetstream_status status =
-      tetstream_reader_open_memory(long_text, strlen(long_text), "mesh", &reader);
+  tetstream_options* options = NULL;
+  tetstream_status status = tetstream_options_create(&options);
+  if (!status) status = tetstream_options_set_int64(options, TETSTREAM_OPTION_THREADS, 2);
+  if (!status)
+    status =
+        tetstream_reader_open_memory_with(long_text, strlen(long_text), "mesh", options, &reader);
   tetstream_reader_destroy(reader);
+  tetstream_options_destroy(options);
   return status;
 }
 

@@ -18,7 +18,7 @@ fuzz() {
   times=$({ time nice -n 10 "$build/tests/fuzz/fuzz.$2" -max_total_time="$1" -timeout=20 -rss_limit_mb=2000 \
     -artifact_prefix="$corpus/$2-" -print_final_stats=1 "$2" "seeds/$2" "${@:3}" >"$2.log" 2>&1; } 2>&1)
   code=$?
-  used=$(awk -v used="$used" '{print int(used + $1 + $2 + 0.5)}' <<<"$times")
+  used=$(awk -v used="$used" '{print int(used + $1 + $2 + 1)}' <<<"$times")
   executions=$((executions + $(sed -nE 's/^stat::number_of_executed_units: //p' "$2.log" | grep . || echo 0)))
   return "$code"
 }

@@ -59,7 +59,7 @@ class SideBySide final : public ValueBytes {
         static_cast<size_t>(std::min<uint64_t>(parts_.size() * part_bytes_, size_ - begin));
     end_ = begin_ = 0;
     try {
-      if (held_.size() == 0) held_.resize(bytes);  // the first is the largest
+      if (held_.size() < bytes) held_.resize(bytes);
       helpers_.tasks->forParts(
           static_cast<size_t>((bytes - 1) / part_bytes_ + 1), [&](size_t part) {
             if (!parts_[part]) parts_[part] = open_();

@@ -5,6 +5,7 @@
 #include "tasks.h"
 #include "vtu_encode.h"
 #include "vtu_read.h"
+#include "vtu_side_by_side.h"
 
 namespace tetstream {
 namespace {
@@ -121,6 +122,29 @@ TEST(VtuCodecs, GiveTheSameToAnyNumberOfThreads) {
             << codec << " in blocks of " << block_bytes << ", " << tasks->threads() << " threads";
       }
     }
+}
+
+// Byte i is 7 i.
+struct Sevens final : ValueBytes {
+  void readAt(uint64_t offset, void* out, size_t size) override {
+    for (size_t i = 0; i < size; ++i)
+      static_cast<unsigned char*>(out)[i] = static_cast<unsigned char>((offset + i) * 7);
+  }
+};
+
+TEST(VtuCodecs, AreReadByThreadsInAnyOrder) {
+  const Tasks eight(8);
+  const auto open = [] { return std::make_unique<Sevens>(); };
+  const uint64_t size = 8 << 20;
+  const auto bytes =
+      openSideBySide({&eight, std::this_thread::get_id()}, size, 32768, open(), open);
+  // Two in sequence, by which what follows is held: of the end, and then of much more.
+  for (const uint64_t offset : {size - 3000, size - 2000, uint64_t{0}, uint64_t{1000}}) {
+    unsigned char row[1000];
+    bytes->readAt(offset, row, sizeof row);
+    for (size_t i = 0; i < sizeof row; ++i)
+      ASSERT_EQ(row[i], static_cast<unsigned char>((offset + i) * 7)) << offset;
+  }
 }
 
 TEST(VtuCodecs, NameTheFirstProblemOfAnyNumberOfThreads) {

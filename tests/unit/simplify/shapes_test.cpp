@@ -201,6 +201,15 @@ TEST(Shapes, OfASolverFitABudget) {
   EXPECT_LE(result.report.peak_window_bytes, static_cast<uint64_t>(options.memory_bytes));
 }
 
+TEST(Shapes, OfAFlatMeshFitABudget) {
+  const TestMesh mesh = layered(2 * side(), 1, 60);
+  for (const int64_t bytes : {1'500'000, 1'600'000, 1'700'000, 1'900'000, 2'100'000}) {
+    SimplifyOptions options = toRatio(0.1, 0);
+    options.memory_bytes = bytes;
+    expectReached(simplified(mesh, options));
+  }
+}
+
 TEST(Shapes, OfASolverAreNotForThePapersMode) {
   SimplifyOptions options = forSolvers(0.1);
   options.mode = Mode::kPaper;
