@@ -208,8 +208,8 @@ typedef struct tetstream_pool_callbacks {
 /* Simplifiers with these options, and readers opened with them, start no thread, but give work to
  * the pool. The option `threads` then says how many work on cells or text at once, the caller's
  * among them; 0: those of the pool and the caller's. What is read ahead or written behind them may
- * take others. The table is copied; `user` must stay as long as the
- * options and what was created with them. NULL: threads of the library again. Since 0.1. */
+ * take others. The table is copied; `user` must stay as long as the options and what was created
+ * with them. NULL: threads of the library again. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_set_pool(tetstream_options *options,
                                                           const tetstream_pool_callbacks *pool);
 /* The sentence for the last failure with this handle, "" if there was none. Lives until the next
@@ -537,10 +537,10 @@ TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifie
 /* A run can tell, while it runs, where each vertex of its input lies in its output (a map: the
  * prolongation of a multigrid, a restart, a comparison), and which collapses it did (a log: the
  * hierarchy). A map does not change the output, unless the option `memory` bounds both; for a log
- * no thin cells are flipped (below). Vertices of the input are named by their origins: their ids in the stream, or, of an indexed mesh and of a stream
- * that the library put into another order, the rank of the point in the input as it was. Positions
- * are those of the input; where the output's format holds float32 alone, as they were rounded for
- * it. */
+ * no thin cells are flipped (below). Vertices of the input are named by their origins: their ids in
+ * the stream, or, of an indexed mesh and of a stream that the library put into another order, the
+ * rank of the point in the input as it was. Positions are those of the input; where the output's
+ * format holds float32 alone, as they were rounded for it. */
 
 /* Rows of a map. */
 typedef struct tetstream_map_rows {
@@ -608,9 +608,9 @@ typedef struct tetstream_log_rows {
  * in which it was done. Done in that order on the input (the cells with both vertices go, those with
  * the removed one get the kept one in its place) they make the cells of the output, the last row of
  * a vertex having its position and values; a vertex without a row is as it was. No cells are flipped
- * for that, as thin ones are in a run without a log. With the option `shape` at "solver" they are,
- * of which the log does not tell: vertices are right, cells are not those of the output. A vertex
- * that was removed is in no later row. The same input and options give the same log. Memory: 8 bytes
+ * for that, as thin ones are in a run without a log. With the option `shape` at "solver",
+ * where that has an effect, they are, of which the log does not tell: vertices are right, cells are
+ * not those of the output. A vertex that was removed is in no later row. The same input and options give the same log. Memory: 8 bytes
  * for each vertex in the window. */
 typedef struct tetstream_log_callbacks {
   size_t struct_size;
