@@ -4,11 +4,11 @@
 #include <bit>
 #include <condition_variable>
 #include <cstring>
-#include <exception>
 #include <mutex>
 
 #include "check_sum.h"
 #include "status.h"
+#include "unlocked.h"
 
 namespace tetstream {
 
@@ -65,15 +65,7 @@ class RowSpool::Behind final : public Work {
   void writeWaiting(Lock& lock) noexcept {
     waits_ = false;
     is_busy_ = true;
-    lock.unlock();
-    std::exception_ptr error;
-    try {
-      writeBlocksTo(file_, bytes_, block_bytes_);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    lock.lock();
-    error_ = error;
+    error_ = doUnlocked(lock, [this] { writeBlocksTo(file_, bytes_, block_bytes_); });
     is_busy_ = false;
     done_.notify_all();
   }

@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "unlocked.h"
+
 namespace tetstream {
 
 size_t coresToUse() {
@@ -60,15 +62,7 @@ class Tasks::Parts final : public Work {
  private:
   // With the mutex held, but not while it runs.
   void runPart(size_t part, std::unique_lock<std::mutex>& lock) {
-    lock.unlock();
-    std::exception_ptr error;
-    try {
-      (*work_)(part);
-    } catch (...) {
-      error = std::current_exception();
-    }
-    lock.lock();
-    errors_[part] = error;
+    errors_[part] = doUnlocked(lock, [&] { (*work_)(part); });
   }
 
   std::mutex mutex_;

@@ -1,5 +1,5 @@
 // stream: batches on their way to or from a thread that goes on with them. Depends on batch_ring.h,
-// tasks.h.
+// tasks.h, unlocked.h.
 #pragma once
 
 #include <condition_variable>
@@ -8,6 +8,7 @@
 
 #include "batch_ring.h"
 #include "tasks.h"
+#include "unlocked.h"
 
 namespace tetstream {
 
@@ -36,16 +37,8 @@ class BatchQueue : public Work {
   template <class Beside>
   void runBeside(Lock& lock, Beside work) noexcept {
     is_busy_ = true;
-    lock.unlock();
-    std::exception_ptr error;
-    try {
-      work();
-    } catch (...) {
-      error = std::current_exception();
-    }
-    lock.lock();
+    error_ = doUnlocked(lock, work);
     is_busy_ = false;
-    error_ = error;
     changed_.notify_all();
   }
   // Nobody else does what this thread waits for: it does it itself.
