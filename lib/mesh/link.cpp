@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <limits>
-
-#include "vertex_pair.h"
+#include <utility>
 
 namespace tetstream {
 
@@ -32,49 +31,50 @@ void LinkCondition::mark(const Stars& stars) {
 bool LinkCondition::findRing(uint32_t v, const Star& ring) {
   ring_size_ = 0;
   for (const StarCell& s : ring) {
-    int index[2], found = 0;
+    uint32_t number[2], found = 0;
     for (uint32_t t : s.t) {
       if (t == v) continue;
-      int i = ringIndex(t);
-      if (i < 0) {
+      uint32_t i = numberOf(t);
+      if (i == 0) {
         if (ring_size_ == kLargestRing) return false;
-        i = ring_size_++;
-        marks_[t] = mark_ + 1 + static_cast<uint32_t>(i);
-        ring_[i] = t;
-        ring_edges_[i] = 0;
+        i = ++ring_size_;
+        marks_[t] = mark_ + i;
+        ring_cells_[i] = 0;
+        ring_joined_[i] = 0;
       }
-      index[found++] = i;
+      ++ring_cells_[i];
+      number[found++] = i;
     }
-    ring_edges_[index[0]] |= uint64_t{1} << index[1];
-    ring_edges_[index[1]] |= uint64_t{1} << index[0];
+    ring_joined_[number[0]] |= uint64_t{1} << number[1];
+    ring_joined_[number[1]] |= uint64_t{1} << number[0];
   }
   return true;
 }
 
 bool LinkCondition::commonNeighboursInRing(const Stars& stars) const {
   for (const StarCell& s : stars.v)
-    for (uint32_t t : s.t)
-      if (marks_[t] == mark_) return false;
+    if ((marks_[s.t[0]] == mark_) | (marks_[s.t[1]] == mark_) | (marks_[s.t[2]] == mark_))
+      return false;
   return true;
 }
 
-bool LinkCondition::commonEdgesInRing(const Stars& stars) const {
-  uint64_t masks[2][kLargestRing];
-  std::fill_n(masks[0], ring_size_, uint64_t{0});
-  std::fill_n(masks[1], ring_size_, uint64_t{0});
-  const Star* sides[2] = {&stars.u, &stars.v};
-  for (int side = 0; side < 2; ++side)
-    for (const StarCell& s : *sides[side]) {
-      const int r[3] = {ringIndex(s.t[0]), ringIndex(s.t[1]), ringIndex(s.t[2])};
-      for (int i = 0; i < 3; ++i) {
-        const int a = r[i], b = r[(i + 1) % 3];
-        if (a < 0 || b < 0) continue;
-        masks[side][a] |= uint64_t{1} << b;
-        masks[side][b] |= uint64_t{1} << a;
-      }
-    }
-  for (int i = 0; i < ring_size_; ++i)
-    if (masks[0][i] & masks[1][i] & ~ring_edges_[i]) return false;
+void LinkCondition::join(const Star& star, Side& side) {
+  std::fill_n(side.joined, ring_size_ + 1, uint64_t{0});
+  for (const StarCell& s : star) {
+    const uint32_t a = numberOf(s.t[0]), b = numberOf(s.t[1]), c = numberOf(s.t[2]);
+    const uint64_t bits = uint64_t{1} << a | uint64_t{1} << b | uint64_t{1} << c;
+    side.joined[a] |= bits;
+    side.joined[b] |= bits;
+    side.joined[c] |= bits;
+    any_inside_ |= (a != 0) & (b != 0) & (c != 0);
+  }
+}
+
+bool LinkCondition::commonEdgesInRing() const {
+  for (uint32_t i = 1; i <= ring_size_; ++i) {
+    const uint64_t known = ring_joined_[i] | uint64_t{1} << i | 1;
+    if (u_.joined[i] & v_.joined[i] & ~known) return false;
+  }
   return true;
 }
 
@@ -84,63 +84,70 @@ static bool sameTriangle(const StarCell& a, const StarCell& b) {
 
 bool LinkCondition::noCommonTriangle(const Stars& stars) const {
   for (const StarCell& a : stars.u) {
-    if (ringIndex(a.t[0]) < 0 || ringIndex(a.t[1]) < 0 || ringIndex(a.t[2]) < 0) continue;
+    if (!numberOf(a.t[0]) || !numberOf(a.t[1]) || !numberOf(a.t[2])) continue;
     for (const StarCell& b : stars.v)
       if (sameTriangle(a, b)) return false;
   }
   return true;
 }
 
-// The boundary faces round an end, as edges of its link: those of one cell only. Both ends of such
-// an edge are on the boundary. Sorted.
-static void listBoundaryFaces(const Star& star, const Star& ring, const uint8_t* flags,
-                              std::vector<uint64_t>& edges) {
-  edges.clear();
-  for (const Star* part : {&star, &ring})
-    for (const StarCell& s : *part)
-      for (int i = 0; i < 3; ++i) {
-        const uint32_t a = s.t[i], b = s.t[(i + 1) % 3];
-        if (flags[a] & flags[b] & kBoundary) edges.push_back(pairOf(a, b));
-      }
-  std::sort(edges.begin(), edges.end());
-  size_t kept = 0;
-  for (size_t i = 0, j; i < edges.size(); i = j) {
-    for (j = i + 1; j < edges.size() && edges[j] == edges[i];) ++j;
-    if (j - i == 1) edges[kept++] = edges[i];
-  }
-  edges.resize(kept);
+// Looks random, and is another for each vertex.
+static uint64_t sizeOf(uint32_t vertex) {
+  const uint64_t x = vertex * uint64_t{0x9e3779b97f4a7c15};
+  return x ^ (x >> 32);
 }
 
-bool LinkCondition::boundaryLinksAgree(uint32_t v, const Stars& stars, const uint8_t* flags) {
-  listBoundaryFaces(stars.u, stars.ring, flags, faces_u_);
-  listBoundaryFaces(stars.v, stars.ring_from_v, flags, faces_v_);
-  // The boundary faces that hold both u and v: v in the link of u.
-  uint32_t shared[2];
-  int shared_count = 0;
-  for (uint64_t face : faces_u_) {
-    if (lowOf(face) != v && highOf(face) != v) continue;
-    if (shared_count == 2) return false;
-    shared[shared_count++] = lowOf(face) == v ? highOf(face) : lowOf(face);
+// In the link of an end the triangles round a vertex a go from b to c, on to d, and so forth. With
+// a number for each vertex, that of c less that of b summed over them is 0 where they close a
+// circle, and otherwise the difference of two: not 0. Of several fans round a it is 0 by a chance
+// of about 2^-60; such ends do not come here, they are locked.
+void LinkCondition::addTurns(const Star& cells, Side& side) const {
+  for (const StarCell& s : cells) {
+    const uint64_t a = sizeOf(s.t[0]), b = sizeOf(s.t[1]), c = sizeOf(s.t[2]);
+    side.turn[numberOf(s.t[0])] += c - b;
+    side.turn[numberOf(s.t[1])] += a - c;
+    side.turn[numberOf(s.t[2])] += b - a;
   }
-  if (shared_count != 2) return false;  // not a boundary edge, or a non-manifold one
-  for (uint64_t face : faces_u_) {
-    // No face uab beside vab.
-    if (std::binary_search(faces_v_.begin(), faces_v_.end(), face)) return false;
-    // A boundary neighbour of both makes a boundary face with both.
-    for (uint32_t a : {lowOf(face), highOf(face)})
-      if (a != v && a != shared[0] && a != shared[1] && holdsVertex(faces_v_, a)) return false;
-  }
-  return true;
 }
 
-bool LinkCondition::holds(End u, End v, const Stars& stars, const uint8_t* flags) {
+// Of a vertex r of the ring the edges ur and vr may both be of the boundary only where the face uvr
+// is, too: it has one cell. That must be so of two, or uv is inside the domain or non-manifold. Of
+// those two the faces to u and to v are no boundary faces both, unless nothing but the cell of all
+// four is there.
+bool LinkCondition::boundaryLinksAgree(const Stars& stars) {
+  std::fill_n(u_.turn, ring_size_ + 1, uint64_t{0});
+  std::fill_n(v_.turn, ring_size_ + 1, uint64_t{0});
+  addTurns(stars.u, u_);
+  addTurns(stars.ring, u_);
+  addTurns(stars.v, v_);
+  addTurns(stars.ring_from_v, v_);
+  uint32_t shared[2], shared_count = 0;
+  for (uint32_t i = 1; i <= ring_size_; ++i) {
+    if (ring_cells_[i] != 1) {
+      if ((u_.turn[i] != 0) & (v_.turn[i] != 0)) return false;
+    } else {
+      if (shared_count == 2) return false;
+      shared[shared_count++] = i;
+    }
+  }
+  if (shared_count != 2) return false;
+  const uint64_t other = uint64_t{1} << shared[1];
+  const bool in_one_cell = ring_joined_[shared[0]] & other;
+  return !in_one_cell || ((u_.joined[shared[0]] | v_.joined[shared[0]]) & other);
+}
+
+bool LinkCondition::holds(End u, End v, const Stars& stars) {
   if (!u.outside && !v.outside) return true;
   mark(stars);
   if (!findRing(v.vertex, stars.ring)) return false;
   if (!commonNeighboursInRing(stars)) return false;
-  if (!commonEdgesInRing(stars)) return false;
-  if (!noCommonTriangle(stars)) return false;
-  return !(u.outside && v.outside) || boundaryLinksAgree(v.vertex, stars, flags);
+  any_inside_ = false;
+  join(stars.v, v_);
+  const bool any_of_v = std::exchange(any_inside_, false);
+  join(stars.u, u_);
+  if (!commonEdgesInRing()) return false;
+  if (any_of_v && any_inside_ && !noCommonTriangle(stars)) return false;
+  return !(u.outside && v.outside) || boundaryLinksAgree(stars);
 }
 
 }  // namespace tetstream

@@ -2,8 +2,6 @@
 // Depends on topology.h.
 #pragma once
 
-#include <vector>
-
 #include "topology.h"
 
 namespace tetstream {
@@ -32,32 +30,41 @@ class LinkCondition {
     bool outside;
   };
   // True if the ends may be merged. Allowed for any edge; for one inside the domain it answers
-  // without a test, as said above. `flags` of all vertices of the stars: kBoundary is set at least
-  // for those of the boundary faces round u and v.
-  bool holds(End u, End v, const Stars& stars, const uint8_t* flags);
+  // without a test, as said above.
+  bool holds(End u, End v, const Stars& stars);
 
  private:
-  static constexpr int kLargestRing = 64;  // bits of a mask; larger rings are refused
+  // The ring's vertices are numbered from 1 on, as bits of a mask; all others have the number 0,
+  // so that nothing branches on who is in the ring. Larger rings are refused.
+  static constexpr uint32_t kLargestRing = 63;
+
+  // What an end has with the vertices of the ring.
+  struct Side {
+    uint64_t joined[kLargestRing + 1];  // bit j of entry i: a cell with both, but not the other end
+    uint64_t turn[kLargestRing + 1];    // 0 where the cells round the edge to i close a circle
+  };
 
   void mark(const Stars& stars);
   bool findRing(uint32_t v, const Star& ring);
-  int ringIndex(uint32_t vertex) const {
+  uint32_t numberOf(uint32_t vertex) const {
     const uint32_t m = marks_[vertex];
-    return m > mark_ ? static_cast<int>(m - mark_ - 1) : -1;
+    return m > mark_ ? m - mark_ : 0;
   }
   bool commonNeighboursInRing(const Stars& stars) const;
-  bool commonEdgesInRing(const Stars& stars) const;
+  void join(const Star& star, Side& side);
+  bool commonEdgesInRing() const;
   bool noCommonTriangle(const Stars& stars) const;
-  bool boundaryLinksAgree(uint32_t v, const Stars& stars, const uint8_t* flags);
+  void addTurns(const Star& cells, Side& side) const;
+  bool boundaryLinksAgree(const Stars& stars);
 
-  // Per vertex: mark_ for a neighbour of u, mark_ + 1 + i for vertex i of the ring, less for
-  // others.
+  // Per vertex: mark_ for a neighbour of u, mark_ + i for vertex i of the ring, less for others.
   Array<uint32_t> marks_;
   uint32_t mark_ = 0;
-  uint32_t ring_[kLargestRing];
-  uint64_t ring_edges_[kLargestRing];  // bit j of entry i: a cell u v ring[i] ring[j]
-  int ring_size_ = 0;
-  std::vector<uint64_t> faces_u_, faces_v_;  // boundary faces as edges of the link
+  uint32_t ring_size_ = 0;
+  uint32_t ring_cells_[kLargestRing + 1];   // that vertex i is in
+  uint64_t ring_joined_[kLargestRing + 1];  // bit j of entry i: a cell with both ends and both
+  Side u_, v_;
+  bool any_inside_ = false;  // a cell of u has its three other vertices in the ring
 };
 
 }  // namespace tetstream

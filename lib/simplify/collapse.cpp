@@ -225,9 +225,9 @@ auto Collapser<Mesh>::adjust(const Strata& strata) -> S {
 // Of the stars as gathered.
 template <class Mesh>
 bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Strata& strata) {
-  const uint8_t* flags = mesh_.allFlags();
-  if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_, flags)) return false;
-  return !strata.any() || strata_.holds(strata.u, strata.v, stars_, flags, strata.embedded);
+  if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_)) return false;
+  return !strata.any() ||
+         strata_.holds(strata.u, strata.v, stars_, mesh_.allFlags(), strata.embedded);
 }
 
 // Half of all edges fail, most of them by the cells of the end that moves most.

@@ -92,9 +92,7 @@ struct Complex {
     const auto a = static_cast<uint32_t>(u), b = static_cast<uint32_t>(v);
     topology.gather(a, b, stars.u, stars.ring);
     topology.gather(b, a, stars.v, stars.ring_from_v);
-    std::vector<uint8_t> flags;
-    for (uint32_t w = 0; w < topology.vertexEnd(); ++w) flags.push_back(topology.vertexFlags(w));
-    return condition.holds({a, outside(u)}, {b, outside(v)}, stars, flags.data());
+    return condition.holds({a, outside(u)}, {b, outside(v)}, stars);
   }
   bool outside(int64_t v) { return topology.vertexFlags(static_cast<uint32_t>(v)) & kBoundary; }
 
