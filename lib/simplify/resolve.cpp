@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "known_cells.h"
 #include "settled.h"
@@ -226,20 +227,85 @@ const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t other, uint32_t v, u
                                     cornerAcross(mesh, other, v, a, b), v, a, b);
 }
 
+// Looks random, and is another for each number.
+static uint64_t weightOf(uint32_t number) {
+  const uint64_t x = (number + 1) * uint64_t{0x9e3779b97f4a7c15};
+  return x ^ (x >> 32);
+}
+
+// Of each vertex of the link: the weights of the ends of the edges from it less those of the edges
+// to it. 0 where there is one back for each.
 template <class S>
-void Resolver<S>::resolveFaces(uint32_t v) {
-  Topology& mesh = core_.window.mesh;
-  // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
-  // 2^31. The lowest bit is the direction.
+void Resolver<S>::sumEdges() {
+  const size_t corners = 3 * star_.size();
+  if (corner_numbers_.size() < corners) {
+    corner_numbers_.resize(2 * corners);
+    sums_.resize(2 * corners);
+  }
+  numbers_.start(corners);
+  uint32_t* n = corner_numbers_.data();
+  for (const StarCell& s : star_)
+    for (uint32_t t : s.t) *n++ = numbers_.numberOf(t);
+  std::fill_n(sums_.data(), numbers_.count(), uint64_t{0});
+  for (n = corner_numbers_.data(); n < corner_numbers_.data() + corners; n += 3) {
+    const uint64_t a = weightOf(n[0]), b = weightOf(n[1]), c = weightOf(n[2]);
+    sums_[n[0]] += b - c;
+    sums_[n[1]] += c - a;
+    sums_[n[2]] += a - b;
+  }
+}
+
+// Sorts the link's edges for which wanted(corners) says so, of the places of their ends among the
+// star's corners; returns their number.
+template <class S>
+template <class Wanted>
+size_t Resolver<S>::sortEdges(Wanted wanted) {
   if (edges_.size() < 3 * star_.size()) edges_.resize(6 * star_.size());
   size_t count = 0;
-  for (const StarCell& s : star_)
-    for (int i = 0; i < 3; ++i) {
-      const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
-      edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell};
+  // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
+  // 2^31. The lowest bit is the direction.
+  for (size_t i = 0; i < star_.size(); ++i)
+    for (size_t k = 0; k < 3; ++k) {
+      const size_t next = (k + 1) % 3;
+      const uint64_t a = star_[i].t[k], b = star_[i].t[next];
+      edges_[count] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, star_[i].cell};
+      count += wanted(3 * i + k, 3 * i + next);
     }
   std::sort(edges_.data(), edges_.data() + count,
             [](const LinkEdge& a, const LinkEdge& b) { return a.key < b.key; });
+  return count;
+}
+
+// Whether the link has as many vertices as a disk with its faces and those of the sorted edges that
+// are there once. No edge of such a link is there more than once in either direction.
+template <class S>
+bool Resolver<S>::isPlain(size_t edges) const {
+  size_t border = 0;
+  for (size_t i = 0, j; i < edges; i = j) {
+    for (j = i + 1; j < edges && edges_[j].key >> 1 == edges_[i].key >> 1;) ++j;
+    border += j - i == 1;
+  }
+  return border > 0 && 2 * numbers_.count() == star_.size() + border + 2;
+}
+
+// The edges of the link that may be more than what two cells of one region have in common, sorted;
+// returns their number. Both ends of an edge without one that goes back have sums other than 0.
+template <class S>
+size_t Resolver<S>::listEdges() {
+  if (core_.region_picks.empty() && core_.window.faces.empty()) {
+    sumEdges();
+    const size_t count = sortEdges([this](size_t a, size_t b) {
+      return (sums_[corner_numbers_[a]] != 0) & (sums_[corner_numbers_[b]] != 0);
+    });
+    if (isPlain(count)) return count;
+  }
+  return sortEdges([](size_t, size_t) { return true; });
+}
+
+template <class S>
+void Resolver<S>::resolveFaces(uint32_t v) {
+  Topology& mesh = core_.window.mesh;
+  const size_t count = listEdges();
   const CellLabels labels = core_.cellLabels();
   boundary_.clear();
   sheets_.clear();
@@ -282,32 +348,30 @@ void Resolver<S>::lockNonManifold(uint32_t v) {
 }
 
 // Whether the boundary faces round a vertex form one fan: the edges of the link's boundary make a
-// single circle. Each end of each edge is listed with its edge; in a circle every vertex is there
-// twice, and walking from edge to edge meets all of them.
+// single circle. In one every vertex has two others, and walking from one to the next meets all.
 template <class S>
 bool Resolver<S>::isDisk(const std::vector<uint64_t>& boundary) {
-  ends_.clear();
-  for (uint64_t edge = 0; edge < boundary.size(); ++edge) {
-    ends_.push_back((boundary[edge] >> 32) << 32 | edge);
-    ends_.push_back(boundary[edge] << 32 | edge);
+  const size_t count = boundary.size();
+  numbers_.start(2 * count);
+  ends_.assign(2 * count, kNone);
+  const auto put = [this](uint32_t at, uint32_t other) {
+    uint32_t* const to = &ends_[2 * size_t{at}];
+    const bool fits = to[1] == kNone;
+    (to[0] == kNone ? to[0] : to[1]) = other;
+    return fits;
+  };
+  for (uint64_t edge : boundary) {
+    const uint32_t a = numbers_.numberOf(static_cast<uint32_t>(edge >> 32));
+    const uint32_t b = numbers_.numberOf(static_cast<uint32_t>(edge));
+    if (numbers_.count() > count || !put(a, b) || !put(b, a)) return false;
   }
-  std::sort(ends_.begin(), ends_.end());
-  for (size_t i = 0; i < ends_.size(); i += 2) {
-    const bool pair = ends_[i] >> 32 == ends_[i + 1] >> 32;
-    if (!pair || (i + 2 < ends_.size() && ends_[i + 2] >> 32 == ends_[i] >> 32)) return false;
+  uint32_t before = 0, at = ends_[0];
+  size_t walked = 1;
+  for (; at != 0; ++walked) {
+    const uint32_t* const ends = &ends_[2 * size_t{at}];
+    before = std::exchange(at, ends[0] == before ? ends[1] : ends[0]);
   }
-  uint64_t edge = 0, at = boundary[0] >> 32;
-  size_t walked = 0;
-  do {
-    const uint64_t other =
-        boundary[edge] >> 32 == at ? boundary[edge] & 0xffffffffu : boundary[edge] >> 32;
-    const auto first = std::lower_bound(ends_.begin(), ends_.end(), other << 32);
-    const uint64_t next = first[0] & 0xffffffffu;
-    edge = next != edge ? next : first[1] & 0xffffffffu;
-    at = other;
-    ++walked;
-  } while (edge != 0 && walked <= boundary.size());
-  return walked == boundary.size();
+  return walked == count;
 }
 
 template class Resolver<float>;

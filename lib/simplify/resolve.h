@@ -5,6 +5,7 @@
 #include "link.h"
 #include "metric.h"
 #include "sheets.h"
+#include "star_numbers.h"
 
 namespace tetstream {
 
@@ -24,7 +25,10 @@ class Resolver {
         corners_(account, 256),
         open_(account),
         next_{Array<uint32_t>(account, 256), Array<uint32_t>(account, 256)},
-        edges_(account, 256) {}
+        edges_(account, 256),
+        numbers_(account),
+        corner_numbers_(account, 256),
+        sums_(account, 256) {}
 
   // The window's cells from `first_new` on are new: they add their quadrics. All cells of these
   // vertices are there. Returns the cells of the front: those that touch a vertex not yet final.
@@ -40,6 +44,11 @@ class Resolver {
   size_t listStars(size_t count);
   void resolveOpen(uint32_t v, const uint32_t* corners, size_t count);
   void resolveFaces(uint32_t v);
+  size_t listEdges();
+  void sumEdges();
+  template <class Wanted>
+  size_t sortEdges(Wanted wanted);
+  bool isPlain(size_t edges) const;
   void addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label);
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
   bool isDisk(const std::vector<uint64_t>& boundary);
@@ -59,7 +68,11 @@ class Resolver {
     uint32_t cell;
   };
   Array<LinkEdge> edges_;
-  std::vector<uint64_t> boundary_, ends_;
+  StarNumbers numbers_;
+  Array<uint32_t> corner_numbers_;  // of the star's cells, but for the centre
+  Array<uint64_t> sums_;            // by these numbers
+  std::vector<uint64_t> boundary_;
+  std::vector<uint32_t> ends_;
 };
 
 }  // namespace tetstream
