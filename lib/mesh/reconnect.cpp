@@ -64,7 +64,7 @@ bool Reconnector<S>::hasFace(const uint32_t corners[3]) {
 }
 
 template <class S>
-bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out) {
+bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out, double least_gain) {
   out = {};
   const StarCell above = patch_.starCell(4 * c + j);  // d above the face t
   const uint32_t d = patch_.vertexOf(c, j), *t = above.t;
@@ -88,7 +88,7 @@ bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out) {
     const uint32_t made[4] = {d, t[k], t[(k + 1) % 3], e};
     std::copy_n(made, 4, out.made[out.made_count++]);
     out.after = std::max(out.after, thinnessAt(made));
-    if (out.after >= out.before) return true;
+    if (out.after >= out.before - least_gain) return true;
   }
   if (hasEdge(d, e)) out.after = kTurned;
   return true;
@@ -120,9 +120,11 @@ bool Reconnector<S>::orderRing(uint32_t v, uint32_t* ring) const {
 // The triangulation of the ring whose worst cell is best, by dynamic programming over its chains
 // (Klincsek 1980): each triangle makes a cell with u and one with v.
 template <class S>
-void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, Reconnection& out) {
+void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, double least_gain,
+                                 Reconnection& out) {
   constexpr uint32_t kMost = Reconnection::kMostRing;
   const uint32_t n = out.gone_count;
+  const double limit = out.before - least_gain;
   double worst[kMost][kMost] = {};
   uint32_t middle[kMost][kMost];
   const auto best = [&](uint32_t i, uint32_t k) {
@@ -131,8 +133,8 @@ void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, R
       double w = std::max(worst[i][j], worst[j][k]);
       const uint32_t lower[4] = {u, ring[i], ring[j], ring[k]};
       const uint32_t upper[4] = {v, ring[i], ring[k], ring[j]};
-      if (w < out.before) w = std::max(w, thinnessAt(lower));
-      if (w < out.before) w = std::max(w, thinnessAt(upper));
+      if (w < limit) w = std::max(w, thinnessAt(lower));
+      if (w < limit) w = std::max(w, thinnessAt(upper));
       if (w >= worst[i][k]) continue;
       worst[i][k] = w;
       middle[i][k] = j;
@@ -142,8 +144,8 @@ void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, R
   for (uint32_t length = 2; length < n; ++length)
     for (uint32_t i = 0; i + length < n; ++i) best(i, i + length);
   out.after = worst[0][n - 1];
-  if (out.improves() && n == 3 && hasFace(ring)) out.after = kTurned;
-  if (!out.improves()) return;
+  if (out.after < limit && n == 3 && hasFace(ring)) out.after = kTurned;
+  if (!(out.after < limit)) return;
   uint32_t chains[kMost][2] = {{0, n - 1}};
   for (uint32_t count = 1; count > 0;) {
     const uint32_t i = chains[--count][0], k = chains[count][1], j = middle[i][k];
@@ -163,7 +165,7 @@ void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, R
 
 template <class S>
 bool Reconnector<S>::removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out,
-                                uint32_t most_ring) {
+                                uint32_t most_ring, double least_gain) {
   out = {};
   uint32_t u = patch_.vertexOf(c, i), v = patch_.vertexOf(c, j);
   if (u >= patch_.ownedEnd()) std::swap(u, v);
@@ -172,7 +174,7 @@ bool Reconnector<S>::removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection
   uint32_t ring[Reconnection::kMostRing];
   if (ring_.size() < 3 || ring_.size() > most_ring || !orderRing(v, ring)) return false;
   for (const StarCell& s : ring_) addGone(s.cell, out);
-  triangulate(u, v, ring, out);
+  triangulate(u, v, ring, least_gain, out);
   return true;
 }
 

@@ -16,7 +16,7 @@ struct Reconnection {
   static constexpr uint32_t kMostRing = 7, kMostCells = 2 * (kMostRing - 2);
   uint32_t gone[kMostRing], made[kMostCells][4];  // cells; corners, positively ordered
   uint32_t gone_count = 0, made_count = 0;
-  // The worst thinness. Where it would not improve, `made` is not complete.
+  // The worst thinness. Where it would not gain what is asked for, `made` is not complete.
   double before = -1, after = kTurned;
   bool improves() const { return after < before; }
 };
@@ -34,13 +34,14 @@ class Reconnector {
   void replace(const Reconnection& r, uint32_t* slots);
 
   // The face opposite corner j of cell c makes way for an edge: two cells become three. False where
-  // it is on the boundary or the cell beyond is not known.
-  bool removeFace(uint32_t c, uint32_t j, Reconnection& out);
+  // it is on the boundary or the cell beyond is not known. Of no interest are flips after which the
+  // worst thinness is not less by more than `least_gain`: they are not looked at any further.
+  bool removeFace(uint32_t c, uint32_t j, Reconnection& out, double least_gain = 0);
   // The edge between corners i and j of cell c makes way for triangles spanning its ring: n cells
   // become 2 (n - 2), by the best triangulation. False where it is on the boundary, its ring is not
   // known or has more than `most_ring` cells.
   bool removeEdge(uint32_t c, uint32_t i, uint32_t j, Reconnection& out,
-                  uint32_t most_ring = Reconnection::kMostRing);
+                  uint32_t most_ring = Reconnection::kMostRing, double least_gain = 0);
   double thinnessOfCell(uint32_t c);
 
  private:
@@ -49,7 +50,8 @@ class Reconnector {
   bool hasFace(const uint32_t corners[3]);
   bool orderRing(uint32_t v, uint32_t* ring) const;
   void addGone(uint32_t c, Reconnection& out);
-  void triangulate(uint32_t u, uint32_t v, const uint32_t* ring, Reconnection& out);
+  void triangulate(uint32_t u, uint32_t v, const uint32_t* ring, double least_gain,
+                   Reconnection& out);
 
   Patch<S>& patch_;
   Star star_, ring_;

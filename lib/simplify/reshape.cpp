@@ -8,9 +8,9 @@
 
 namespace tetstream {
 
-// The mean squared change of the fields over the cells concerned, in those of the whole's error so
-// far. At 1 the errors at steep fronts are larger, since collapses stay illegal there; at 100 those
-// of smooth fields are.
+// The mean squared change of the fields over the cells concerned, in those of the whole's error. At
+// 1 the errors at steep fronts are larger, since collapses stay illegal there; at 100 those of
+// smooth fields are.
 constexpr double kMostChange = 10;
 
 template <class S>
@@ -25,7 +25,6 @@ Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, Tally& tally, Account& acc
 template <class S>
 void Reshaper<S>::start() {
   counts_thin_ = false;
-  most_change_ = core_.volume > 0 ? kMostChange * core_.tally.error / core_.volume : 0;
   patch_.listGone();
   reconnector_.start();
   if (marks_.size() < patch_.vertexEnd()) marks_.resize(patch_.vertexEnd() + 1024);
@@ -52,6 +51,11 @@ void Reshaper<S>::markNear() {
     if (near)
       for (uint32_t j = 0; j < 4; ++j) marks_[patch_.vertexOf(c, j)] |= near;
   }
+}
+
+template <class S>
+double Reshaper<S>::meanOf(double error) const {
+  return core_.volume > 0 ? kMostChange * error / core_.volume : 0;
 }
 
 template <class S>
@@ -105,14 +109,16 @@ bool Reshaper<S>::flipAt(uint32_t c) {
   // Faces and edges between vertices that the caller locked stay: they may be locked themselves.
   bool locked[4];
   for (uint32_t j = 0; j < 4; ++j) locked[j] = isLockedByCaller(c, j);
+  const auto leastGain = [&] { return counts_thin_ ? 0 : most; };
   for (uint32_t j = 0; j < 4 && !counts_thin_; ++j)
     if (!(locked[(j + 1) % 4] && locked[(j + 2) % 4] && locked[(j + 3) % 4]) &&
-        reconnector_.removeFace(c, j, r))
+        reconnector_.removeFace(c, j, r, leastGain()))
       offer();
   const uint32_t most_ring = counts_thin_ ? 4 : Reconnection::kMostRing;
   for (uint32_t i = 0; i < 4; ++i)
     for (uint32_t j = 0; j < i; ++j)
-      if (!(locked[i] && locked[j]) && reconnector_.removeEdge(c, i, j, r, most_ring)) offer();
+      if (!(locked[i] && locked[j]) && reconnector_.removeEdge(c, i, j, r, most_ring, leastGain()))
+        offer();
   if (!best.improves()) return false;
   apply(best);
   return true;

@@ -23,11 +23,13 @@ class Reshaper {
   void observe(FlipObserver* observer) { observer_ = observer; }
 
   // Flips at each cell with a dihedral angle not much above the floor, while the window's cells
-  // stay between the limits. Returns whether there was one. Cells are passed over that had no flip
-  // before, with all as it was: hasMoved(v) says of an owned vertex whether it has moved since.
+  // stay between the limits, for a change of the fields that is not large beside the error of the
+  // whole. Returns whether there was one. Cells are passed over that had no flip before, with all
+  // as it was: hasMoved(v) says of an owned vertex whether it has moved since.
   template <class HasMoved>
-  bool reshape(int64_t least_cells, int64_t most_cells, HasMoved hasMoved) {
+  bool reshape(int64_t least_cells, int64_t most_cells, double error, HasMoved hasMoved) {
     start(hasMoved);
+    most_change_ = meanOf(error);
     return flipAll(least_cells, most_cells);
   }
   // The same at each thin cell, where the field comes first: flips that leave fewer of them and no
@@ -68,6 +70,7 @@ class Reshaper {
     for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) marks_[v] = hasMoved(v) ? kMoved : 0;
   }
   void start();
+  double meanOf(double error) const;
   bool flipAll(int64_t least_cells, int64_t most_cells);
   void markNear();
   uint8_t marksOf(uint32_t c) const;

@@ -17,6 +17,10 @@ namespace {
 
 constexpr int64_t kSlackShare = 50;    // one part in these of a goal is no reason for another pass
 constexpr size_t kTilesTogether = 64;  // then what they did is added, for progress to be told
+// Of the cells of the tiles of a group, where each may take its share of what is left to the goal.
+// A pass takes half of the cells, or less; less to take is shared by fewer tiles, and in the end is
+// taken by one after the other.
+constexpr double kLeastShare = 0.6;
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
@@ -82,7 +86,8 @@ class SweepSelector final : public Selector {
   double firstBound();
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
-  size_t groupEnd(size_t first) const;
+  size_t groupEnd(size_t first);
+  Goal goalOf(const TilePiece& tile) const;
   void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
   Swept sweepTile(size_t tile, float bound, Lane& lane, TileQueue& queue);
   bool add(const Swept& swept);
@@ -96,9 +101,9 @@ class SweepSelector final : public Selector {
     onPatch(lane, tiling_.vertices(tile), tile.vertexCount(), cells, tile.cell_count, work);
   }
   void tryEverything(const std::function<void()>& tick);
-  bool reshape(Lane& lane, float bound);
+  bool reshape(Lane& lane, const Goal& goal, float bound);
   template <class HasMoved>
-  bool reshapeFirst(HasMoved hasMoved);
+  bool reshapeFirst(Lane& lane, const Goal& goal, HasMoved hasMoved);
   void reshapeAll(bool any_moved, const std::function<void()>& tick);
 
   Core<S>& core_;
@@ -108,6 +113,7 @@ class SweepSelector final : public Selector {
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::unique_ptr<Selector> exhaustive_;
   std::vector<Swept> swept_;
+  double share_ = 1;  // of its cells that a tile of the group may take
   Goal goal_{};
   double unit_ = 1, bound_ = 0;
   bool is_ready_ = false;  // the only tile is loaded in the first lane, and its edges are evaluated
@@ -182,26 +188,43 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
 
 // Whether what a tile does may hang on the one before, whatever lies between them: on the error
 // made so far, where it has a limit; on the order in which a log or a map is told; the hash of
-// labelled faces, common to all; on flips that are measured by the error made so far.
+// labelled faces, common to all.
 template <class S>
 bool SweepSelector<S>::worksInOrder() const {
-  return core_.shapesFirst() || std::isfinite(core_.error_limit) || core_.tracer ||
-         core_.window.faces.anyPlaced();
+  return std::isfinite(core_.error_limit) || core_.tracer || core_.window.faces.anyPlaced();
 }
 
-// As many tiles as can be swept before the goal may be met.
+// As many tiles as can be swept before the goal may be met: with all of their cells, or where
+// shapes come first with a share of them.
 template <class S>
-size_t SweepSelector<S>::groupEnd(size_t first) const {
+size_t SweepSelector<S>::groupEnd(size_t first) {
   const std::vector<TilePiece>& tiles = tiling_.tiles();
+  share_ = 1;
   if (worksInOrder()) return first + 1;
   const size_t most = std::min(tiles.size(), first + kTilesTogether);
-  int64_t left = core_.window.liveCells() - static_cast<int64_t>(tiles[first].cell_count);
+  const int64_t live = core_.window.liveCells();
+  const auto room = static_cast<double>(live - (goal_.last ? goal_.cells : goal_.least_cells));
+  auto cells = static_cast<int64_t>(tiles[first].cell_count);
   size_t end = first + 1;
   for (; end < most; ++end) {
-    left -= static_cast<int64_t>(tiles[end].cell_count);
-    if (goal_.isMet(left)) break;
+    cells += static_cast<int64_t>(tiles[end].cell_count);
+    if (!goal_.isMet(live - cells)) continue;
+    const double share = room / static_cast<double>(cells);
+    if (!core_.shapesFirst() || share < kLeastShare) break;
+    share_ = std::min(share, 1.0);
   }
   return end;
+}
+
+// Of a tile of a group: it stops when its share is taken.
+template <class S>
+Goal SweepSelector<S>::goalOf(const TilePiece& tile) const {
+  if (!(share_ < 1)) return goal_;
+  Goal goal = goal_;
+  goal.last = false;
+  goal.least_cells = core_.window.liveCells() -
+                     static_cast<int64_t>(share_ * static_cast<double>(tile.cell_count));
+  return goal;
 }
 
 template <class S>
@@ -236,11 +259,14 @@ template <class S>
 auto SweepSelector<S>::sweepTile(size_t number, float bound, Lane& lane, TileQueue& queue)
     -> Swept {
   const TilePiece& tile = tiling_.tiles()[number];
+  const Goal goal = goalOf(tile);
+  lane.sweep.begin(goal, unit_);
   Swept swept;
   const auto work = [&] {
     if (!queue.waitForEarlier(number)) return;
-    swept.more = lane.sweep.sweep(bound) || swept.more;
-    const bool reshaped = core_.flips() && reshape(lane, bound);
+    const bool more = lane.sweep.sweep(bound);
+    swept.more |= more || (share_ < 1 && goal.isMet(lane.sweep.patch().liveCells()));
+    const bool reshaped = core_.flips() && reshape(lane, goal, bound);
     lane.sweep.store();
     const bool is_whole = lane.sweep.patch().ownedEnd() == tile.vertexCount();
     if (is_whole) queue.store(number);
@@ -308,21 +334,24 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
 
 // After a sweep up to the bound.
 template <class S>
-bool SweepSelector<S>::reshape(Lane& lane, float bound) {
+bool SweepSelector<S>::reshape(Lane& lane, const Goal& goal, float bound) {
   const auto hasMoved = [&](uint32_t v) { return lane.sweep.hasMoved(v); };
   if (!core_.shapesFirst())
-    return lane.reshaper->thinOut(goal_.least_cells, static_cast<double>(bound) / unit_, hasMoved);
-  addOf(lane);
-  return reshapeFirst(hasMoved);
+    return lane.reshaper->thinOut(goal.least_cells, static_cast<double>(bound) / unit_, hasMoved);
+  return reshapeFirst(lane, goal, hasMoved);
 }
 
-// A target that is reached stays so.
+// A target that is reached stays so. The other tiles of the group are taken to make errors as this
+// one does.
 template <class S>
 template <class HasMoved>
-bool SweepSelector<S>::reshapeFirst(HasMoved hasMoved) {
-  const bool is_reached = goal_.last && lane().sweep.patch().liveCells() <= goal_.cells;
-  return lane().reshaper->reshape(
-      goal_.least_cells, is_reached ? goal_.cells : std::numeric_limits<int64_t>::max(), hasMoved);
+bool SweepSelector<S>::reshapeFirst(Lane& lane, const Goal& goal, HasMoved hasMoved) {
+  const bool is_reached = goal.last && lane.sweep.patch().liveCells() <= goal.cells;
+  const double error =
+      core_.tally.error + lane.sweep.tally().error * static_cast<double>(swept_.size());
+  return lane.reshaper->reshape(goal.least_cells,
+                                is_reached ? goal.cells : std::numeric_limits<int64_t>::max(),
+                                error, hasMoved);
 }
 
 // `any_moved`: vertices since the last time, other than in sweeps.
@@ -331,7 +360,7 @@ void SweepSelector<S>::reshapeAll(bool any_moved, const std::function<void()>& t
   tiling_.build(round_++, std::numeric_limits<float>::infinity());
   for (const TilePiece& tile : tiling_.tiles()) {
     onTile(lane(), tile, [&] {
-      if (!reshapeFirst([&](uint32_t) { return any_moved; })) return;
+      if (!reshapeFirst(lane(), goal_, [&](uint32_t) { return any_moved; })) return;
       lane().sweep.store();
       lane().reshaper->unsettleChanged();
     });

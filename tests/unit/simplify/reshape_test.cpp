@@ -32,7 +32,6 @@ struct Squeezed : WholePatch<double> {
       : WholePatch<double>(squeezed(8), options(region_names)),
         reshaper(core, patch, core.tally, account) {
     core.poor = thinnessOfAngle(25);
-    core.tally.error = core.volume;  // any change of the field is allowed
     mergeSome();
   }
   static SimplifyOptions options(const std::string& region_names) {
@@ -53,7 +52,7 @@ struct Squeezed : WholePatch<double> {
     }
   }
   bool reshape(int64_t least_cells, int64_t most_cells, bool any_moved = true) {
-    return reshaper.reshape(least_cells, most_cells, [&](uint32_t) { return any_moved; });
+    return reshaper.reshape(least_cells, most_cells, error, [&](uint32_t) { return any_moved; });
   }
   int poorCells() {
     Reconnector<double> look(patch, account);
@@ -73,6 +72,7 @@ struct Squeezed : WholePatch<double> {
       }
     return all;
   }
+  const double error = core.volume;  // any change of the field is allowed
   Reshaper<double> reshaper;
 };
 
@@ -154,7 +154,7 @@ TEST(Reshape, PassesOverCellsRoundWhichNothingChanged) {
   EXPECT_FALSE(s.reshape(0, 1 << 30, false));
   EXPECT_EQ(s.core.tally.flips, 0);
   const uint32_t moved = s.patch.ownedEnd() / 8;
-  EXPECT_TRUE(s.reshaper.reshape(0, 1 << 30, [&](uint32_t v) { return v < moved; }));
+  EXPECT_TRUE(s.reshaper.reshape(0, 1 << 30, s.error, [&](uint32_t v) { return v < moved; }));
   const int64_t near = s.core.tally.flips;
   EXPECT_TRUE(s.reshape(0, 1 << 30));
   EXPECT_GT(s.core.tally.flips, near);
