@@ -1,4 +1,5 @@
 // simplify: patches swept at rising bounds. See select.h.
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -84,6 +85,9 @@ class SweepSelector final : public Selector {
   void sweep(const std::function<void()>& tick);
   void sweepOut(const std::function<void()>& tick);
   double firstBound();
+  void listErrors(Lane& lane, std::vector<float>& errors);
+  template <class Work>
+  void shareOut(size_t pieces, Work work);
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
   size_t groupEnd(size_t first);
@@ -227,19 +231,29 @@ Goal SweepSelector<S>::goalOf(const TilePiece& tile) const {
   return goal;
 }
 
+// work(lane) by as many threads as have a piece to do, each in a lane of its own.
+template <class S>
+template <class Work>
+void SweepSelector<S>::shareOut(size_t pieces, Work work) {
+  const Tasks* const tasks = core_.tasks();
+  const size_t lanes = tasks ? std::min(pieces, tasks->threads()) : 1;
+  while (lanes_.size() < lanes) addLane();
+  if (lanes == 1)
+    work(lane());
+  else
+    tasks->forParts(lanes, [&](size_t l) { work(*lanes_[l]); });
+}
+
 template <class S>
 void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
                                   const std::function<void()>& tick) {
   swept_.assign(end - first, {});
-  const Tasks* const tasks = core_.tasks();
-  const size_t lanes = tasks ? std::min(end - first, tasks->threads()) : 1;
-  while (lanes_.size() < lanes) addLane();
   TileQueue queue(tiling_.earlier(), tiling_.ahead(), first, end);
   const std::thread::id caller = std::this_thread::get_id();
-  const auto work = [&](size_t l) {
+  shareOut(end - first, [&](Lane& lane) {
     try {
       while (const std::optional<size_t> tile = queue.take()) {
-        swept_[*tile - first] = sweepTile(*tile, bound, *lanes_[l], queue);
+        swept_[*tile - first] = sweepTile(*tile, bound, lane, queue);
         queue.finish(*tile);
         if (std::this_thread::get_id() == caller) tick();  // the user's callbacks know one thread
       }
@@ -247,11 +261,7 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
       queue.giveUp();
       throw;
     }
-  };
-  if (lanes == 1)
-    work(0);
-  else
-    tasks->forParts(lanes, work);
+  });
 }
 
 // Others may load what is stored of it while this one settles it.
@@ -284,20 +294,30 @@ auto SweepSelector<S>::sweepTile(size_t number, float bound, Lane& lane, TileQue
   return swept;
 }
 
+// Of a few tiles, which threads share.
 template <class S>
 double SweepSelector<S>::firstBound() {
-  std::vector<float> errors;
-  for (size_t i = 0; i < tiling_.tiles().size(); i += tiling_.tiles().size() / 4 + 1) {
-    onTile(lane(), tiling_.tiles()[i], [&] {
-      lane().sweep.evaluateAll(std::numeric_limits<float>::infinity());
-      for (uint32_t v = 0; v < lane().sweep.patch().ownedEnd(); ++v)
-        if (std::isfinite(lane().sweep.least(v))) errors.push_back(lane().sweep.least(v));
-    });
-  }
-  const bool is_whole = tiling_.tiles().size() == 1 &&
-                        lane().sweep.patch().ownedEnd() == tiling_.tiles()[0].vertexCount();
+  const std::vector<TilePiece>& tiles = tiling_.tiles();
+  const size_t step = tiles.size() / 4 + 1, count = (tiles.size() + step - 1) / step;
+  std::vector<std::vector<float>> found(std::max<size_t>(count, 1));
+  std::atomic<size_t> next = 0;
+  shareOut(count, [&](Lane& lane) {
+    for (size_t i; (i = next++) < count;)
+      onTile(lane, tiles[i * step], [&] { listErrors(lane, found[i]); });
+  });
+  const bool is_whole =
+      tiles.size() == 1 && lane().sweep.patch().ownedEnd() == tiles[0].vertexCount();
   is_ready_ = is_whole && lane().sweep.isEvaluated();
-  return bounds_.first(errors, goal_);
+  for (size_t i = 1; i < count; ++i)
+    found[0].insert(found[0].end(), found[i].begin(), found[i].end());
+  return bounds_.first(found[0], goal_);
+}
+
+template <class S>
+void SweepSelector<S>::listErrors(Lane& lane, std::vector<float>& errors) {
+  lane.sweep.evaluateAll(std::numeric_limits<float>::infinity());
+  for (uint32_t v = 0; v < lane.sweep.patch().ownedEnd(); ++v)
+    if (std::isfinite(lane.sweep.least(v))) errors.push_back(lane.sweep.least(v));
 }
 
 // Until a round, whose seams lie elsewhere, finds nothing more. Edge by edge towards the last cells
