@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <utility>
 
 #include "known_cells.h"
 #include "settled.h"
@@ -163,22 +162,88 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
     for (size_t i = done; i < open; ++i)
       window.scratch()[open_[i]] = static_cast<uint32_t>(i - done + 1);
     const size_t listed = listStars(open - done);
-    for (size_t i = 0; i < listed; ++i) {
-      const uint32_t begin = i > 0 ? next_[1][i - 1] : 0;
-      resolveOpen(open_[done + i], corners_.data() + begin, next_[1][i] - begin);
-      window.scratch()[open_[done + i]] = 0;
-    }
+    resolveListed(&open_[done], listed);
+    for (size_t i = 0; i < listed; ++i) window.scratch()[open_[done + i]] = 0;
     done += listed;
   }
   return front;
 }
 
 template <class S>
-void Resolver<S>::resolveOpen(uint32_t v, const uint32_t* corners, size_t count) {
-  Topology& mesh = core_.window.mesh;
-  star_.clear();
-  for (size_t i = 0; i < count; ++i) star_.add() = mesh.starCell(corners[i]);
+void Resolver<S>::gather(Corners corners, Star& star) const {
+  star.clear();
+  for (size_t i = 0; i < corners.count; ++i)
+    star.add() = core_.window.mesh.starCell(corners.first[i]);
+}
+
+template <class S>
+void Resolver<S>::findFaces(size_t begin, size_t end, Part& part) const {
+  part.faces.clear();
+  part.found.clear();
+  for (size_t i = begin; i < end; ++i) {
+    gather(cornersOf(i), part.star);
+    Found found = {part.faces.size(), 0, part.border.find(part.star), false};
+    if (found.is_plain) {
+      const std::vector<uint64_t>& edges = part.border.edges();
+      found.count = edges.size();
+      found.is_disk = part.border.isCircle(edges);
+      part.faces.insert(part.faces.end(), edges.begin(), edges.end());
+    }
+    part.found.push_back(found);
+  }
+}
+
+// Where there is nothing but boundary, stars are looked at by two threads; then their faces are
+// added in the order of the vertices. One thread does it star by star, and keeps nothing.
+template <class S>
+void Resolver<S>::resolveListed(const uint32_t* vertices, size_t count) {
+  const Tasks* const tasks = core_.tasks();
+  if (!core_.region_picks.empty() || !core_.window.faces.empty()) {
+    for (size_t i = 0; i < count; ++i) resolveOpen(vertices[i], cornersOf(i));
+    return;
+  }
+  const size_t step = tasks ? count : 1;
+  for (size_t begin = 0; begin < count; begin += step) {
+    const size_t middle = begin + (step + 1) / 2, end = begin + step;
+    if (tasks)
+      doBoth(
+          tasks, [&] { findFaces(begin, middle, parts_[0]); },
+          [&] { findFaces(middle, end, parts_[1]); });
+    else
+      findFaces(begin, end, parts_[0]);
+    for (size_t i = begin; i < end; ++i) {
+      const Part& part = parts_[i >= middle];
+      const Found& found = part.found[i - (i >= middle ? middle : begin)];
+      found.is_plain ? addFound(vertices[i], found, part) : resolveOpen(vertices[i], cornersOf(i));
+    }
+  }
+}
+
+template <class S>
+void Resolver<S>::addFound(uint32_t v, const Found& found, const Part& part) {
+  sheets_.clear();
+  for (size_t i = found.begin; i < found.begin + found.count; ++i) {
+    const uint64_t face = part.faces[i];
+    addFace(v, static_cast<uint32_t>(face >> 32), static_cast<uint32_t>(face), kBoundary, nullptr);
+  }
+  finishFaces(v, found.is_disk);
+}
+
+template <class S>
+void Resolver<S>::resolveOpen(uint32_t v, Corners corners) {
+  gather(corners, star_);
   resolveFaces(v);
+  finishFaces(v, boundary_.empty() || circle_.isCircle(boundary_));
+}
+
+template <class S>
+void Resolver<S>::finishFaces(uint32_t v, bool is_disk) {
+  Topology& mesh = core_.window.mesh;
+  if (!is_disk) lockNonManifold(v);
+  if (sheets_.wanted() && !sheets_.classify(v)) {
+    mesh.flagVertex(v, kLocked);
+    ++core_.locked.corners;
+  }
   mesh.flagVertex(v, kResolved);
 }
 
@@ -227,85 +292,19 @@ const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t other, uint32_t v, u
                                     cornerAcross(mesh, other, v, a, b), v, a, b);
 }
 
-// Looks random, and is another for each number.
-static uint64_t weightOf(uint32_t number) {
-  const uint64_t x = (number + 1) * uint64_t{0x9e3779b97f4a7c15};
-  return x ^ (x >> 32);
-}
-
-// Of each vertex of the link: the weights of the ends of the edges from it less those of the edges
-// to it. 0 where there is one back for each.
 template <class S>
-void Resolver<S>::sumEdges() {
-  const size_t corners = 3 * star_.size();
-  if (corner_numbers_.size() < corners) {
-    corner_numbers_.resize(2 * corners);
-    sums_.resize(2 * corners);
-  }
-  numbers_.start(corners);
-  uint32_t* n = corner_numbers_.data();
-  for (const StarCell& s : star_)
-    for (uint32_t t : s.t) *n++ = numbers_.numberOf(t);
-  std::fill_n(sums_.data(), numbers_.count(), uint64_t{0});
-  for (n = corner_numbers_.data(); n < corner_numbers_.data() + corners; n += 3) {
-    const uint64_t a = weightOf(n[0]), b = weightOf(n[1]), c = weightOf(n[2]);
-    sums_[n[0]] += b - c;
-    sums_[n[1]] += c - a;
-    sums_[n[2]] += a - b;
-  }
-}
-
-// Sorts the link's edges for which wanted(corners) says so, of the places of their ends among the
-// star's corners; returns their number.
-template <class S>
-template <class Wanted>
-size_t Resolver<S>::sortEdges(Wanted wanted) {
-  if (edges_.size() < 3 * star_.size()) edges_.resize(6 * star_.size());
-  size_t count = 0;
+void Resolver<S>::resolveFaces(uint32_t v) {
   // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
   // 2^31. The lowest bit is the direction.
-  for (size_t i = 0; i < star_.size(); ++i)
-    for (size_t k = 0; k < 3; ++k) {
-      const size_t next = (k + 1) % 3;
-      const uint64_t a = star_[i].t[k], b = star_[i].t[next];
-      edges_[count] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, star_[i].cell};
-      count += wanted(3 * i + k, 3 * i + next);
+  if (edges_.size() < 3 * star_.size()) edges_.resize(6 * star_.size());
+  size_t count = 0;
+  for (const StarCell& s : star_)
+    for (int i = 0; i < 3; ++i) {
+      const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
+      edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell};
     }
   std::sort(edges_.data(), edges_.data() + count,
             [](const LinkEdge& a, const LinkEdge& b) { return a.key < b.key; });
-  return count;
-}
-
-// Whether the link has as many vertices as a disk with its faces and those of the sorted edges that
-// are there once. No edge of such a link is there more than once in either direction.
-template <class S>
-bool Resolver<S>::isPlain(size_t edges) const {
-  size_t border = 0;
-  for (size_t i = 0, j; i < edges; i = j) {
-    for (j = i + 1; j < edges && edges_[j].key >> 1 == edges_[i].key >> 1;) ++j;
-    border += j - i == 1;
-  }
-  return border > 0 && 2 * numbers_.count() == star_.size() + border + 2;
-}
-
-// The edges of the link that may be more than what two cells of one region have in common, sorted;
-// returns their number. Both ends of an edge without one that goes back have sums other than 0.
-template <class S>
-size_t Resolver<S>::listEdges() {
-  if (core_.region_picks.empty() && core_.window.faces.empty()) {
-    sumEdges();
-    const size_t count = sortEdges([this](size_t a, size_t b) {
-      return (sums_[corner_numbers_[a]] != 0) & (sums_[corner_numbers_[b]] != 0);
-    });
-    if (isPlain(count)) return count;
-  }
-  return sortEdges([](size_t, size_t) { return true; });
-}
-
-template <class S>
-void Resolver<S>::resolveFaces(uint32_t v) {
-  Topology& mesh = core_.window.mesh;
-  const size_t count = listEdges();
   const CellLabels labels = core_.cellLabels();
   boundary_.clear();
   sheets_.clear();
@@ -327,11 +326,6 @@ void Resolver<S>::resolveFaces(uint32_t v) {
       lockNonManifold(v);  // a face of three cells or more
     }
   }
-  if (!boundary_.empty() && !isDisk(boundary_)) lockNonManifold(v);
-  if (sheets_.wanted() && !sheets_.classify(v)) {
-    mesh.flagVertex(v, kLocked);
-    ++core_.locked.corners;
-  }
 }
 
 // A labelled face with cells of one region on both sides is no part of a sheet.
@@ -345,33 +339,6 @@ template <class S>
 void Resolver<S>::lockNonManifold(uint32_t v) {
   core_.window.mesh.flagVertex(v, kLocked);
   ++core_.locked.non_manifold;
-}
-
-// Whether the boundary faces round a vertex form one fan: the edges of the link's boundary make a
-// single circle. In one every vertex has two others, and walking from one to the next meets all.
-template <class S>
-bool Resolver<S>::isDisk(const std::vector<uint64_t>& boundary) {
-  const size_t count = boundary.size();
-  numbers_.start(2 * count);
-  ends_.assign(2 * count, kNone);
-  const auto put = [this](uint32_t at, uint32_t other) {
-    uint32_t* const to = &ends_[2 * size_t{at}];
-    const bool fits = to[1] == kNone;
-    (to[0] == kNone ? to[0] : to[1]) = other;
-    return fits;
-  };
-  for (uint64_t edge : boundary) {
-    const uint32_t a = numbers_.numberOf(static_cast<uint32_t>(edge >> 32));
-    const uint32_t b = numbers_.numberOf(static_cast<uint32_t>(edge));
-    if (numbers_.count() > count || !put(a, b) || !put(b, a)) return false;
-  }
-  uint32_t before = 0, at = ends_[0];
-  size_t walked = 1;
-  for (; at != 0; ++walked) {
-    const uint32_t* const ends = &ends_[2 * size_t{at}];
-    before = std::exchange(at, ends[0] == before ? ends[1] : ends[0]);
-  }
-  return walked == count;
 }
 
 template class Resolver<float>;

@@ -1,11 +1,10 @@
 // simplify: what becomes known when a vertex is final: boundary, folds, non-manifold places,
-// interfaces. Depends on metric.h, sheets.h.
+// interfaces. Depends on link_border.h, metric.h, sheets.h.
 #pragma once
 
-#include "link.h"
+#include "link_border.h"
 #include "metric.h"
 #include "sheets.h"
-#include "star_numbers.h"
 
 namespace tetstream {
 
@@ -22,13 +21,12 @@ class Resolver {
         metric_(metric),
         sheets_(core, metric),
         star_(account),
+        parts_{Part(account), Part(account)},
+        circle_(account),
         corners_(account, 256),
         open_(account),
         next_{Array<uint32_t>(account, 256), Array<uint32_t>(account, 256)},
-        edges_(account, 256),
-        numbers_(account),
-        corner_numbers_(account, 256),
-        sums_(account, 256) {}
+        edges_(account, 256) {}
 
   // The window's cells from `first_new` on are new: they add their quadrics. All cells of these
   // vertices are there. Returns the cells of the front: those that touch a vertex not yet final.
@@ -42,16 +40,37 @@ class Resolver {
   template <class Visit>
   void forPlaced(uint32_t first, uint32_t end, Visit visit) const;
   size_t listStars(size_t count);
-  void resolveOpen(uint32_t v, const uint32_t* corners, size_t count);
+  // The corners of a star that was listed.
+  struct Corners {
+    const uint32_t* first;
+    size_t count;
+  };
+  Corners cornersOf(size_t place) const {
+    const uint32_t begin = place > 0 ? next_[1][place - 1] : 0;
+    return {corners_.data() + begin, next_[1][place] - begin};
+  }
+  void gather(Corners corners, Star& star) const;
+  // What is known of a vertex before the boundary is added to: whether its link is that of a vertex
+  // with nothing but faces of the boundary, where they lie, and whether they make one fan.
+  struct Found {
+    size_t begin, count;
+    bool is_plain, is_disk;
+  };
+  struct Part {
+    explicit Part(Account& account) : star(account), border(account) {}
+    Star star;
+    LinkBorder border;
+    std::vector<uint64_t> faces;  // as edges of the links
+    std::vector<Found> found;
+  };
+  void findFaces(size_t begin, size_t end, Part& part) const;
+  void resolveListed(const uint32_t* vertices, size_t count);
+  void addFound(uint32_t v, const Found& found, const Part& part);
+  void resolveOpen(uint32_t v, Corners corners);
+  void finishFaces(uint32_t v, bool is_disk);
   void resolveFaces(uint32_t v);
-  size_t listEdges();
-  void sumEdges();
-  template <class Wanted>
-  size_t sortEdges(Wanted wanted);
-  bool isPlain(size_t edges) const;
   void addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label);
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
-  bool isDisk(const std::vector<uint64_t>& boundary);
   void lockFold(uint32_t a, uint32_t b);
   void lockInnerFace(uint32_t v);
   void lockNonManifold(uint32_t v);
@@ -60,6 +79,8 @@ class Resolver {
   Metric<S>& metric_;
   Sheets<S> sheets_;
   Star star_;
+  Part parts_[2];
+  LinkBorder circle_;
   Array<uint32_t> corners_;  // of the stars that are looked at
   Array<uint32_t> open_;     // vertices whose link is not closed, or of several labels
   Array<uint32_t> next_[2];  // of each star among the corners, by halves; in the end, its end
@@ -68,11 +89,7 @@ class Resolver {
     uint32_t cell;
   };
   Array<LinkEdge> edges_;
-  StarNumbers numbers_;
-  Array<uint32_t> corner_numbers_;  // of the star's cells, but for the centre
-  Array<uint64_t> sums_;            // by these numbers
   std::vector<uint64_t> boundary_;
-  std::vector<uint32_t> ends_;
 };
 
 }  // namespace tetstream
