@@ -16,8 +16,8 @@ static uint64_t weightOf(uint32_t number) {
 void LinkBorder::sumEdges(const Star& star) {
   const size_t corners = 3 * star.size();
   if (corner_numbers_.size() < corners) {
-    corner_numbers_.resize(2 * corners);
-    sums_.resize(2 * corners);
+    corner_numbers_.resize(corners + corners / 2);
+    sums_.resize(corners + corners / 2);
   }
   numbers_.start(corners);
   uint32_t* n = corner_numbers_.data();

@@ -13,7 +13,7 @@ namespace tetstream {
 class LinkBorder {
  public:
   explicit LinkBorder(Account& account)
-      : numbers_(account), corner_numbers_(account, 256), sums_(account, 256) {}
+      : numbers_(account), corner_numbers_(account), sums_(account) {}
 
   // Finds the edges that one cell has; sorted. True if all others are between two cells on both
   // sides of them; false if that is not so, or not certain: then they are not to be used.

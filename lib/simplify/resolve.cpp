@@ -204,16 +204,16 @@ void Resolver<S>::resolveListed(const uint32_t* vertices, size_t count) {
   }
   const size_t step = tasks ? count : 1;
   for (size_t begin = 0; begin < count; begin += step) {
-    const size_t middle = begin + (step + 1) / 2, end = begin + step;
+    const size_t end = begin + step, middle = tasks ? begin + step / 2 : end;
     if (tasks)
       doBoth(
-          tasks, [&] { findFaces(begin, middle, parts_[0]); },
-          [&] { findFaces(middle, end, parts_[1]); });
+          tasks, [&] { findFaces(begin, middle, first_); },
+          [&] { findFaces(middle, end, *second_); });
     else
-      findFaces(begin, end, parts_[0]);
+      findFaces(begin, end, first_);
     for (size_t i = begin; i < end; ++i) {
-      const Part& part = parts_[i >= middle];
-      const Found& found = part.found[i - (i >= middle ? middle : begin)];
+      const Part& part = i < middle ? first_ : *second_;
+      const Found& found = part.found[i - (i < middle ? begin : middle)];
       found.is_plain ? addFound(vertices[i], found, part) : resolveOpen(vertices[i], cornersOf(i));
     }
   }
@@ -231,9 +231,9 @@ void Resolver<S>::addFound(uint32_t v, const Found& found, const Part& part) {
 
 template <class S>
 void Resolver<S>::resolveOpen(uint32_t v, Corners corners) {
-  gather(corners, star_);
+  gather(corners, first_.star);
   resolveFaces(v);
-  finishFaces(v, boundary_.empty() || circle_.isCircle(boundary_));
+  finishFaces(v, boundary_.empty() || first_.border.isCircle(boundary_));
 }
 
 template <class S>
@@ -252,9 +252,9 @@ void Resolver<S>::finishFaces(uint32_t v, bool is_disk) {
 template <class S>
 void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
   Topology& mesh = core_.window.mesh;
-  for (const StarCell& s : star_)
+  for (const StarCell& s : first_.star)
     if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell) & kFlat)) return;
-  for (const StarCell& s : star_) {
+  for (const StarCell& s : first_.star) {
     if (!s.has(a) || !s.has(b)) continue;
     if (!(mesh.cellFlags(s.cell) & kFolded)) ++core_.report.locked_cells;
     mesh.flagCell(s.cell, kFolded);
@@ -296,9 +296,9 @@ template <class S>
 void Resolver<S>::resolveFaces(uint32_t v) {
   // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
   // 2^31. The lowest bit is the direction.
-  if (edges_.size() < 3 * star_.size()) edges_.resize(6 * star_.size());
+  if (edges_.size() < 3 * first_.star.size()) edges_.resize(6 * first_.star.size());
   size_t count = 0;
-  for (const StarCell& s : star_)
+  for (const StarCell& s : first_.star)
     for (int i = 0; i < 3; ++i) {
       const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
       edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell};

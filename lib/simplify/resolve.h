@@ -2,6 +2,8 @@
 // interfaces. Depends on link_border.h, metric.h, sheets.h.
 #pragma once
 
+#include <optional>
+
 #include "link_border.h"
 #include "metric.h"
 #include "sheets.h"
@@ -20,13 +22,13 @@ class Resolver {
       : core_(core),
         metric_(metric),
         sheets_(core, metric),
-        star_(account),
-        parts_{Part(account), Part(account)},
-        circle_(account),
+        first_(account),
         corners_(account, 256),
         open_(account),
         next_{Array<uint32_t>(account, 256), Array<uint32_t>(account, 256)},
-        edges_(account, 256) {}
+        edges_(account) {
+    if (core_.tasks()) second_.emplace(account);
+  }
 
   // The window's cells from `first_new` on are new: they add their quadrics. All cells of these
   // vertices are there. Returns the cells of the front: those that touch a vertex not yet final.
@@ -78,12 +80,11 @@ class Resolver {
   Core<S>& core_;
   Metric<S>& metric_;
   Sheets<S> sheets_;
-  Star star_;
-  Part parts_[2];
-  LinkBorder circle_;
-  Array<uint32_t> corners_;  // of the stars that are looked at
-  Array<uint32_t> open_;     // vertices whose link is not closed, or of several labels
-  Array<uint32_t> next_[2];  // of each star among the corners, by halves; in the end, its end
+  Part first_;
+  std::optional<Part> second_;  // where two threads work
+  Array<uint32_t> corners_;     // of the stars that are looked at
+  Array<uint32_t> open_;        // vertices whose link is not closed, or of several labels
+  Array<uint32_t> next_[2];     // of each star among the corners, by halves; in the end, its end
   struct LinkEdge {
     uint64_t key;  // directed, as (low, high, direction)
     uint32_t cell;

@@ -95,10 +95,15 @@ TEST(SweepThreads, GiveTheSameBytesUpToAnError) {
   expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
 }
 
+// At the smaller ratio tiles stop at their shares of what is left to the goal.
 TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
-  SimplifyOptions options = toRatio(0.2);
-  options.shape = Shape::kSolver;
-  expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+  for (double ratio : {0.2, 0.5}) {
+    SimplifyOptions options = toRatio(ratio);
+    options.shape = Shape::kSolver;
+    const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+    EXPECT_GT(ran(mesh, options, 1).report.flips, 0);
+    expectSame(mesh, options);
+  }
 }
 
 // Of stretched meshes, whose flips no tile waits for.
