@@ -52,9 +52,10 @@ bool LinkCondition::findRing(uint32_t v, const Star& ring) {
 }
 
 bool LinkCondition::commonNeighboursInRing(const Stars& stars) const {
-  for (const StarCell& s : stars.v)
-    if ((marks_[s.t[0]] == mark_) | (marks_[s.t[1]] == mark_) | (marks_[s.t[2]] == mark_))
-      return false;
+  for (const StarCell& s : stars.v) {
+    const uint32_t a = marks_[s.t[0]], b = marks_[s.t[1]], c = marks_[s.t[2]];
+    if ((a == mark_) | (b == mark_) | (c == mark_)) return false;
+  }
   return true;
 }
 
