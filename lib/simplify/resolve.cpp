@@ -202,7 +202,6 @@ void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, con
   Topology& mesh = core_.window.mesh;
   for (uint32_t x : {v, a, b}) mesh.flagVertex(x, sheet);
   sheets_.add(a, b, label);
-  core_.interfaces |= sheet == kInterface;
   const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
   if (!counted) metric_.addFace(v, a, b, sheet == kInterface);
 }
@@ -253,10 +252,10 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     } else if (j - i == 2) {
       if ((edges_[i].key & 1) == (edges_[i + 1].key & 1)) lockFold(a, b);
       const int64_t* label = labelOf(edges_[i].cell, edges_[i + 1].cell, v, a, b);
-      if (labels.differ(edges_[i].cell, edges_[i + 1].cell))
-        addFace(v, a, b, kInterface, label);
-      else if (label)
-        lockInnerFace(v);
+      const bool differ = labels.differ(edges_[i].cell, edges_[i + 1].cell);
+      if (!differ && !label) continue;
+      (differ ? core_.interfaces : core_.inner_sheets) = true;
+      addFace(v, a, b, kInterface, label);
     } else {
       lockNonManifold(v);  // a face of three cells or more
     }
@@ -266,13 +265,6 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     mesh.flagVertex(v, kLocked);
     ++core_.locked.corners;
   }
-}
-
-// A labelled face with cells of one region on both sides is no part of a sheet.
-template <class S>
-void Resolver<S>::lockInnerFace(uint32_t v) {
-  core_.locked.inner_faces += !(core_.window.mesh.vertexFlags(v) & kLocked);
-  core_.window.mesh.flagVertex(v, kLocked);
 }
 
 template <class S>

@@ -11,8 +11,9 @@ namespace tetstream {
 // A final vertex has its whole star in the window (paper, section 4: only then is it off the
 // stream boundary). Whether its link is closed, so that it lies inside the domain, is told by a sum
 // over its cells in one pass over the window; only the stars of the others, and of those with cells
-// of several regions, are looked at. Their faces on the boundary and on interfaces are found and
-// counted once, by the first of their vertices that becomes final; what must not move is locked.
+// of several regions or labelled faces, are looked at. Their faces on the boundary, on interfaces
+// and those that are labelled are found and counted once, by the first of their vertices that
+// becomes final; what must not move is locked.
 template <class S>
 class Resolver {
  public:
@@ -44,7 +45,6 @@ class Resolver {
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
   bool isDisk(const std::vector<uint64_t>& boundary);
   void lockFold(uint32_t a, uint32_t b);
-  void lockInnerFace(uint32_t v);
   void lockNonManifold(uint32_t v);
 
   Core<S>& core_;
