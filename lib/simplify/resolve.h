@@ -41,7 +41,7 @@ class Resolver {
   size_t listStars(size_t count);
   void resolveOpen(uint32_t v, const uint32_t* corners, size_t count);
   void resolveFaces(uint32_t v);
-  void addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label);
+  void addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind, const int64_t* label);
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
   bool isDisk(const std::vector<uint64_t>& boundary);
   void lockFold(uint32_t a, uint32_t b);

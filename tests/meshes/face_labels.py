@@ -159,8 +159,9 @@ def read_vtu(path):
             for i in range(grid.GetCellData().GetNumberOfArrays())}
     tets, triangles = types == TETRAHEDRON, types == TRIANGLE
     assert (tets | triangles).all()
+    regions = next(name for name in ("zone", "gmsh:physical") if name in data)
     return Labelled(vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
-                    values[starts[tets][:, None] + np.arange(4)], data["zone"][tets],
+                    values[starts[tets][:, None] + np.arange(4)], data[regions][tets],
                     values[starts[triangles][:, None] + np.arange(3)],
                     data["face_label"][triangles])
 
