@@ -272,10 +272,11 @@ typedef struct tetstream_batch {
   const void *const *cell_data; /* one pointer per cell array: [cell_count][components] */
   int64_t finalized_count;
   const int64_t *finalized;     /* vertices that no later cell uses */
-  /* Labelled faces of cells, on the boundary or between regions, each once, and what must stay.
-     They come at the latest with the batch in which the first of their vertices gets its last use
-     or is finalized; in an indexed mesh, anywhere. Curves between faces of different labels are
-     kept like ridges. What is locked comes out as locked vertices. */
+  /* Labelled faces of cells, on the boundary, between regions or inside one, each once, and what
+     must stay. They come at the latest with the batch in which the first of their vertices gets
+     its last use or is finalized; in an indexed mesh, anywhere. Sheets of them keep their shape and
+     topology; curves where they end, meet or change their label are kept like ridges. What is
+     locked comes out as locked vertices. */
   int64_t face_count;
   const int64_t *faces;         /* [face_count][3] vertex ids */
   const int64_t *face_labels;   /* [face_count] */

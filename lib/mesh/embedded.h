@@ -1,5 +1,5 @@
 // mesh: what is embedded in the cells and must keep its topology: sheets, where cells of different
-// labels or the outside meet, and curves in them. Depends on curves.h.
+// labels or the outside meet or a face is labelled, and curves in them. Depends on curves.h.
 #pragma once
 
 #include "curves.h"
@@ -30,10 +30,11 @@ struct CellLabels {
 struct Embedded {
   CellLabels labels;
   const Curves* curves = nullptr;
+  bool inner_sheets = false;        // there are labelled faces between cells of one label
   const uint32_t* slots = nullptr;  // of the vertices of a patch, in the window; null: their own
 
   // Whether there is more than the boundary of the domain.
-  bool any() const { return labels.count > 0 || (curves && !curves->empty()); }
+  bool any() const { return labels.count > 0 || inner_sheets || (curves && !curves->empty()); }
   uint32_t slotOf(uint32_t v) const { return slots ? slots[v] : v; }
   Stratum stratumOf(uint32_t v, bool on_sheet) const {
     if (!on_sheet) return Stratum::kInside;

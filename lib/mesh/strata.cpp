@@ -17,14 +17,15 @@ static constexpr Within kWithin[3][3] = {
     {Within::kAnything, Within::kSheet, Within::kCurve},        // curve
 };
 
-bool StrataCondition::mayHold(End u, End v, const Star& ring, const Embedded& embedded) {
+bool StrataCondition::mayHold(End u, End v, const Star& ring, const Embedded& embedded,
+                              bool in_labelled) {
   switch (kWithin[static_cast<int>(u.stratum)][static_cast<int>(v.stratum)]) {
     case Within::kAnything:
       return true;
     case Within::kCurve:
       return embedded.onCurve(u.vertex, v.vertex);
     case Within::kSheet:
-      if (u.outside && v.outside) return true;
+      if (in_labelled || (u.outside && v.outside)) return true;
       for (const StarCell& s : ring)
         if (embedded.labels.differ(ring[0].cell, s.cell)) return true;
       return false;
@@ -32,9 +33,11 @@ bool StrataCondition::mayHold(End u, End v, const Star& ring, const Embedded& em
   return false;
 }
 
-// The faces of X2 round an end, sorted: those of one cell only, and those of two that differ.
+// The faces of X2 round an end, sorted: those of one cell only, those of two that differ, and the
+// labelled ones.
 void StrataCondition::listSheets(const Star& star, const Star& ring, const uint8_t* flags,
-                                 const CellLabels& labels, std::vector<uint64_t>& faces) {
+                                 const CellLabels& labels, const std::vector<uint64_t>& labelled,
+                                 std::vector<uint64_t>& faces) {
   edges_.clear();
   for (const Star* part : {&star, &ring})
     for (const StarCell& s : *part)
@@ -48,7 +51,8 @@ void StrataCondition::listSheets(const Star& star, const Star& ring, const uint8
   faces.clear();
   for (size_t i = 0, j; i < edges_.size(); i = j) {
     for (j = i + 1; j < edges_.size() && edges_[j].ends == edges_[i].ends;) ++j;
-    if (j - i == 1 || labels.differ(edges_[i].cell, edges_[i + 1].cell))
+    if (j - i == 1 || labels.differ(edges_[i].cell, edges_[i + 1].cell) ||
+        std::binary_search(labelled.begin(), labelled.end(), edges_[i].ends))
       faces.push_back(edges_[i].ends);
   }
 }
@@ -71,10 +75,10 @@ bool StrataCondition::linksAgree(uint32_t v) {
 }
 
 bool StrataCondition::holds(End u, End v, const Stars& stars, const uint8_t* flags,
-                            const Embedded& embedded) {
+                            const Embedded& embedded, const Labelled& labelled) {
   if (u.stratum == Stratum::kInside || v.stratum == Stratum::kInside) return true;
-  listSheets(stars.u, stars.ring, flags, embedded.labels, faces_u_);
-  listSheets(stars.v, stars.ring_from_v, flags, embedded.labels, faces_v_);
+  listSheets(stars.u, stars.ring, flags, embedded.labels, labelled.u, faces_u_);
+  listSheets(stars.v, stars.ring_from_v, flags, embedded.labels, labelled.v, faces_v_);
   if (!linksAgree(v.vertex)) return false;
   if (u.stratum != Stratum::kCurve || v.stratum != Stratum::kCurve) return true;
   if (!embedded.onCurve(u.vertex, v.vertex)) return false;

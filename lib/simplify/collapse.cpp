@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "barycentric.h"
+#include "curve_area.h"
 
 namespace tetstream {
 
@@ -25,6 +26,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
       refusals_(account),
       sound_(account),
       link_(account),
+      face_labels_(mesh, core.window.faces),
       stars_(account),
       merged_(static_cast<size_t>(core.plan.values)),
       z_(static_cast<size_t>(core.plan.dimension)) {}
@@ -141,9 +143,10 @@ bool Collapser<Mesh>::turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& ang
 
 template <class Mesh>
 Embedded Collapser<Mesh>::embedded() const {
-  Embedded e{{}, &core_.window.curves, mesh_.vertexSlots()};
+  Embedded e{{}, &core_.window.curves, false, mesh_.vertexSlots()};
   if (core_.interfaces) e.labels = core_.cellLabels();
   e.labels.slots = mesh_.cellSlots();
+  e.inner_sheets = core_.inner_sheets;
   return e;
 }
 
@@ -155,22 +158,53 @@ StrataCondition::End Collapser<Mesh>::strataEnd(uint32_t v, const Embedded& embe
 template <class Mesh>
 auto Collapser<Mesh>::strataOf(uint32_t u, uint32_t v) const -> Strata {
   Strata strata;
-  if (core_.interfaces || !core_.window.curves.empty()) strata.embedded = embedded();
+  if (core_.interfaces || core_.inner_sheets || !core_.window.curves.empty())
+    strata.embedded = embedded();
   if (!strata.any()) return strata;
   strata.u = strataEnd(u, strata.embedded);
   strata.v = strataEnd(v, strata.embedded);
   return strata;
 }
 
-// Moves the place, by as much as it takes, to where no region of the stars grows or shrinks;
-// returns the error there.
+// The vertex behind v on its curve, seen from `before`; kNone if there is none.
 template <class Mesh>
-auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels) -> S {
+uint32_t Collapser<Mesh>::nextOnCurve(uint32_t v, uint32_t before, const Star& star,
+                                      const Star& ring, const Embedded& embedded) const {
+  const uint8_t* const flags = mesh_.allFlags();
+  for (const Star* part : {&star, &ring})
+    for (const StarCell& s : *part)
+      for (uint32_t t : s.t)
+        if (t != before && (flags[t] & kOnSheet) && embedded.onCurve(v, t)) return t;
+  return kNone;
+}
+
+// Moves the place of two vertices of a curve; false if it stays.
+template <class Mesh>
+bool Collapser<Mesh>::keepCurveArea(uint32_t u, uint32_t v, const Embedded& embedded) {
+  const uint32_t chain[4] = {nextOnCurve(u, v, stars_.u, stars_.ring, embedded), u, v,
+                             nextOnCurve(v, u, stars_.v, stars_.ring_from_v, embedded)};
+  if (chain[0] == kNone || chain[3] == kNone) return false;
+  double p[4][3], x[3];
+  for (size_t i = 0; i < 3; ++i) {
+    for (int k = 0; k < 4; ++k) p[k][i] = static_cast<double>(mesh_.values(chain[k])[i]);
+    x[i] = static_cast<double>(merged_[i]);
+  }
+  if (!keepArea(p[0], p[1], p[2], p[3], x)) return false;
+  for (size_t i = 0; i < 3; ++i) z_[i] += (static_cast<S>(x[i]) - merged_[i]) * core_.scale[i];
+  placeAt(u, v, z_.data());
+  return true;
+}
+
+// Moves the place, by as much as it takes, to where no region of the stars grows or shrinks, or
+// side of a sheet; returns the error there.
+template <class Mesh>
+auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels,
+                                  const SheetSides* sides) -> S {
   const uint32_t ends[2] = {u, v};
   const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
                        static_cast<double>(merged_[2])};
   volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
-                   labels);
+                   labels, sides);
   double step[3];
   volumes_.step(step);
   for (size_t i = 0; i < 3; ++i) z_[i] += static_cast<S>(step[i]) * core_.scale[i];
@@ -219,7 +253,30 @@ auto Collapser<Mesh>::adjust(const Strata& strata) -> S {
   if (core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it))
     return errorHere(u, v);
   const CellLabels& labels = strata.embedded.labels;
-  return labels.count > 0 ? keepVolumes(u, v, labels) : S(0);
+  if (!core_.inner_sheets) return labels.count > 0 ? keepVolumes(u, v, labels, nullptr) : S(0);
+  const bool moved = u_on_it && v_on_it && keepCurveArea(u, v, strata.embedded);
+  const bool is_cut =
+      !(labelled_.u.empty() && labelled_.v.empty()) && sides_.find(stars_, labels, labelled_) > 1;
+  if (is_cut || labels.count > 0) return keepVolumes(u, v, labels, is_cut ? &sides_ : nullptr);
+  return moved ? errorHere(u, v) : S(0);
+}
+
+// `ring` as gathered from one end, towards the other.
+template <class Mesh>
+bool Collapser<Mesh>::mayKeepStrata(const Strata& strata, uint32_t other, const Star& ring) const {
+  const bool in_labelled =
+      core_.inner_sheets && strata.onSheets() && face_labels_.holdEdge(ring, other);
+  return StrataCondition::mayHold(strata.u, strata.v, ring, strata.embedded, in_labelled);
+}
+
+// Of the stars as gathered.
+template <class Mesh>
+void Collapser<Mesh>::listLabelled(uint32_t u, uint32_t v) {
+  labelled_.u.clear();
+  labelled_.v.clear();
+  const uint8_t* const flags = mesh_.allFlags();
+  if (flags[u] & kInterface) face_labels_.list(stars_.u, stars_.ring, labelled_.u);
+  if (flags[v] & kInterface) face_labels_.list(stars_.v, stars_.ring_from_v, labelled_.v);
 }
 
 // Of the stars as gathered.
@@ -227,7 +284,7 @@ template <class Mesh>
 bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Strata& strata) {
   if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_)) return false;
   return !strata.any() ||
-         strata_.holds(strata.u, strata.v, stars_, mesh_.allFlags(), strata.embedded);
+         strata_.holds(strata.u, strata.v, stars_, mesh_.allFlags(), strata.embedded, labelled_);
 }
 
 // Half of all edges fail, most of them by the cells of the end that moves most.
@@ -255,10 +312,10 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (dying == 0) return Outcome::kTopology;  // no edge any more
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
   const Strata strata = strataOf(u, v);
-  if (strata.any() && !strata_.mayHold(strata.u, strata.v, ring, strata.embedded))
-    return Outcome::kTopology;
+  if (strata.any() && !mayKeepStrata(strata, u_first ? v : u, ring)) return Outcome::kTopology;
   if (strata.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
     gather(!u_first);
+    if (core_.inner_sheets) listLabelled(u, v);
     const S moved = adjust(strata);
     if (moved > kDearGrowth * *error) price_ = kThinPrice;
     if (price_ > most_price) return Outcome::kDear;
@@ -344,8 +401,8 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   tally_.error += growth(u, v, error);
   if (core_.plan.values > core_.plan.dimension) interpolateCarried(u, v);
   if (core_.plan.picks > 0) pickNearest(u, v);
-  if (core_.plan.cell_means > 0) handOverCellData(v);
-  if (core_.window.faces.anyPlaced()) handOverFaces(u, v);
+  if (core_.plan.cell_means > 0) heirs_.handOver(mesh_, v, stars_, core_.plan.cell_means);
+  if (core_.window.faces.anyPlaced()) face_labels_.handOver(u, v, stars_);
   const double in_users_terms = static_cast<double>(error) * core_.error_unit;
   if (core_.tracer) trace(u, v, in_users_terms);
   mesh_.merge(u, v, stars_);
@@ -422,69 +479,6 @@ void Collapser<Mesh>::pickNearest(uint32_t u, uint32_t v) {
     to_v += b * b;
   }
   if (to_v < to_u) std::copy_n(mesh_.picks(v), core_.plan.picks, mesh_.picks(u));
-}
-
-// A dying cell u v a b leaves its volume to the cells across u a b and v a b, half to each, or all
-// to the one that is there: float cell data stay the mean over what a cell stands for.
-template <class Mesh>
-void Collapser<Mesh>::handOverCellData(uint32_t v) {
-  const int n = core_.plan.cell_means;
-  findHeirs(v);
-  for (const Heirs& h : heirs_) {
-    const double* from = mesh_.cellMeans(h.dying);
-    for (uint32_t k = 0; k < h.count; ++k) {
-      double* to = mesh_.cellMeans(h.cell[k]);
-      const double share = from[0] / h.count, sum = to[0] + share;
-      for (int i = 1; i <= n && sum > 0; ++i) to[i] += (from[i] - to[i]) * (share / sum);
-      to[0] = sum;
-    }
-  }
-}
-
-// All of them before any data is touched: that lies outside the patch, and is on its way meanwhile.
-template <class Mesh>
-void Collapser<Mesh>::findHeirs(uint32_t v) {
-  heirs_.clear();
-  for (const StarCell& dying : stars_.ring) {
-    // Its corners beside u and v.
-    const bool is_first = dying.t[0] == v;
-    const uint32_t a = dying.t[is_first ? 1 : 0], b = dying.t[is_first || dying.t[1] == v ? 2 : 1];
-    Heirs& h = heirs_.emplace_back(Heirs{dying.cell, {}, 0});
-    __builtin_prefetch(mesh_.cellMeans(h.dying));
-    for (const Star* star : {&stars_.u, &stars_.v})
-      for (const StarCell& s : *star)
-        if (s.has(a) & s.has(b) && h.count < 2) {
-          __builtin_prefetch(mesh_.cellMeans(s.cell));
-          h.cell[h.count++] = s.cell;
-        }
-  }
-}
-
-template <class Mesh>
-uint32_t Collapser<Mesh>::cornerOf(uint32_t cell, uint32_t v) const {
-  uint32_t j = 0;
-  while (mesh_.vertexOf(cell, j) != v) ++j;
-  return 4 * cell + j;
-}
-
-// The faces uab and vab of a dying cell u v a b become one, of the cell across that of them which
-// has no label: where both are on a sheet the edge is not collapsed.
-template <class Mesh>
-void Collapser<Mesh>::handOverFaces(uint32_t u, uint32_t v) {
-  LabelledFaces& faces = core_.window.faces;
-  for (const StarCell& dying : stars_.ring) {
-    for (const Star* star : {&stars_.u, &stars_.v}) {
-      // Across the face at u lies a cell of u's star; the face at v is opposite u.
-      const uint32_t from = mesh_.cornerSlot(cornerOf(dying.cell, star == &stars_.u ? u : v));
-      if (!faces.labelOf(from)) continue;
-      for (const StarCell& s : *star) {
-        uint32_t beyond = kNone, shared = 0;
-        for (uint32_t t : s.t) dying.has(t) ? void(++shared) : void(beyond = t);
-        if (shared == 2) faces.hand(from, mesh_.cornerSlot(cornerOf(s.cell, beyond)));
-      }
-    }
-    faces.forgetCell(mesh_.cellSlotOf(dying.cell));
-  }
 }
 
 template class Collapser<Window<float>>;

@@ -4,9 +4,12 @@
 
 #include "core.h"
 #include "edge_notes.h"
+#include "face_labels.h"
+#include "heirs.h"
 #include "link.h"
 #include "patch.h"
 #include "region_volumes.h"
+#include "sheet_sides.h"
 #include "sound.h"
 #include "star_kernels.h"
 #include "strata.h"
@@ -68,17 +71,23 @@ class Collapser {
     Embedded embedded;
     StrataCondition::End u{}, v{};
     bool any() const { return embedded.any(); }
+    bool onSheets() const { return u.stratum != Stratum::kInside && v.stratum != Stratum::kInside; }
   };
 
   Embedded embedded() const;
   StrataCondition::End strataEnd(uint32_t v, const Embedded& embedded) const;
   Strata strataOf(uint32_t u, uint32_t v) const;
+  bool mayKeepStrata(const Strata& strata, uint32_t other, const Star& ring) const;
+  void listLabelled(uint32_t u, uint32_t v);
   bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, float most_price);
   S adjust(const Strata& strata);
   bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
   S errorHere(uint32_t u, uint32_t v) const;
-  S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels);
+  uint32_t nextOnCurve(uint32_t v, uint32_t before, const Star& star, const Star& ring,
+                       const Embedded& embedded) const;
+  bool keepCurveArea(uint32_t u, uint32_t v, const Embedded& embedded);
+  S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels, const SheetSides* sides);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
@@ -108,17 +117,8 @@ class Collapser {
   float flatPrice(uint32_t u, uint32_t v, size_t flat_after) const;
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
-  void handOverCellData(uint32_t v);
-  void findHeirs(uint32_t v);
-  uint32_t cornerOf(uint32_t cell, uint32_t v) const;
-  void handOverFaces(uint32_t u, uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
   void trace(uint32_t u, uint32_t v, double error);
-
-  // The cells beyond the faces of a dying cell that become one.
-  struct Heirs {
-    uint32_t dying, cell[2], count;
-  };
 
   Core<S>& core_;
   Mesh& mesh_;
@@ -130,11 +130,14 @@ class Collapser {
   float price_ = 1;
   LinkCondition link_;
   StrataCondition strata_;
+  FaceLabels<Mesh> face_labels_;
+  StrataCondition::Labelled labelled_;  // of the edge that is tested
+  SheetSides sides_;
   RegionVolumes volumes_;
   Stars stars_;
   std::vector<S> merged_;  // values of the merged vertex
   std::vector<S> z_;       // its place, normalised and relative to the edge's midpoint
-  std::vector<Heirs> heirs_;
+  Heirs heirs_;
   std::vector<uint32_t> traced_before_;  // in slots of the window
   std::vector<PlacedCell> traced_after_;
 };

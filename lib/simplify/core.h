@@ -26,7 +26,7 @@ constexpr uint8_t kCallerLocked = 64;
 
 // Vertices that never move, by reason: what a missed target is explained with.
 struct LockedVertices {
-  int64_t corners = 0, inner_faces = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
+  int64_t corners = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
 };
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
@@ -221,6 +221,7 @@ struct Core {
   double rescaled = 1;            // what errors of the last window count in today's units
   bool exact_curves;              // there are curves that the user wants to stay where they are
   bool interfaces = false;        // met any: labels that are all the same cost nothing
+  bool inner_sheets = false;      // met labelled faces with cells of one region on both sides
   std::vector<int> region_picks;  // columns of the cell picks that label regions
   Report report;
   LockedVertices locked;

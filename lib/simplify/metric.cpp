@@ -28,6 +28,8 @@ constexpr int64_t kCellsPerSample = 16;
 
 // Of a boundary face, where fields are measured: they would pay with the shape of interfaces, at
 // which they have their kinks. Without fields there is only the boundary to pay for interfaces.
+// Sheets inside a region, antennas or cracks, are small beside the cells far from them, with whose
+// shapes they would pay: of a ring in a box 3000 times as wide as it is the distance is a fifth.
 constexpr double kInterfaceShare = 50;
 
 // Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
@@ -340,23 +342,25 @@ double Metric<S>::fieldsTogether() const {
 
 // Errors of several fields are added up: the boundary counts as much beside them as beside one.
 template <class S>
-double Metric<S>::faceWeight(bool interface) const {
-  const double share = interface && core_.plan.dimension > 3 ? kInterfaceShare : 1;
+double Metric<S>::faceWeight(SheetFace kind) const {
+  const bool is_dear =
+      kind == SheetFace::kInner || (kind == SheetFace::kInterface && core_.plan.dimension > 3);
+  const double share = is_dear ? kInterfaceShare : 1;
   return share * fields_together_ * core_.options.boundary_weight * extent() / length_unit_;
 }
 
 template <class S>
-void Metric<S>::addFace(uint32_t a, uint32_t b, uint32_t c, bool interface) {
+void Metric<S>::addFace(uint32_t a, uint32_t b, uint32_t c, SheetFace kind) {
   Window<S>& window = core_.window;
   const S* x[3] = {window.values(a), window.values(b), window.values(c)};
   S* q[3] = {window.quadric(a), window.quadric(b), window.quadric(c)};
-  core_.kernels.addFace(x, core_.scale.data(), core_.plan.dimension, faceWeight(interface), q);
+  core_.kernels.addFace(x, core_.scale.data(), core_.plan.dimension, faceWeight(kind), q);
 }
 
 // The squared distance to the line of the edge, with the weight of two faces that are squares on
 // it: their planes meet there at a right angle.
 template <class S>
-void Metric<S>::addCurve(uint32_t a, uint32_t b) {
+void Metric<S>::addCurve(uint32_t a, uint32_t b, bool inner) {
   Window<S>& window = core_.window;
   double along[3], square = 0;
   for (size_t i = 0; i < 3; ++i) {
@@ -386,7 +390,8 @@ void Metric<S>::addCurve(uint32_t a, uint32_t b) {
           static_cast<S>(static_cast<double>(window.values(b)[i]) + direction[i] * (length / norm));
     const S* x[3] = {window.values(a), window.values(b), tip.data()};
     S* q[3] = {window.quadric(a), window.quadric(b), nowhere.data()};
-    plane.addFace(x, core_.scale.data(), core_.plan.dimension, faceWeight(false), q);
+    plane.addFace(x, core_.scale.data(), core_.plan.dimension,
+                  faceWeight(inner ? SheetFace::kInner : SheetFace::kOuter), q);
   }
 }
 

@@ -16,10 +16,18 @@ RegionVolumes::Change& RegionVolumes::of(uint32_t cell, const CellLabels& labels
   return changes_.back();
 }
 
+// Parts are numbered as they are met.
+RegionVolumes::Change& RegionVolumes::ofPart(size_t part, uint32_t cell) {
+  if (part == changes_.size()) changes_.push_back({cell, 0, {0, 0, 0}});
+  return changes_[part];
+}
+
 template <class S>
 void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S* values,
-                            size_t stride, const double x[3], const CellLabels& labels) {
+                            size_t stride, const double x[3], const CellLabels& labels,
+                            const SheetSides* sides) {
   changes_.clear();
+  size_t place = 0;
   const auto relative = [&](uint32_t v, double* out) {
     for (size_t i = 0; i < 3; ++i) out[i] = static_cast<double>(values[v * stride + i]) - x[i];
   };
@@ -33,7 +41,7 @@ void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S*
         for (size_t k = 0; k < 3; ++k) before[k][i] = t[k][i] - centre[i];
         for (size_t k = 0; k < 2; ++k) e[k][i] = t[k + 1][i] - t[0][i];
       }
-      Change& change = of(s.cell, labels);
+      Change& change = sides ? ofPart(sides->of(place++), s.cell) : of(s.cell, labels);
       change.volume -= determinant(before[0], before[1], before[2]) / 6;
       if (star == &stars.ring) continue;
       change.volume += determinant(t[0], t[1], t[2]) / 6;
@@ -68,8 +76,8 @@ void RegionVolumes::step(double out[3]) const {
 }
 
 template void RegionVolumes::measure<float>(const Stars&, const uint32_t[2], const float*, size_t,
-                                            const double[3], const CellLabels&);
+                                            const double[3], const CellLabels&, const SheetSides*);
 template void RegionVolumes::measure<double>(const Stars&, const uint32_t[2], const double*, size_t,
-                                             const double[3], const CellLabels&);
+                                             const double[3], const CellLabels&, const SheetSides*);
 
 }  // namespace tetstream

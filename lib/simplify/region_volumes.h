@@ -1,10 +1,9 @@
-// simplify: places that keep the volumes of regions. Depends on mesh.
+// simplify: places that keep the volumes of regions, or of the sides of sheets. Depends on mesh.
 #pragma once
 
 #include <vector>
 
-#include "embedded.h"
-#include "topology.h"
+#include "sheet_sides.h"
 
 namespace tetstream {
 
@@ -15,22 +14,24 @@ namespace tetstream {
 // added to the place that the quadrics want (after Lindstrom and Turk 1998, for surfaces).
 class RegionVolumes {
  public:
-  // Of one region: its volume's change, if the vertex were at the origin, and the gradient of that.
+  // Of one region, or side: its volume's change, if the vertex were at the origin, and the gradient
+  // of that.
   struct Change {
-    uint32_t cell;  // of the region
+    uint32_t cell;  // one of them
     double volume, gradient[3];
   };
 
   // The cells round u and v, with coordinates relative to x, of which three numbers of `stride` to
-  // a vertex are in `values`; lists the regions.
+  // a vertex are in `values`; lists the regions, or the sides where they are known.
   template <class S>
   void measure(const Stars& stars, const uint32_t ends[2], const S* values, size_t stride,
-               const double x[3], const CellLabels& labels);
+               const double x[3], const CellLabels& labels, const SheetSides* sides);
   // From x to where the volumes are as they were.
   void step(double out[3]) const;
 
  private:
   Change& of(uint32_t cell, const CellLabels& labels);
+  Change& ofPart(size_t part, uint32_t cell);
 
   std::vector<Change> changes_;
 };

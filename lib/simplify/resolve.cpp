@@ -264,13 +264,16 @@ void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
 }
 
 template <class S>
-void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label) {
+void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind,
+                          const int64_t* label) {
   Topology& mesh = core_.window.mesh;
-  for (uint32_t x : {v, a, b}) mesh.flagVertex(x, sheet);
-  sheets_.add(a, b, label);
-  core_.interfaces |= sheet == kInterface;
+  for (uint32_t x : {v, a, b})
+    mesh.flagVertex(x, kind == SheetFace::kOuter ? kBoundary : kInterface);
+  core_.interfaces |= kind == SheetFace::kInterface;
+  core_.inner_sheets |= kind == SheetFace::kInner;
+  sheets_.add(a, b, kind, label);
   const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
-  if (!counted) metric_.addFace(v, a, b, sheet == kInterface);
+  if (!counted) metric_.addFace(v, a, b, kind);
 }
 
 // The corner of a cell that is opposite its face vab.
@@ -314,25 +317,18 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     const uint32_t a = static_cast<uint32_t>(pair >> 32), b = static_cast<uint32_t>(pair);
     if (j - i == 1) {
       boundary_.push_back(uint64_t{a} << 32 | b);
-      addFace(v, a, b, kBoundary, labelOf(edges_[i].cell, edges_[i].cell, v, a, b));
+      addFace(v, a, b, SheetFace::kOuter, labelOf(edges_[i].cell, edges_[i].cell, v, a, b));
     } else if (j - i == 2) {
       if ((edges_[i].key & 1) == (edges_[i + 1].key & 1)) lockFold(a, b);
       const int64_t* label = labelOf(edges_[i].cell, edges_[i + 1].cell, v, a, b);
       if (labels.differ(edges_[i].cell, edges_[i + 1].cell))
-        addFace(v, a, b, kInterface, label);
+        addFace(v, a, b, SheetFace::kInterface, label);
       else if (label)
-        lockInnerFace(v);
+        addFace(v, a, b, SheetFace::kInner, label);
     } else {
       lockNonManifold(v);  // a face of three cells or more
     }
   }
-}
-
-// A labelled face with cells of one region on both sides is no part of a sheet.
-template <class S>
-void Resolver<S>::lockInnerFace(uint32_t v) {
-  core_.locked.inner_faces += !(core_.window.mesh.vertexFlags(v) & kLocked);
-  core_.window.mesh.flagVertex(v, kLocked);
 }
 
 template <class S>

@@ -13,8 +13,9 @@ namespace tetstream {
 // A final vertex has its whole star in the window (paper, section 4: only then is it off the
 // stream boundary). Whether its link is closed, so that it lies inside the domain, is told by a sum
 // over its cells in one pass over the window; only the stars of the others, and of those with cells
-// of several regions, are looked at. Their faces on the boundary and on interfaces are found and
-// counted once, by the first of their vertices that becomes final; what must not move is locked.
+// of several regions or labelled faces, are looked at. Their faces on the boundary, on interfaces
+// and those that are labelled are found and counted once, by the first of their vertices that
+// becomes final; what must not move is locked.
 template <class S>
 class Resolver {
  public:
@@ -71,10 +72,9 @@ class Resolver {
   void resolveOpen(uint32_t v, Corners corners);
   void finishFaces(uint32_t v, bool is_disk);
   void resolveFaces(uint32_t v);
-  void addFace(uint32_t v, uint32_t a, uint32_t b, uint8_t sheet, const int64_t* label);
+  void addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind, const int64_t* label);
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
   void lockFold(uint32_t a, uint32_t b);
-  void lockInnerFace(uint32_t v);
   void lockNonManifold(uint32_t v);
 
   Core<S>& core_;

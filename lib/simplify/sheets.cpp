@@ -113,7 +113,9 @@ bool Sheets<S>::classify(uint32_t v) {
     nodes_.push_back(a);
     if (core_.window.curves.has(v, a)) continue;
     core_.window.curves.add(v, a);
-    metric_.addCurve(v, a);
+    const bool inner = std::any_of(&uses_[i], &uses_[i] + (j - i),
+                                   [this](const Use& use) { return faces_[use.face].inner; });
+    metric_.addCurve(v, a, inner);
   }
   return simple && (nodes_.empty() || nodes_.size() == 2) && isWhole(nodes_);
 }

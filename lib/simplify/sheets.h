@@ -15,9 +15,9 @@ class Sheets {
 
   void clear() { faces_.clear(); }
   // `label`: of a labelled face, or null.
-  void add(uint32_t a, uint32_t b, const int64_t* label) {
+  void add(uint32_t a, uint32_t b, SheetFace kind, const int64_t* label) {
     core_.exact_curves |= label != nullptr;
-    faces_.push_back({a, b, label != nullptr, label ? *label : 0});
+    faces_.push_back({a, b, label != nullptr, kind == SheetFace::kInner, label ? *label : 0});
   }
   // Whether there can be more than the boundary, which is looked at by others.
   bool wanted() const {
@@ -30,7 +30,7 @@ class Sheets {
  private:
   struct Face {
     uint32_t a, b;
-    bool labelled;
+    bool labelled, inner;
     int64_t label;
     uint32_t other(uint32_t x) const { return x == a ? b : a; }
   };

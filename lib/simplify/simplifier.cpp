@@ -368,8 +368,7 @@ class WindowedEngine final : public Simplifier::Engine {
       if (count > 0)
         kept += textOf("%s%lld %s", kept.empty() ? "" : ", ", static_cast<long long>(count), what);
     };
-    name(core_.locked.corners, "vertices where interfaces end, branch or touch");
-    name(core_.locked.inner_faces, "vertices of labelled faces inside a region");
+    name(core_.locked.corners, "vertices where interfaces or their curves end, branch or touch");
     name(core_.locked.non_manifold, "vertices at non-manifold places of the boundary");
     name(core_.locked.bad_cells, "flat or folded cells of the input");
     name(core_.locked.by_caller, "vertices locked by the stream");

@@ -1,15 +1,19 @@
 #!/usr/bin/python3
 """face_labels.py --tetstream PROGRAM --mesh NAME [--ratio R]
 
-Simplifies a mesh with labelled boundary faces, once in core and once in a window of four fronts.
-NAME is "generated", a box with labelled sides, two regions and a patch on one side, or a mesh of
-several zones with markers, native/NAME.su2 in the folder of meshes. It is written here as a .vtu
-file of tetrahedra and triangles, goes through a .tets file, and comes out as .vtu, which VTK reads.
-Every one of these must hold:
-  faces       labelled triangles are the faces of the boundary, each of them once, as before
+Simplifies a mesh with labelled faces, once in core and once in a window of four fronts. NAME is
+"generated", a box with labelled sides, two regions and a patch on one side, "sheets", the same with
+labelled faces inside the regions, or a mesh in the folder of meshes: native/NAME.su2, of several
+zones with markers, or native/NAME.msh, with physical surfaces, which meshio reads. It is written
+here as a .vtu file of tetrahedra and triangles, goes through a .tets file, and comes out as .vtu,
+which VTK reads. Every one of these must hold:
+  faces       labelled triangles are the faces of the boundary, each of them once, as before, and
+              faces inside where there were some
   area        each label's is kept within 1 %
   sheets      each label has as many parts as before, with their Euler characteristic
   curves      the graph of the curves where labels meet is that of the original
+  shape       the Hausdorff distance of what is labelled inside is at most that of the boundary, or
+              FLOOR
   regions     the judge of regions, where it is there, finds volumes and parts kept
   reached     the target is
   told        info and compare count the same faces, and find the same areas
@@ -32,7 +36,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
 import harness  # noqa: E402
 import strata  # noqa: E402
-from region_mesh import FRONTS, Checks  # noqa: E402
+from region_mesh import FLOOR, FRONTS, Checks, hausdorff  # noqa: E402
 
 AREA = 0.01  # of a label, kept within
 TRIANGLE, TETRAHEDRON = 5, 10
@@ -84,21 +88,64 @@ def read_su2(path):
     return Labelled(*map(np.array, (points, cells, regions, faces, labels)))
 
 
-def boundary_of(cells):
-    """The faces of one cell, with sorted vertices."""
+def read_msh(path):
+    """Physical volumes as regions, physical surfaces as labels."""
+    try:
+        import meshio
+    except ImportError as missing:
+        print("not run:", missing)
+        sys.exit(77)
+    mesh = meshio.read(path)
+
+    def rows(kind):
+        blocks = [(block.data, groups) for block, groups
+                  in zip(mesh.cells, mesh.cell_data["gmsh:physical"]) if block.type == kind]
+        return (np.concatenate(part).astype(int) for part in zip(*blocks))
+
+    return Labelled(mesh.points, *rows("tetra"), *rows("triangle"))
+
+
+def faces_of(cells, count):
+    """The faces of so many cells, with sorted vertices."""
     faces = np.sort(cells[:, [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]].reshape(-1, 3), 1)
-    unique, count = np.unique(faces, axis=0, return_counts=True)
-    return unique[count == 1]
+    unique, found = np.unique(faces, axis=0, return_counts=True)
+    return unique[found == count]
 
 
-def generate(n):
+def sheet_of(middle, axis, at, low, high):
+    """Faces of the plane where their middles lie in a rectangle."""
+    others = np.delete(middle, axis, 1)
+    return ((np.abs(middle[:, axis] - at) < 1e-9)
+            & (others > low).all(1) & (others < high).all(1))
+
+
+def add_sheets(mesh, n):
+    """Labels 201 to 204 inside: a square, one that crosses it, one that ends at three sides, and
+    the surface of a box."""
+    faces = faces_of(mesh.cells, 2)
+    middle = mesh.points[faces].mean(1)
+    plane = (np.ptp(mesh.points[faces], axis=1) < 1e-9).any(1)
+    h = n / 2
+    box = np.abs(middle - [h, h, 1.5 * n]).max(1)
+    labels = np.select(
+        [sheet_of(middle, 2, h, [1, 1], [n - 1, n - 1]),
+         sheet_of(middle, 0, h, [2, h - 2], [n - 2, h + 2]),
+         sheet_of(middle, 2, n - 1, [-1, -1], [h, n + 1]),
+         np.abs(box - 2) < 1e-9], [201, 202, 203, 204])
+    chosen = plane & (labels > 0)
+    return Labelled(mesh.points, mesh.cells, mesh.regions,
+                    np.concatenate([mesh.faces, faces[chosen]]),
+                    np.concatenate([mesh.labels, labels[chosen]]))
+
+
+def generate(n, shake=0.2):
     """A box of n x n x 2n cubes of six cells, moved a little inside; two regions along z; sides
     labelled 1 to 6, and on the last a patch in the middle, labelled 100."""
     side = np.array([n, n, 2 * n])
     grid = np.stack(np.meshgrid(*[np.arange(s + 1) for s in side], indexing="ij"), -1)
     points = grid.reshape(-1, 3).astype(float)
     inside = ((points > 0) & (points < side)).all(1)
-    points[inside] += np.random.default_rng(1).uniform(-0.2, 0.2, (inside.sum(), 3))
+    points[inside] += np.random.default_rng(1).uniform(-shake, shake, (inside.sum(), 3))
     number = np.arange(len(points)).reshape(side + 1)
     corner = np.stack(np.meshgrid(*[np.arange(s) for s in side], indexing="ij"), -1).reshape(-1, 3)
     steps = np.eye(3, dtype=int)
@@ -108,7 +155,7 @@ def generate(n):
         cells.append(np.stack([number[tuple((corner + step).T)] for step in path], 1))
         regions.append(1 + (corner[:, 2] >= n))
     cells, regions = np.concatenate(cells), np.concatenate(regions)
-    faces = boundary_of(cells)
+    faces = faces_of(cells, 1)
     at = points[faces]
     labels = np.zeros(len(faces), int)
     for axis in range(3):
@@ -198,7 +245,7 @@ class Surface(strata.Strata):
 
 def judge_regions(tetstream, before, after, checks):
     path = os.path.join(os.environ.get("TETSTREAM_JUDGE", ""), "regions.py")
-    if not os.path.isfile(path):
+    if not os.path.isfile(path) or len(np.unique(before.regions)) == 1:
         return
     files = [tetstream.path("judged-before.vtu"), tetstream.path("judged-after.vtu")]
     for file, mesh in zip(files, (before, after)):
@@ -207,6 +254,39 @@ def judge_regions(tetstream, before, after, checks):
                           check=False)
     print(" ", told.stdout.strip(), flush=True)
     checks.expect(told.returncode == 0, "the judge of regions objects")
+
+
+class Surfaces:
+    """For hausdorff: the boundary, and what is labelled inside."""
+
+    def __init__(self, mesh):
+        self.points, self.outer = mesh.points, faces_of(mesh.cells, 1)
+        self.inner = np.sort(mesh.faces, 1)[~rows_in(np.sort(mesh.faces, 1), self.outer)]
+
+
+def rows_in(rows, others):
+    known = set(map(tuple, others))
+    return np.array([tuple(row) in known for row in rows], bool)
+
+
+def check_faces(before, after, checks):
+    faces = np.sort(after.faces, 1)
+    checks.expect(len(np.unique(faces, axis=0)) == len(faces), "a face is there twice")
+    outer, inner = faces_of(after.cells, 1), faces_of(after.cells, 2)
+    checks.expect(rows_in(outer, faces).all(), "a face of the boundary has lost its label")
+    inside = faces[~rows_in(faces, outer)]
+    checks.expect(rows_in(inside, inner).all(), "a labelled face is one of no cell")
+    had_some = len(before.faces) > len(faces_of(before.cells, 1))
+    checks.expect((len(inside) > 0) == had_some, f"{len(inside)} labelled faces inside")
+
+
+def check_shape(before, after, checks):
+    if not os.environ.get("TETSTREAM_JUDGE"):
+        return
+    judge, surfaces = harness.Judge(20000), (Surfaces(before), Surfaces(after))
+    inner, outer = (hausdorff(judge.module, *surfaces, k) for k in ("inner", "outer"))
+    print(f"  Hausdorff: inside {inner:.4f} %, boundary {outer:.4f} %", flush=True)
+    checks.expect(inner <= max(outer, FLOOR), "what is labelled inside has moved too far")
 
 
 def check_told(tetstream, original, out, before, after, checks):
@@ -233,11 +313,7 @@ def check(args, tetstream, before, original, stream, window, checks):
     checks.expect(harness.deepest_allowed(asked) <= got <= asked,
                   f"{got} cells where {asked} were asked for: {report['limited_by']}")
     after = read_vtu(out)
-    faces = np.sort(after.faces, 1)
-    checks.expect(len(np.unique(faces, axis=0)) == len(faces), "a face is there twice")
-    boundary = {tuple(f) for f in boundary_of(after.cells)}
-    checks.expect({tuple(f) for f in faces} == boundary,
-                  f"{len(faces)} labelled faces are not the {len(boundary)} of the boundary")
+    check_faces(before, after, checks)
     areas, kept = before.areas(), after.areas()
     worst = max(abs(kept.get(v, 0) / areas[v] - 1) for v in areas)
     print(f"  {len(before.faces)} -> {len(after.faces)} faces of {len(areas)} labels, worst area "
@@ -245,8 +321,18 @@ def check(args, tetstream, before, original, stream, window, checks):
     checks.expect(set(kept) == set(areas) and worst <= AREA, "the area of a label is not kept")
     for sentence in strata.differences(Surface(before), Surface(after)):
         checks.expect(False, sentence)
+    check_shape(before, after, checks)
     judge_regions(tetstream, before, after, checks)
     check_told(tetstream, original, out, before, after, checks)
+
+
+def read(name):
+    if name == "generated":
+        return generate(8)
+    if name == "sheets":
+        return add_sheets(generate(8, 0), 8)
+    path = os.path.join(harness.folder("TETSTREAM_MESHES"), "native", name)
+    return read_msh(path + ".msh") if os.path.isfile(path + ".msh") else read_su2(path + ".su2")
 
 
 def main():
@@ -257,11 +343,7 @@ def main():
     parser.add_argument("--ratio", type=float, default=0.1, metavar="R")
     args = parser.parse_args()
     tetstream = harness.Tetstream(args.tetstream)
-    if args.mesh == "generated":
-        before = generate(8)
-    else:
-        before = read_su2(os.path.join(harness.folder("TETSTREAM_MESHES"), "native",
-                                       args.mesh + ".su2"))
+    before = read(args.mesh)
     original = tetstream.path("in.vtu")
     write_vtu(original, before)
     stream = tetstream.convert(original, tetstream.path("in.tets"))

@@ -5,7 +5,9 @@
 #include <array>
 
 #include "curves.h"
+#include "faces.h"
 #include "shapes.h"
+#include "vertex_pair.h"
 
 namespace tetstream::test {
 namespace {
@@ -49,6 +51,37 @@ struct Labelled {
     ADD_FAILURE() << "no vertex there";
     return 0;
   }
+  // Labels the faces in the plane z = 3 whose middle is chosen, and makes their rim a curve.
+  void addSheet(const std::function<bool(double x, double y)>& chosen) {
+    std::map<std::pair<uint32_t, uint32_t>, int> round;
+    for (const auto& [face, cells] : facesOf(mesh.cells)) {
+      double middle[2] = {0, 0};
+      bool in_plane = true;
+      for (int64_t v : face) {
+        in_plane = in_plane && mesh.position(static_cast<size_t>(v), 2) == 3;
+        for (int i = 0; i < 2; ++i) middle[i] += mesh.position(static_cast<size_t>(v), i) / 3;
+      }
+      if (!in_plane || !chosen(middle[0], middle[1])) continue;
+      sheet.push_back(face);
+      for (size_t j = 0; j < 3; ++j) {
+        topology.flagVertex(static_cast<uint32_t>(face[j]), kInterface);
+        ++round[{static_cast<uint32_t>(face[j == 0]), static_cast<uint32_t>(face[j == 2 ? 1 : 2])}];
+      }
+    }
+    for (const auto& [edge, faces] : round)
+      if (faces == 1) curves.add(edge.first, edge.second);
+  }
+  std::vector<uint64_t> linksOf(uint32_t v) const {
+    std::vector<uint64_t> links;
+    for (const Face& face : sheet) {
+      std::vector<uint32_t> others;
+      for (int64_t x : face)
+        if (x != v) others.push_back(static_cast<uint32_t>(x));
+      if (others.size() == 2) links.push_back(pairOf(others[0], others[1]));
+    }
+    std::sort(links.begin(), links.end());
+    return links;
+  }
   // Both halves of the question; no end is outside.
   bool holds(uint32_t u, uint32_t v) {
     const auto flags = std::vector<uint8_t>(topology.allVertexFlags(),
@@ -60,8 +93,10 @@ struct Labelled {
     const auto end = [&](uint32_t x) {
       return StrataCondition::End{x, e.stratumOf(x, flags[x] & kOnSheet), false};
     };
-    const bool may = StrataCondition::mayHold(end(u), end(v), stars.ring, e);
-    const bool does = condition.holds(end(u), end(v), stars, flags.data(), e);
+    const StrataCondition::Labelled faces = {linksOf(u), linksOf(v)};
+    const bool in_labelled = holdsVertex(faces.u, v);
+    const bool may = StrataCondition::mayHold(end(u), end(v), stars.ring, e, in_labelled);
+    const bool does = condition.holds(end(u), end(v), stars, flags.data(), e, faces);
     EXPECT_TRUE(may || !does) << "the first look refuses what the second allows";
     return does;
   }
@@ -73,6 +108,7 @@ struct Labelled {
   Stars stars;
   StrataCondition condition;
   std::vector<int64_t> labels;
+  std::vector<Face> sheet;
   const int column = 0;
   std::vector<uint32_t> first = std::vector<uint32_t>(1000, kNone);
 };
@@ -130,6 +166,65 @@ TEST(StrataCondition, KeepsASmallRing) {
   for (int i = 0; i < 3; ++i) EXPECT_TRUE(k.holds(ring[i], ring[(i + 1) % 3]));
   for (int i = 0; i < 3; ++i) k.curves.add(ring[i], ring[(i + 1) % 3]);
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(k.holds(ring[i], ring[(i + 1) % 3]));
+}
+
+bool inSquare(double x, double y) {
+  return x > 1 && x < 5 && y > 1 && y < 5;
+}
+int64_t oneRegion(double, double, double) {
+  return 0;
+}
+
+// A square in a region: its vertices are merged in it, onto its rim and along that.
+TEST(StrataCondition, LetsASheetEndInARegion) {
+  Labelled k(6, oneRegion);
+  k.addSheet(inSquare);
+  EXPECT_EQ(k.sheet.size(), 32u);
+  EXPECT_TRUE(k.holds(k.at(2, 2, 3), k.at(3, 2, 3)));
+  EXPECT_TRUE(k.holds(k.at(2, 2, 3), k.at(2, 1, 3)));
+  EXPECT_TRUE(k.holds(k.at(2, 1, 3), k.at(2, 2, 3)));
+  EXPECT_TRUE(k.holds(k.at(2, 1, 3), k.at(3, 1, 3)));
+  EXPECT_TRUE(k.holds(k.at(2, 1, 3), k.at(2, 1, 4)));
+  EXPECT_TRUE(k.holds(k.at(3, 3, 3), k.at(3, 3, 2)));
+  // At the corner that a single triangle fills two edges of the rim are in one face.
+  EXPECT_TRUE(k.holds(k.at(1, 5, 3), k.at(2, 5, 3)) && k.holds(k.at(1, 5, 3), k.at(1, 4, 3)));
+}
+
+// Across a strip of one cube's width, and across the neck between two holes: the edges there are in
+// the sheet, not on its rim.
+TEST(StrataCondition, ForbidsWhatWouldPinchASheet) {
+  Labelled strip(6, oneRegion);
+  strip.addSheet([](double x, double y) { return inSquare(x, y) && y > 2 && y < 3; });
+  EXPECT_FALSE(strip.holds(strip.at(3, 2, 3), strip.at(3, 3, 3)));
+  EXPECT_TRUE(strip.holds(strip.at(2, 2, 3), strip.at(3, 2, 3)));
+  Labelled neck(6, oneRegion);
+  neck.addSheet([](double x, double y) {
+    const bool in_hole = y > 2 && y < 3 && ((x > 2 && x < 3) || (x > 4 && x < 5));
+    return x > 1 && y > 1 && y < 4 && !in_hole;
+  });
+  EXPECT_FALSE(neck.holds(neck.at(3, 2, 3), neck.at(4, 2, 3)));
+  EXPECT_TRUE(neck.holds(neck.at(3, 2, 3), neck.at(3, 3, 3)));
+}
+
+// A triangle stays: each of its edges is the one that is left of two if it went.
+TEST(StrataCondition, KeepsASingleFace) {
+  Labelled k(6, oneRegion);
+  k.addSheet([](double x, double y) { return x > 2 && x < 3 && y > 2 && y < 3 && x > y; });
+  ASSERT_EQ(k.sheet.size(), 1u);
+  for (size_t i = 0; i < 3; ++i)
+    EXPECT_FALSE(k.holds(static_cast<uint32_t>(k.sheet[0][i]),
+                         static_cast<uint32_t>(k.sheet[0][(i + 1) % 3])));
+  const uint32_t corner = k.at(3, 2, 3), beside = k.at(4, 2, 3);
+  EXPECT_TRUE(k.holds(corner, beside) && k.holds(beside, corner));
+}
+
+// Two sheets one above the other: what joins them is in neither.
+TEST(StrataCondition, KeepsSheetsApart) {
+  Labelled k(6, [](double, double, double z) { return z > 4; });
+  k.addSheet(inSquare);
+  EXPECT_FALSE(k.holds(k.at(3, 3, 3), k.at(3, 3, 4)));
+  EXPECT_FALSE(k.holds(k.at(1, 3, 3), k.at(1, 3, 4)));
+  EXPECT_TRUE(k.holds(k.at(3, 3, 3), k.at(3, 3, 2)));
 }
 
 TEST(Curves, FollowMergersAndPacking) {

@@ -1,0 +1,43 @@
+#include "heirs.h"
+
+namespace tetstream {
+
+template <class Mesh>
+void Heirs::handOver(Mesh& mesh, uint32_t v, const Stars& stars, int means) {
+  find(mesh, v, stars);
+  for (const Of& h : heirs_) {
+    const double* from = mesh.cellMeans(h.dying);
+    for (uint32_t k = 0; k < h.count; ++k) {
+      double* to = mesh.cellMeans(h.cell[k]);
+      const double share = from[0] / h.count, sum = to[0] + share;
+      for (int i = 1; i <= means && sum > 0; ++i) to[i] += (from[i] - to[i]) * (share / sum);
+      to[0] = sum;
+    }
+  }
+}
+
+// All of them before any data is touched: that lies outside the patch, and is on its way meanwhile.
+template <class Mesh>
+void Heirs::find(Mesh& mesh, uint32_t v, const Stars& stars) {
+  heirs_.clear();
+  for (const StarCell& dying : stars.ring) {
+    // Its corners beside u and v.
+    const bool is_first = dying.t[0] == v;
+    const uint32_t a = dying.t[is_first ? 1 : 0], b = dying.t[is_first || dying.t[1] == v ? 2 : 1];
+    Of& h = heirs_.emplace_back(Of{dying.cell, {}, 0});
+    __builtin_prefetch(mesh.cellMeans(h.dying));
+    for (const Star* star : {&stars.u, &stars.v})
+      for (const StarCell& s : *star)
+        if (s.has(a) & s.has(b) && h.count < 2) {
+          __builtin_prefetch(mesh.cellMeans(s.cell));
+          h.cell[h.count++] = s.cell;
+        }
+  }
+}
+
+template void Heirs::handOver(Window<float>&, uint32_t, const Stars&, int);
+template void Heirs::handOver(Window<double>&, uint32_t, const Stars&, int);
+template void Heirs::handOver(Patch<float>&, uint32_t, const Stars&, int);
+template void Heirs::handOver(Patch<double>&, uint32_t, const Stars&, int);
+
+}  // namespace tetstream
