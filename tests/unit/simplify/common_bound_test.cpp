@@ -94,13 +94,14 @@ class Simulation {
     const Goal goal = budget_.goalOf(before);
     EXPECT_FALSE(goal.last);
     ASSERT_FALSE(std::isnan(goal.first_bound));
-    double bound = goal.first_bound > 0 ? std::ldexp(goal.first_bound, -goal.approaches) : 1e-6;
+    double bound =
+        goal.first_bound > 0 ? goal.first_bound / std::pow(goal.step, goal.approaches) : 1e-6;
     for (int pass = 0;; ++pass) {
       for (size_t i = 0; i < simplified(); ++i) window_[i].simplify(bound);
       const bool on_the_way =
           pass < goal.approaches && live() > static_cast<double>(goal.enough_cells);
       if (!on_the_way && live() <= static_cast<double>(goal.cells)) break;
-      bound *= on_the_way ? 2 : 1.05;
+      bound *= on_the_way ? goal.step : 1.05;
       ASSERT_LT(bound, 1e30) << "a goal of " << goal.cells;
     }
     const Ledger after = ledger(front);
