@@ -30,7 +30,7 @@ constexpr double kStrong = 12;
 // Without a pilot every window is approached, and takes fewer passes: with four by twos errors were
 // the same (tests/bench/README.md), for 10 to 25 % more time.
 constexpr int kLongApproaches = 2;
-constexpr double kLongStep = 4;
+constexpr double kLongStep = 3;
 // Such a window gives up this share of its cells at most for others: a stream is seldom as it
 // began.
 constexpr double kGivenUp = 0.1;
