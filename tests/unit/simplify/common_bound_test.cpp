@@ -242,6 +242,29 @@ TEST(CommonBound, ChangesItsUnitsWithTheQuadrics) {
   }
 }
 
+// Every window of a stream that nobody knows is approached: in fewer passes than where a pilot
+// tells that a strong reduction is worth them, and from not far below.
+TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {
+  const auto second = [](double ratio, const Pilot& pilot, bool is_tight) {
+    CommonBound budget({ratio, 0, 0}, 1000000, pilot, is_tight);
+    const Ledger window = {20000, 0, 2000, 20000, 10000};
+    budget.goalOf(window);
+    budget.learn(1e-3, window, window, 500);
+    return budget.goalOf(window);
+  };
+  const Pilot pilot{1e-3, {0, 0.5, 1}};
+  for (double ratio : {0.5, 0.02}) {
+    const Goal unknown = second(ratio, {}, false);
+    EXPECT_EQ(unknown.approaches, 2);
+    EXPECT_EQ(unknown.step, 3);
+    EXPECT_EQ(second(ratio, {}, true).approaches, 0) << "memory is bounded";
+  }
+  EXPECT_EQ(second(0.5, pilot, false).approaches, 0);
+  const Goal known = second(0.02, pilot, false);
+  EXPECT_EQ(known.approaches, 4);
+  EXPECT_EQ(known.step, 2);
+}
+
 // A window that had to pass its bound: the next one starts near where it ended.
 TEST(CommonBound, StartsAgainNearWhereAWindowWasForcedTo) {
   const auto next = [](double times) {
