@@ -13,6 +13,19 @@
 
 namespace tetstream {
 
+// A pipe of Linux holds 64 KB, half a thousandth of a second of work: both ends would wait for each
+// other most of the time. So much may be asked for without privileges; where it is refused the pipe
+// stays as it is.
+static void widenPipe(int fd, const struct stat& info) {
+#ifdef F_SETPIPE_SZ
+  constexpr int kPipeBytes = 1 << 20;
+  if (S_ISFIFO(info.st_mode) && ::fcntl(fd, F_GETPIPE_SZ) < kPipeBytes)
+    ::fcntl(fd, F_SETPIPE_SZ, kPipeBytes);
+#else
+  (void)fd, (void)info;
+#endif
+}
+
 static size_t readSome(int fd, void* out, size_t size, const std::string& name) {
   for (;;) {
     const ssize_t got = ::read(fd, out, size);
@@ -68,6 +81,7 @@ class DescriptorSource final : public ByteSource {
       errno = error;
       failIo(this->name(), "open");
     }
+    widenPipe(fd, info);
     waits_ = !S_ISREG(info.st_mode);
     seekable_ = !waits_ && ::lseek(fd, 0, SEEK_CUR) == 0;
     size_ = seekable_ ? static_cast<uint64_t>(info.st_size) : 0;
@@ -219,7 +233,9 @@ class DescriptorSink final : public ByteSink {
   DescriptorSink(int fd, bool owned, const std::string& name)
       : ByteSink(name), fd_(fd), owned_(owned) {
     struct stat info;
-    waits_ = ::fstat(fd, &info) != 0 || !S_ISREG(info.st_mode);
+    const bool is_known = ::fstat(fd, &info) == 0;
+    if (is_known) widenPipe(fd, info);
+    waits_ = !is_known || !S_ISREG(info.st_mode);
     seekable_ = !waits_ && info.st_size == 0 && ::lseek(fd, 0, SEEK_CUR) == 0 &&
                 !(::fcntl(fd, F_GETFL) & O_APPEND);
   }

@@ -3,7 +3,15 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 namespace tetstream {
+
+// Arrays of so many bytes lie on large pages, where the system has them on request: a window that
+// is far larger than the caches finds most of its vertices without a walk through page tables then.
+// In smaller ones the memory up to the end of a page of 2 MB would weigh more than that.
+constexpr size_t kLeastOnLargePages = size_t{4} << 20;
 
 size_t checkedMultiply(size_t a, size_t b) {
   size_t product;
@@ -32,6 +40,19 @@ void Account::charge(size_t bytes) {
   }
 }
 
+// note: whole pages, with what the allocator has before the array, so that what it took from the
+// system for the array alone stays in one piece and grows without a copy.
+static void askForLargePages(void* data, size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  static const auto page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  const size_t before = reinterpret_cast<uintptr_t>(data) % page;
+  const size_t all = (before + bytes + page - 1) / page * page;
+  madvise(static_cast<char*>(data) - before, all, MADV_HUGEPAGE);  // or does without
+#else
+  (void)data, (void)bytes;
+#endif
+}
+
 void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_bytes) {
   if (new_bytes == old_bytes) return old;
   if (new_bytes > old_bytes) account.charge(new_bytes - old_bytes);
@@ -46,6 +67,8 @@ void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_
     fail(Status::kNoMemory, "the system has no %zu bytes of memory left", new_bytes);
   }
   if (new_bytes < old_bytes) account.release(old_bytes - new_bytes);
+  const bool is_bounded = account.limit() != 0;  // then no byte is to be paid for that is not used
+  if (!is_bounded && new_bytes >= kLeastOnLargePages) askForLargePages(data, new_bytes);
   return data;
 }
 

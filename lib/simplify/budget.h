@@ -95,7 +95,7 @@ class CommonBound final : public Budget {
   int64_t leastOf(const Ledger& ledger) const;
   bool countsCells() const { return target_.ratio > 0 || target_.cells > 0; }
   bool spreads(const Ledger& ledger) const;
-  int approaches(const Ledger& ledger) const;
+  void approach(const Ledger& ledger, Goal& goal) const;
   void spread(double due, const Ledger& ledger, Goal& goal) const;
 
   Pilot pilot_;

@@ -19,10 +19,11 @@ struct Goal {
   // cells are left than wanted; 0: it finds out where to start. The last goal alone is met exactly.
   // Random choice has a bound of its own.
   double first_bound = 0;
-  // Passes on the way to a bound that is given, each up to twice the bound of the one before: what
-  // a window as a whole takes first is then nearly what has the least error. On the way it stops
-  // where no more than so many cells are left.
+  // Passes on the way to a bound that is given, each up to so many times the bound of the one
+  // before: what a window as a whole takes first is then nearly what has the least error. On the
+  // way it stops where no more than so many cells are left.
   int approaches = 0;
+  double step = 2;
   int64_t enough_cells = 0;
   // And only while the error of the whole is below.
   double most_error = std::numeric_limits<double>::infinity();

@@ -137,7 +137,7 @@ template <class S>
 void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   if (mustStop()) return;
   int approaches = goal_.approaches;
-  double bound = bounds_.start(goal_.first_bound * unit_, approaches);
+  double bound = bounds_.start(goal_, unit_);
   for (bool first = true;; first = false) {
     constexpr float kAll = std::numeric_limits<float>::infinity();
     tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll);
@@ -151,7 +151,7 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
     if (!on_the_way && (reached() || core_.tally.error >= goal_.most_error)) return;
     if (!first)  // in that, most vertices are new
       bounds_.learn(before - core_.window.liveCells(), tiling_.looking());
-    bound = on_the_way ? 2 * bound : bounds_.next(bound, goal_);
+    bound = on_the_way ? goal_.step * bound : bounds_.next(bound, goal_);
   }
 }
 

@@ -28,9 +28,9 @@ constexpr double kFirstShare = 0.4, kHalf = 0.5, kFirstShareToError = 0.01;
 constexpr double kLargestBound = std::numeric_limits<float>::max();  // every finite error is below
 
 template <class S>
-double SweepBounds<S>::start(double first_bound, int approaches) {
+double SweepBounds<S>::start(const Goal& goal, double unit) {
   yield_ = kFirstYield;
-  return std::min(std::ldexp(first_bound, -approaches), kLargestBound);
+  return std::min(goal.first_bound * unit / std::pow(goal.step, goal.approaches), kLargestBound);
 }
 
 template <class S>

@@ -13,8 +13,8 @@ class SweepBounds {
  public:
   explicit SweepBounds(Core<S>& core) : core_(core) {}
 
-  // The bound of the first pass, from which so many doublings lead to the one that is given.
-  double start(double first_bound, int approaches);
+  // The bound of the first pass, from which the goal's approaches lead to the one that it gives.
+  double start(const Goal& goal, double unit);
   // Where nothing is known: a bound that falls short of the goal, from the errors of the best edges
   // of some vertices. What is simplified too far at first stays so.
   double first(std::vector<float>& errors, const Goal& goal) const;

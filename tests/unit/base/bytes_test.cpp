@@ -204,6 +204,23 @@ TEST(OpenDescriptor, DoesNotCloseIt) {
   EXPECT_EQ(thrownBy([fd] { openDescriptor(fd, "closed"); }).first, Status::kIo);
 }
 
+#ifdef F_SETPIPE_SZ
+TEST(Pipes, AreMadeWideAtEitherEnd) {
+  for (const bool reads : {true, false}) {
+    int fds[2], others[2];
+    ASSERT_EQ(::pipe(fds), 0);
+    ASSERT_EQ(::pipe(others), 0);
+    if (reads)
+      openDescriptor(fds[0], "pipe");
+    else
+      createDescriptor(fds[1], "pipe");
+    ::fcntl(others[0], F_SETPIPE_SZ, 1 << 20);  // a system may refuse
+    EXPECT_EQ(::fcntl(fds[0], F_GETPIPE_SZ), ::fcntl(others[0], F_GETPIPE_SZ));
+    for (int fd : {fds[0], fds[1], others[0], others[1]}) ::close(fd);
+  }
+}
+#endif
+
 TEST(MakeSeekable, SpoolsAPipe) {
   int fds[2];
   ASSERT_EQ(::pipe(fds), 0);

@@ -80,6 +80,21 @@ TEST(Array, KeepsItsContentsWhileItGrowsAndShrinks) {
   EXPECT_EQ(account.used(), 0u);
 }
 
+// As large as those that lie on large pages.
+TEST(Array, KeepsItsContentsBeyondMegabytes) {
+  for (const size_t limit : {size_t{0}, size_t{1} << 30}) {
+    Account account(limit);
+    Array<uint32_t> array(account, 1000);
+    for (uint32_t i = 0; i < 1000; ++i) array[i] = i * i;
+    for (size_t megabytes : {3, 4, 5, 17, 40, 9, 1}) {
+      array.resize(megabytes << 18);
+      array[array.size() - 1] = 7;
+      for (uint32_t i = 0; i < 1000; ++i) ASSERT_EQ(array[i], i * i);
+    }
+    EXPECT_EQ(account.used(), size_t{1} << 20);
+  }
+}
+
 TEST(Array, StaysAsItIsWhereItCannotGrow) {
   Account account(1000);
   Array<uint32_t> array(account, 100);

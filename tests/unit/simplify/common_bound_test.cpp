@@ -94,13 +94,14 @@ class Simulation {
     const Goal goal = budget_.goalOf(before);
     EXPECT_FALSE(goal.last);
     ASSERT_FALSE(std::isnan(goal.first_bound));
-    double bound = goal.first_bound > 0 ? std::ldexp(goal.first_bound, -goal.approaches) : 1e-6;
+    double bound =
+        goal.first_bound > 0 ? goal.first_bound / std::pow(goal.step, goal.approaches) : 1e-6;
     for (int pass = 0;; ++pass) {
       for (size_t i = 0; i < simplified(); ++i) window_[i].simplify(bound);
       const bool on_the_way =
           pass < goal.approaches && live() > static_cast<double>(goal.enough_cells);
       if (!on_the_way && live() <= static_cast<double>(goal.cells)) break;
-      bound *= on_the_way ? 2 : 1.05;
+      bound *= on_the_way ? goal.step : 1.05;
       ASSERT_LT(bound, 1e30) << "a goal of " << goal.cells;
     }
     const Ledger after = ledger(front);
@@ -239,6 +240,29 @@ TEST(CommonBound, ChangesItsUnitsWithTheQuadrics) {
     EXPECT_NEAR(next_by_4, 4 * next, 1e-9 * next);
     EXPECT_NEAR(last_by_4, 16 * last, 1e-9 * last);
   }
+}
+
+// Every window of a stream that nobody knows is approached: in fewer passes than where a pilot
+// tells that a strong reduction is worth them, and from not far below.
+TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {
+  const auto second = [](double ratio, const Pilot& pilot, bool is_tight) {
+    CommonBound budget({ratio, 0, 0}, 1000000, pilot, is_tight);
+    const Ledger window = {20000, 0, 2000, 20000, 10000};
+    budget.goalOf(window);
+    budget.learn(1e-3, window, window, 500);
+    return budget.goalOf(window);
+  };
+  const Pilot pilot{1e-3, {0, 0.5, 1}};
+  for (double ratio : {0.5, 0.02}) {
+    const Goal unknown = second(ratio, {}, false);
+    EXPECT_EQ(unknown.approaches, 2);
+    EXPECT_EQ(unknown.step, 3);
+    EXPECT_EQ(second(ratio, {}, true).approaches, 0) << "memory is bounded";
+  }
+  EXPECT_EQ(second(0.5, pilot, false).approaches, 0);
+  const Goal known = second(0.02, pilot, false);
+  EXPECT_EQ(known.approaches, 4);
+  EXPECT_EQ(known.step, 2);
 }
 
 // A window that had to pass its bound: the next one starts near where it ended.

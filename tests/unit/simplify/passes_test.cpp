@@ -26,6 +26,15 @@ TEST(SimplifierWindow, HoldsSmallMeshesWhole) {
   EXPECT_LT(windowOf(200000, 500, budgeted), 100000);
 }
 
+TEST(SimplifierWindow, HoldsMoreFrontsWhereTheyAreWide) {
+  EXPECT_EQ(windowOf(1000000000, 262143, {}), 4 * 262143);
+  EXPECT_EQ(windowOf(1000000000, 262144, {}), 6 * 262144);
+  EXPECT_EQ(windowOf(1000000, 262144, {}), 1000000) << "the mesh has no more";
+  SimplifyOptions budgeted;
+  budgeted.memory_bytes = 64 << 20;
+  EXPECT_LT(windowOf(1000000000, 1000000, budgeted), 64 << 20 >> 4);
+}
+
 double wavy(double x, double y, double z) {
   return std::sin(0.9 * x) * std::cos(0.7 * y) + 0.3 * std::sin(0.4 * z + x) + 0.01 * z * z;
 }
