@@ -4,8 +4,6 @@
 #include <cstring>
 #include <optional>
 #include <string_view>
-#include <type_traits>
-#include <utility>
 
 #include "status.h"
 #include "text_values.h"
@@ -48,7 +46,7 @@ class AsciiValues final : public Values {
     if (end_ - text_at_ < 2 * count_ - 1)
       fail(Status::kBadData, "%s has not enough text for the %llu values that the counts need",
            what_.c_str(), static_cast<unsigned long long>(count_));
-    text_.resize(static_cast<size_t>(std::min<uint64_t>(kTextBytes, end_ - text_at_)));
+    text_.resize(static_cast<size_t>(std::min<uint64_t>(kTextBytes, end_ - text_at_)) + 1);
   }
 
   void read(uint64_t first, size_t count, void* out, ScalarType type) override {
@@ -80,19 +78,45 @@ class AsciiValues final : public Values {
 
   template <class In, class Out>
   void readWords(size_t count, Out* out) {
-    for (size_t i = 0; i < count; ++i) {
-      In value;
-      std::string_view word;
-      bool good = nextPlain(&value, &word);
-      if (!good) {
-        word = nextWord();
-        good = parseValue(word, &value);
-      }
-      if constexpr (std::is_integral_v<In> && std::is_integral_v<Out>)
-        good = good && std::in_range<Out>(value);
-      if (!good) failWord(word);
-      out[i] = static_cast<Out>(value);
+    while (count > 0) {
+      const size_t plain = plainValues<In>(count, out);
+      out += plain;
+      count -= plain;
+      if (count == 0) break;
+      readWord<In>(out++);
+      --count;
     }
+  }
+
+  // Of the values that follow those that are plain, and whole in what is in memory, up to one that
+  // is to be marked. Returns how many.
+  template <class In, class Out>
+  size_t plainValues(size_t count, Out* out) {
+    if (next_ >= mark_from_ || filled_ - at_ < kPlainNumberBytes) return 0;
+    count = static_cast<size_t>(std::min<uint64_t>(count, mark_from_ - next_));
+    const char* at = text_.data() + at_;
+    const char* const last = text_.data() + filled_ - kPlainNumberBytes;
+    size_t done = 0;
+    for (; done < count; ++done) {
+      while (isBlank(*at)) ++at;
+      if (at > last) break;
+      In value;
+      const char* const end = readPlain(at, &value);
+      if (!end || !isBlank(*end) || !holds<Out>(value)) break;
+      out[done] = static_cast<Out>(value);
+      at = end;
+    }
+    at_ = static_cast<size_t>(at - text_.data());
+    next_ += done;
+    return done;
+  }
+
+  template <class In, class Out>
+  void readWord(Out* out) {
+    In value;
+    const std::string_view word = nextWord();
+    if (!parseValue(word, &value) || !holds<Out>(value)) failWord(word);
+    *out = static_cast<Out>(value);
   }
 
   // ------------------------------------------------------------------------------ reading ahead
@@ -151,21 +175,6 @@ class AsciiValues final : public Values {
          static_cast<unsigned long long>(place()), static_cast<unsigned long long>(count_));
   }
 
-  // The next word as nearly all are; false, with nothing taken, if it is another one.
-  template <class In>
-  bool nextPlain(In* value, std::string_view* word) {
-    if (next_ >= mark_from_) return false;
-    while (at_ < filled_ && isBlank(text_[at_])) ++at_;
-    if (filled_ - at_ < kPlainNumberBytes) return false;
-    const char* const begin = text_.data() + at_;
-    const char* const end = readPlain(begin, value);
-    if (!end || !isBlank(*end)) return false;
-    *word = {begin, static_cast<size_t>(end - begin)};
-    at_ += word->size();
-    ++next_;
-    return true;
-  }
-
   // The next word, empty at the end; it lives until the next call.
   std::string_view nextWord() {
     markAt(next_, place());
@@ -201,9 +210,10 @@ class AsciiValues final : public Values {
     at_ = 0;
     const uint64_t from = text_at_ + filled_;
     const size_t wanted =
-        static_cast<size_t>(std::min<uint64_t>(text_.size() - filled_, end_ - from));
+        static_cast<size_t>(std::min<uint64_t>(text_.size() - 1 - filled_, end_ - from));
     const size_t got = wanted ? bytes_.readAt(from, text_.data() + filled_, wanted) : 0;
     filled_ += got;
+    text_[filled_] = 0;
     return got > 0;
   }
 
@@ -239,7 +249,7 @@ class AsciiValues final : public Values {
   uint64_t stride_ = 256,
            mark_from_ = 0;  // between marks; the next value to be marked, or a later one
   std::vector<ValuePlace> marks_;
-  std::vector<char> text_;
+  std::vector<char> text_;      // one more than filled_: a zero ends what was read
   uint64_t text_at_;            // place in the file of text_[0]
   size_t at_ = 0, filled_ = 0;  // read, and filled, of text_
   // While it is there, it has next_, and text_ is empty.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 #include "piece_parser.h"
 #include "values.h"
@@ -15,6 +17,15 @@ constexpr size_t kMostValueBytes = 512;
 // too large is an error.
 template <class T>
 bool parseValue(std::string_view word, T* value);
+
+// Whether it is a value of an array of Out; of floats it is rounded to one.
+template <class Out, class T>
+bool holds(T value) {
+  if constexpr (std::is_integral_v<T> && std::is_integral_v<Out>)
+    return std::in_range<Out>(value);
+  else
+    return true;
+}
 
 // note: so that numbers of all types are read alike.
 inline const char* readPlain(const char* at, uint64_t* value) {

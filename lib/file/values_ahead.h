@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <type_traits>
-#include <utility>
 
 #include "text_pieces.h"
 #include "text_values.h"
@@ -55,8 +53,7 @@ class ValuesAhead {
     for (size_t i = 0; i < count; ++i, ++taken_) {
       T value;
       std::memcpy(&value, from + taken_ * sizeof(T), sizeof value);
-      if constexpr (std::is_integral_v<T> && std::is_integral_v<Out>)
-        if (!std::in_range<Out>(value)) return i;
+      if (!holds<Out>(value)) return i;
       out[i] = static_cast<Out>(value);
     }
     return count;
