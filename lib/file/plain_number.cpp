@@ -117,8 +117,12 @@ template <class Real>
 const char* readReal(const char* at, Real* value) {
   const bool negative = *at == '-';
   const char* const first = at + negative;
-  uint64_t number = 0;
-  const char* end = readDigits(first, &number);
+  uint64_t number = static_cast<unsigned char>(*first) - uint64_t{'0'};
+  const char* end = first + 1;
+  if (number > 9 || *end != '.') {  // nearly all have one digit and a point
+    number = 0;
+    end = readDigits(first, &number);
+  }
   if (!end) return readByLibrary(at, value);
   ptrdiff_t digits = end - first;
   int power = 0;

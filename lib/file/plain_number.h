@@ -52,13 +52,15 @@ class EightDigits {
 // Reads digits, at most 23, at the end of the decimal number in *number, which wraps around where
 // there are too many. Returns their end; null: there are more.
 inline const char* readDigits(const char* at, uint64_t* number) {
-  constexpr uint32_t powers[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
-  for (int words = 0; words < 3; ++words) {
+  static constexpr uint32_t powers[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
+  for (int words = 0; words < 3; ++words, at += 8) {
     const EightDigits digits(at);
     const int count = digits.count();
-    *number = *number * powers[count] + digits.number(count);
-    at += count;
-    if (count < 8) return at;
+    if (count < 8) {
+      *number = *number * powers[count] + digits.number(count);
+      return at + count;
+    }
+    *number = *number * 100000000 + digits.number(8);
   }
   return nullptr;
 }

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-constexpr size_t kValues = 40000;
+constexpr size_t kValues = 20000;
 
 // Bytes of which is known how far they were read; from some place on they cannot be.
 class WatchedBytes final : public ByteSource {
@@ -116,7 +116,7 @@ std::string integerText(size_t count, std::mt19937_64& random) {
 
 TEST_F(ValueThreads, GiveTheValuesOfOneThread) {
   const std::string reals = realText(kValues, random_), integers = integerText(kValues, random_);
-  for (const size_t portion : {1000, 30000}) {
+  for (const size_t portion : {1000, 15000}) {
     const std::vector<Portion> portions = inSequence(kValues, portion);
     expectSame<float>(reals, ValueType::kFloat32, ScalarType::kFloat32, portions, kValues);
     expectSame<double>(reals, ValueType::kFloat64, ScalarType::kFloat64, portions, kValues);
@@ -163,7 +163,7 @@ TEST_F(ValueThreads, SayWhatIsWrongAsOneThreadDoes) {
                                  "7 7",
                                  ""};
   for (const std::string& word : strange)
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 2; ++i) {
       std::string damaged = text;
       const size_t blank = text.find(' ', random_() % (text.size() - 20));
       damaged.replace(blank + 1, text.find_first_of(" \n", blank + 1) - blank - 1, word);
@@ -193,13 +193,13 @@ TEST_F(ValueThreads, EndWhereOneThreadDoes) {
 
 // Which values come before depends on how much is read at a time.
 TEST_F(ValueThreads, SayThatReadingFailed) {
-  const std::string text = integerText(30000, random_);
-  const std::vector<Portion> portions = inSequence(30000, 500);
+  const std::string text = integerText(20000, random_);
+  const std::vector<Portion> portions = inSequence(20000, 500);
   for (const uint64_t fails_at : {100, 70000, 100001})
     for (const size_t piece : {40, 1000, 64 << 10}) {
       WatchedBytes bytes(text, fails_at);
       EXPECT_TRUE(outcomeOf<double>(bytes, ValueType::kFloat64, ScalarType::kFloat64, portions,
-                                    30000, help(piece))
+                                    20000, help(piece))
                       .ends_with("memory: the disk is broken"));
     }
 }
