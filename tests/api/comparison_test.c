@@ -73,7 +73,8 @@ static tetstream_field_comparison field_of(const tetstream_comparison* compariso
 }
 
 static void a_mesh_is_itself_in_any_order(void) {
-  for (int cut = HOSTILE_WHOLE; cut <= HOSTILE_LISTS + 1; ++cut) {
+  const int step = getenv("TETSTREAM_SLOW") ? 2 : 1; /* one batch, ODD, lists: then with indices */
+  for (int cut = HOSTILE_WHOLE; cut <= HOSTILE_LISTS + 1; cut += cut < HOSTILE_LISTS ? step : 1) {
     tetstream_comparison* comparison = comparison_with(NULL, NULL);
     const int indexed = cut > HOSTILE_LISTS;
     CHECK_EQUAL(compare(comparison, mesh, indexed ? HOSTILE_ODD : cut,

@@ -1,16 +1,11 @@
 #include "test_mesh.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numeric>
 
 #include "random.h"
 
 namespace tetstream::test {
-
-bool slowRun() {
-  return std::getenv("TETSTREAM_SLOW") != nullptr;
-}
 
 // ------------------------------------------------------------------------------------- values
 

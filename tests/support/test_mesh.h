@@ -9,12 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "slow_run.h"
 #include "source.h"
 
 namespace tetstream::test {
-
-// Whether the run is many times slower than usual, under memcheck for one: TETSTREAM_SLOW is set.
-bool slowRun();
 
 // Rows of one column, as bytes.
 struct Rows {

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "edge_testing.h"
+#include "slow_run.h"
 
 namespace tetstream::test {
 namespace {
@@ -23,7 +24,7 @@ void expectErrorsOfSolveEdge() {
       const auto& kernels = quadricKernels<S>(layout, n);
       const Table<S> table(r, layout, n, 30);
       const VertexTable<S> view = table.view();
-      for (int count = 0; count <= 20; ++count) {
+      for (int count = 0; count <= 20; count += static_cast<int>(oneIn(n > 20 ? 10 : 3))) {
         std::vector<uint32_t> others(static_cast<size_t>(count));
         for (uint32_t& other : others) other = 1 + r.below(29);
         const int room = (count + kEdgeLanes - 1) / kEdgeLanes * kEdgeLanes;
@@ -58,11 +59,12 @@ void expectSolutionsOfSolveEdge() {
     for (int n : {3, 4, 5, 6, 7, 8, 9, 10, 12, 20, 128}) {
       const auto size = static_cast<size_t>(n);
       const auto& kernels = quadricKernels<S>(layout, n);
-      const Table<S> table(r, layout, n, 30);
+      const uint32_t vertices = slowRun() && n > 20 ? 5 : 30;
+      const Table<S> table(r, layout, n, vertices);
       const VertexTable<S> view = table.view();
-      for (size_t count = 1; count <= kEdgeLanes; ++count) {
+      for (size_t count = 1; count <= kEdgeLanes; count += oneIn(n > 20 ? 7 : 2)) {
         std::vector<uint32_t> ends(2 * count);
-        for (uint32_t& end : ends) end = r.below(30);
+        for (uint32_t& end : ends) end = r.below(vertices);
         std::vector<S> z(size * count + 1, S(-7)), errors(count + 1, S(-7)), one(size);
         kernels.solveEdges(view, ends.data(), static_cast<int>(count), table.scale.data(), n,
                            z.data(), errors.data());

@@ -158,6 +158,7 @@ TEST(SimplifyRun, SamplesALongStream) {
   ASSERT_GT(mesh.cellCount(), size_t{1} << 18);
   double errors[2];
   for (PilotUse use : {PilotUse::kAuto, PilotUse::kNever}) {
+    if (slowRun() && use == PilotUse::kNever) return;
     RunOptions options;
     options.simplify.ratio = 0.2;
     options.simplify.window_cells = 40000;
