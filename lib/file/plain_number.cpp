@@ -101,10 +101,20 @@ bool isShort(const char* at, ptrdiff_t digits) {
   return digits <= 19;
 }
 
+unsigned digitOf(char c) {
+  return static_cast<unsigned char>(c) - unsigned{'0'};
+}
+
 // The exponent behind its letter; null: it is none, or has more than four digits.
 const char* readExponent(const char* at, int* exponent) {
   const bool negative = *at == '-';
   at += negative || *at == '+';
+  const unsigned tens = digitOf(at[0]), ones = digitOf(at[1]);
+  if (tens < 10 && ones < 10 && digitOf(at[2]) > 9) {  // nearly all
+    const auto number = static_cast<int>(10 * tens + ones);
+    *exponent = negative ? -number : number;
+    return at + 2;
+  }
   const EightDigits digits(at);
   const int count = digits.count();
   if (count == 0 || count > 4) return nullptr;
@@ -117,7 +127,7 @@ template <class Real>
 const char* readReal(const char* at, Real* value) {
   const bool negative = *at == '-';
   const char* const first = at + negative;
-  uint64_t number = static_cast<unsigned char>(*first) - uint64_t{'0'};
+  uint64_t number = digitOf(*first);
   const char* end = first + 1;
   if (number > 9 || *end != '.') {  // nearly all have one digit and a point
     number = 0;
