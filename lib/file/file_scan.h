@@ -56,6 +56,14 @@ class FileScan {
 
   // Binary: exactly `size` bytes.
   void bytes(void* out, size_t size, const char* what);
+  // The next `size` bytes where they lie, until the next call; null, with nothing taken, unless all
+  // of them are in the buffer.
+  const char* bytesInBuffer(size_t size) {
+    if (ahead_ || filled_ - at_ < size) return nullptr;
+    binary_ = true;
+    at_ += size;
+    return buffer_.data() + at_ - size;
+  }
   // Up to `size` bytes, fewer at the end, which stay the next ones.
   std::string_view peekBytes(size_t size);
   // Passes everything up to the end of the next `mark`.

@@ -1,10 +1,12 @@
 // file: rows of numbers of a text, all of one pattern, read from where they lie in memory. Depends
-// on plain_number.h, text_number.h.
+// on piece_parser.h, plain_number.h, text_number.h.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
+
+#include "piece_parser.h"
 
 namespace tetstream {
 
@@ -31,32 +33,27 @@ struct RowPattern {
 };
 
 // Numbers are kept as eight bytes each, those of an int64_t or of a double.
-class RowParser {
+class RowParser final : public PieceParser {
  public:
   // From `comment` (0: none) to the end of the line is blank.
   RowParser(const RowPattern& pattern, char comment);
 
-  struct Found {
-    size_t numbers = 0;     // of whole rows
-    bool is_whole = false;  // nothing is left behind them
-    uint64_t lines = 0;     // that end in what was looked at
-  };
   struct Place {
     uint64_t bytes, lines;  // before it
   };
-  // `size` bytes of text, from the beginning of a row on, behind which kPlainNumberBytes zeros
-  // stand; up to the first row that is none.
-  Found parse(const char* text, size_t size, uint64_t* out) const;
+  // From the beginning of a row on; the numbers of whole rows, up to the first row that is none.
+  Found parse(const char* text, size_t size, uint64_t* out) const override;
   // The end of the first `count` numbers of what was parsed; of whole rows, with what is passed
   // over if `with_line_end`.
   Place endOf(const char* text, size_t size, size_t count, bool with_line_end) const;
-  // Room for what parse may write of so many bytes: a row that they end within is written, too.
-  size_t roomFor(size_t bytes) const {
+  // A row that the text ends within is written, too.
+  size_t roomFor(size_t bytes) const override {
     return bytes / 2 + 1 + pattern_.width() + RowPattern::kMostFurther;
   }
 
+  bool isCutAtBlanks() const override { return pattern_.isOneKind() && comment_ == 0; }
+
   const RowPattern& pattern() const { return pattern_; }
-  bool hasComments() const { return comment_ != 0; }
 
  private:
   struct Text {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "values.h"
+
 namespace tetstream {
 
 namespace {
@@ -11,9 +13,8 @@ constexpr size_t kNumberBytes = 1 << 12;
 
 // Integers of type Stored, or floats, to wide ones.
 template <class Stored, class Wide>
-void convert(unsigned char* bytes, size_t count, bool swapped, Wide* out) {
+void convert(const char* bytes, size_t count, Wide* out) {
   for (size_t i = 0; i < count; ++i, bytes += sizeof(Stored)) {
-    if (swapped) std::reverse(bytes, bytes + sizeof(Stored));
     Stored value;
     std::memcpy(&value, bytes, sizeof value);
     out[i] = static_cast<Wide>(value);
@@ -23,14 +24,19 @@ void convert(unsigned char* bytes, size_t count, bool swapped, Wide* out) {
 template <class Narrow, class Long, class Wide>
 void readBinary(FileScan& file, bool swapped, Wide* out, size_t count, size_t width,
                 const char* what) {
-  unsigned char bytes[kNumberBytes];
+  char copy[kNumberBytes];
   while (count > 0) {
-    const size_t n = std::min(count, sizeof bytes / width);
-    file.bytes(bytes, n * width, what);
+    const size_t n = std::min(count, sizeof copy / width);
+    const char* bytes = swapped ? nullptr : file.bytesInBuffer(n * width);
+    if (!bytes) {
+      file.bytes(copy, n * width, what);
+      if (swapped) swapBytes(reinterpret_cast<unsigned char*>(copy), width, n);
+      bytes = copy;
+    }
     if (width == sizeof(Narrow))
-      convert<Narrow>(bytes, n, swapped, out);
+      convert<Narrow>(bytes, n, out);
     else
-      convert<Long>(bytes, n, swapped, out);
+      convert<Long>(bytes, n, out);
     out += n;
     count -= n;
   }

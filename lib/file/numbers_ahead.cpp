@@ -19,7 +19,7 @@ NumbersAhead::NumbersAhead(const TextThreads& threads, const RowParser& parser, 
                            TextPieces::Read read)
     : parser_(parser),
       read_(std::move(read)),
-      pieces_(new TextPieces(threads, parser)),
+      pieces_(new TextPieces(threads, parser_)),
       rows_left_(rows),
       numbers_left_(numbersOf(parser.pattern(), rows)) {}
 

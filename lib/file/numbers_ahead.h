@@ -1,8 +1,9 @@
-// file: numbers of a text that were read ahead, in turn. Depends on text_pieces.h.
+// file: numbers of a text that were read ahead, in turn. Depends on number_rows.h, text_pieces.h.
 #pragma once
 
 #include <cstring>
 
+#include "number_rows.h"
 #include "text_pieces.h"
 
 namespace tetstream {

@@ -9,24 +9,25 @@ namespace tetstream {
 
 namespace {
 
-// More threads find nothing to do: the rows are taken in turn, by one thread.
-constexpr size_t kMostReading = 8;
-
 size_t helpersOf(const TextThreads& threads) {
-  return std::min(threads.tasks->threads(), kMostReading) - 1;
+  return std::min(threads.tasks->threads(), threads.most) - 1;
 }
 
 }  // namespace
 
+bool Helpers::areHere() const {
+  return threads.tasks && threads.tasks->threads() > 1 && std::this_thread::get_id() == thread;
+}
+
 // Two pieces for each thread: one that is read and one that waits, or is taken from.
-TextPieces::TextPieces(const TextThreads& threads, const RowParser& parser)
+TextPieces::TextPieces(const TextThreads& threads, const PieceParser& parser)
     : threads_(threads), parser_(parser) {
   for (size_t i = 0; i < 2 * (helpersOf(threads) + 1); ++i) pieces_.emplace_back(account_);
 }
 
 // The bytes up to where a row may end: a line's end, or in a text of numbers a blank.
 size_t TextPieces::cut(const char* text, size_t size) const {
-  const bool anywhere = parser_.pattern().isOneKind() && !parser_.hasComments();
+  const bool anywhere = parser_.isCutAtBlanks();
   while (size > 0 && text[size - 1] != '\n' && !(anywhere && isBlank(text[size - 1]))) --size;
   return size;
 }
@@ -67,6 +68,7 @@ void TextPieces::fill(const Read& read, uint64_t wanted_bytes) {
 }
 
 void TextPieces::ask() {
+  if (std::this_thread::get_id() != thread_) return;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (helpers_ == helpersOf(threads_)) return;

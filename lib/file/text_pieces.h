@@ -1,14 +1,16 @@
 // file: a text in pieces, whose numbers several threads read before they are asked for. Depends on
-// number_rows.h, memory.h, tasks.h.
+// piece_parser.h, memory.h, tasks.h.
 #pragma once
 
 #include <condition_variable>
 #include <deque>
 #include <functional>
 #include <mutex>
+#include <thread>
+#include <vector>
 
 #include "memory.h"
-#include "number_rows.h"
+#include "piece_parser.h"
 #include "tasks.h"
 
 namespace tetstream {
@@ -19,6 +21,15 @@ struct TextThreads {
   // Numbers of so many bytes take a tenth of a millisecond; larger ones leave the processor's
   // cache.
   size_t piece_bytes = 128 << 10;
+  // More threads find nothing to do: what was read is taken in turn, by one thread.
+  size_t most = 8;
+};
+
+// Those who help the thread that opened a file whenever that reads.
+struct Helpers {
+  TextThreads threads;
+  std::thread::id thread;
+  bool areHere() const;
 };
 
 // As a piece of work: reads the numbers of pieces that wait. One that comes late finds none.
@@ -27,9 +38,10 @@ class TextPieces final : public Work {
   // The text's next bytes; fewer than asked for only at the end, or if *fails, when more may come.
   using Read = std::function<size_t(char* out, size_t size, bool* fails)>;
 
-  TextPieces(const TextThreads& threads, const RowParser& parser);
+  // Borrows the parser until it is closed.
+  TextPieces(const TextThreads& threads, const PieceParser& parser);
 
-  // These on the caller's thread alone.
+  // These by one thread at a time; others are asked to help by that which made this.
   //
   // Takes pieces of what `read` gives while there is room, but one at least, not many more than
   // hold `wanted_bytes`; and has them read.
@@ -37,7 +49,7 @@ class TextPieces final : public Work {
   // Whether there is a piece, whose numbers are read then. The first one, until it is dropped.
   bool waitForFirst();
   const uint64_t* numbers() const { return first().numbers.data(); }
-  const RowParser::Found& found() const { return first().found; }
+  const PieceParser::Found& found() const { return first().found; }
   const char* text() const { return first().text.data(); }
   size_t textBytes() const { return first().size; }
   void dropFirst();
@@ -55,7 +67,7 @@ class TextPieces final : public Work {
     Array<char> text;  // with the zeros that the parser wants behind it
     Array<uint64_t> numbers;
     size_t size = 0;  // of the text
-    RowParser::Found found;
+    PieceParser::Found found;
     State state = State::kFree;
   };
   using Lock = std::unique_lock<std::mutex>;
@@ -70,7 +82,8 @@ class TextPieces final : public Work {
   void readPiece(Piece& piece, Lock& lock) noexcept;
 
   const TextThreads threads_;
-  const RowParser parser_;
+  const PieceParser& parser_;
+  const std::thread::id thread_ = std::this_thread::get_id();
   Account account_;
   std::deque<Piece> pieces_;
   size_t first_ = 0, count_ = 0;  // of those that have text

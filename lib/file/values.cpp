@@ -9,9 +9,24 @@
 
 namespace tetstream {
 
+static uint16_t reversed(uint16_t v) {
+  return __builtin_bswap16(v);
+}
+static uint32_t reversed(uint32_t v) {
+  return __builtin_bswap32(v);
+}
+static uint64_t reversed(uint64_t v) {
+  return __builtin_bswap64(v);
+}
+
 template <class T>
 static void reverseEach(unsigned char* bytes, size_t count) {
-  for (size_t i = 0; i < count; ++i, bytes += sizeof(T)) std::reverse(bytes, bytes + sizeof(T));
+  for (size_t i = 0; i < count; ++i, bytes += sizeof(T)) {
+    T value;
+    std::memcpy(&value, bytes, sizeof value);
+    value = reversed(value);
+    std::memcpy(bytes, &value, sizeof value);
+  }
 }
 
 void swapBytes(unsigned char* bytes, size_t size, size_t count) {

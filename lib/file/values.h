@@ -1,5 +1,5 @@
 // file: the values of one array of a file as numbers of our types, read by range. Depends on
-// base.
+// text_pieces.h, base.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "bytes.h"
 #include "plain_number.h"
 #include "scalar.h"
+#include "text_pieces.h"
 
 namespace tetstream {
 
@@ -56,11 +57,13 @@ std::unique_ptr<Values> openBinaryValues(std::unique_ptr<ValueBytes> bytes, cons
                                          ValueType type, bool big_endian);
 
 // Exactly `count` numbers, at least one, as text between blanks in bytes [begin, end) of the file.
+// Where they are read in sequence the helpers, if there are any, read ahead, which gives the same
+// numbers and errors.
 struct TextPlace {
   uint64_t begin = 0, end = 0, count = 0;
 };
 std::unique_ptr<Values> openTextValues(ByteSource& bytes, const std::string& what, ValueType type,
-                                       const TextPlace& place);
+                                       const TextPlace& place, const Helpers& helpers = {});
 
 bool isSame(ValueType a, ScalarType b);
 

@@ -23,6 +23,7 @@ MeshIntake::MeshIntake(const FileScan& file, const ReadOptions& options, ScalarT
       options_(options),
       name_(file.name()),
       mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir, options.threads.tasks)),
+      held_cells_(4 * (kRowsAtOnce + kMostSplit)),
       faces_(sizeof(int64_t[4]), options.temp_dir, {2, 256 << 10}, options.threads.tasks) {}
 
 void MeshIntake::addLabels(const char* name, bool wide, bool sure) {
@@ -105,25 +106,24 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
                                              nameOf(kind.shape) + "; " + kOnlyTetrahedra);
   size_t count = 1;
   if (kind.shape == CellShape::kTetra) {
-    held_cells_.insert(held_cells_.end(), corners, corners + 4);
+    holdCell(corners);
   } else {
     int64_t made[kMostSplit][4];
     count = splitCell(kind.shape, corners, made);
-    for (size_t i = 0; i < count; ++i)
-      held_cells_.insert(held_cells_.end(), std::begin(made[i]), std::end(made[i]));
+    for (size_t i = 0; i < count; ++i) holdCell(made[i]);
     ++split_;
   }
   quadratic_ += kind.nodes > cornersOf(kind.shape);
   for (int c = 0; c < cornersOf(kind.shape); ++c)
     largest_corner_ = std::max(largest_corner_, corners[c]);
   for (size_t k = 0; k < labels_.size(); ++k) takeLabel(labels_[k], labels[k], count, number);
-  if (held_cells_.size() >= 4 * kRowsAtOnce) writeHeld();
+  if (held_ >= kRowsAtOnce) writeHeld();
   return count;
 }
 
 void MeshIntake::writeHeld() {
-  mesh_->appendCells(held_cells_.data(), held_cells_.size() / 4);
-  held_cells_.clear();
+  mesh_->appendCells(held_cells_.data(), held_);
+  held_ = 0;
 }
 
 void MeshIntake::addFace(CellKind kind, const int64_t* corners, int64_t label) {

@@ -3,6 +3,7 @@
 // file_scan.h, mesh_spool.h, format_rows.h, scattered_rows.h.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ class MeshIntake {
   MeshIntake(const FileScan& file, const ReadOptions& options, ScalarType position_type);
 
   MeshSpool& mesh() { return *mesh_; }
-  uint64_t cellCount() const { return mesh_->cellCount() + held_cells_.size() / 4; }
+  uint64_t cellCount() const { return mesh_->cellCount() + held_; }
   // Integer cell data, int32 unless `wide`; before the first cell. Not there if all are 0, unless
   // they are `sure` to have been.
   void addLabels(const char* name, bool wide = false, bool sure = false);
@@ -69,6 +70,10 @@ class MeshIntake {
   void appendLabels(Labels& labels, const int64_t* rows, size_t count);
   void writeLabels(Labels& labels);
   void countZeros(Labels& labels);
+  void holdCell(const int64_t* corners) {
+    std::copy(corners, corners + 4, held_cells_.begin() + static_cast<std::ptrdiff_t>(4 * held_));
+    ++held_;
+  }
   void writeHeld();
   void checkCorners();
   void takeFaces();
@@ -80,6 +85,7 @@ class MeshIntake {
   std::unique_ptr<MeshSpool> mesh_;
   std::vector<Labels> labels_, point_labels_;
   std::vector<int64_t> held_cells_;  // some, which are written together
+  size_t held_ = 0;                  // of them
   RowSpool faces_;  // three points and a label; only those of cells go into the mesh
   std::vector<std::unique_ptr<Data>> data_;
   std::map<std::string, uint64_t> left_out_;

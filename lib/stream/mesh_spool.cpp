@@ -47,12 +47,12 @@ void MeshSpool::appendCells(const int64_t* rows, size_t count) {
   int32_t narrow[4 * kAtOnce];
   for (size_t n; count > 0; rows += 4 * n, count -= n) {
     n = std::min(count, kAtOnce);
-    bool fits = wide_cells_.rows() == 0;
+    int64_t lost = 0;  // bits that are not in the narrow ones
     for (size_t k = 0; k < 4 * n; ++k) {
       narrow[k] = static_cast<int32_t>(rows[k]);
-      fits = fits && narrow[k] == rows[k];
+      lost |= narrow[k] ^ rows[k];
     }
-    if (fits)
+    if (lost == 0 && wide_cells_.rows() == 0)
       cells_.append(narrow, n);
     else
       wide_cells_.append(rows, n);

@@ -85,23 +85,33 @@ class MeditReader {
       rows_.first_tetrahedron = intake_.cellCount();
       rows_.tetrahedra = count;
     }
+    const auto corners = static_cast<size_t>(cornersOf(kind.shape));
+    const bool is_cell = dimensionOf(kind.shape) == 3;
+    const int64_t last = lastVertex();
     int64_t row[kMostMeditNodes + 1];
     scan_.expectRows(count, {{{false, nodes + 1}}});
     for (uint64_t i = 0; i < count; ++i) {
       scan_.integers(row, nodes + 1, section.name.c_str());
-      for (int k = 0; k < cornersOf(kind.shape); ++k) checkVertex(row[k]--);
-      if (dimensionOf(kind.shape) == 3)
+      for (size_t k = 0; k < corners; ++k) checkVertex(row[k]--, last);
+      if (is_cell)
         intake_.addCell(kind, row, row + nodes, static_cast<int64_t>(i + 1));
       else
         intake_.addFace(kind, row, row[nodes]);
     }
   }
 
-  void checkVertex(int64_t vertex) {
-    const auto known = static_cast<int64_t>(intake_.mesh().pointCount());
-    if (vertex < 1 || (any_vertices_ && vertex > known))
-      scan_.file().failBad(textOf("vertex %lld, where there are 1 to %lld",
-                                  static_cast<long long>(vertex), static_cast<long long>(known)));
+  int64_t lastVertex() {
+    return any_vertices_ ? static_cast<int64_t>(intake_.mesh().pointCount()) : INT64_MAX;
+  }
+
+  void checkVertex(int64_t vertex, int64_t last) {
+    if (vertex < 1 || vertex > last) failVertex(vertex);
+  }
+
+  [[noreturn]] void failVertex(int64_t vertex) {
+    scan_.file().failBad(textOf("vertex %lld, where there are 1 to %lld",
+                                static_cast<long long>(vertex),
+                                static_cast<long long>(intake_.mesh().pointCount())));
   }
 
   void readRequired() {
@@ -110,7 +120,7 @@ class MeditReader {
       int64_t vertex;
       scan_.integers(&vertex, 1, "a required vertex");
       if (!any_vertices_) continue;
-      checkVertex(vertex);
+      checkVertex(vertex, lastVertex());
       intake_.mesh().lock(static_cast<uint64_t>(vertex - 1));
     }
     if (!any_vertices_ && count > 0)

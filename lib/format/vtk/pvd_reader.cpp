@@ -85,9 +85,9 @@ Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
     if (file.time != time) continue;
     const std::string path = pathBeside(bytes->name(), file.name);
     if (file.name.ends_with(".pvtu"))
-      addPvtuPieces(mesh, *pool, *openFile(path), options.threads.tasks);
+      addPvtuPieces(mesh, *pool, *openFile(path), options.threads);
     else
-      addVtuPieces(mesh, pool->add(path), options.threads.tasks);
+      addVtuPieces(mesh, pool->add(path), options.threads);
   }
   mesh.name = bytes->name();
   Input input;

@@ -49,9 +49,10 @@ class PieceNames final : XmlFeed {
 
 }  // namespace
 
-void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes, const Tasks* tasks) {
+void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes,
+                   const TextThreads& threads) {
   for (const std::string& name : PieceNames(bytes).run())
-    addVtuPieces(mesh, pool.add(pathBeside(bytes.name(), name)), tasks);
+    addVtuPieces(mesh, pool.add(pathBeside(bytes.name(), name)), threads);
 }
 
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
@@ -59,7 +60,7 @@ Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   const auto pool = std::make_shared<FilePool>();
   MeshPieces mesh;
   mesh.join = true;
-  addPvtuPieces(mesh, *pool, *bytes, options.threads.tasks);
+  addPvtuPieces(mesh, *pool, *bytes, options.threads);
   mesh.name = bytes->name();
   if (mesh.pieces.empty()) fail(Status::kBadData, "%s: there is no <Piece>", mesh.name.c_str());
   Input input;

@@ -13,6 +13,7 @@ namespace {
 struct OpenVtk {
   std::unique_ptr<ByteSource> bytes;
   VtkFile file;
+  Helpers helpers;
 };
 using SharedVtk = std::shared_ptr<OpenVtk>;
 
@@ -67,7 +68,8 @@ std::unique_ptr<Values> openValues(const SharedVtk& vtk, const VtkArray& array, 
     fail(Status::kBadData, "%s has %llu values where the counts need %llu", what.c_str(),
          static_cast<unsigned long long>(held), static_cast<unsigned long long>(count));
   if (!vtk->file.binary)
-    return openTextValues(*vtk->bytes, what, array.type, {array.begin, array.end, count});
+    return openTextValues(*vtk->bytes, what, array.type, {array.begin, array.end, count},
+                          vtk->helpers);
   std::unique_ptr<ValueBytes> bytes = std::make_unique<FileBytes>(vtk, array);
   if (array.bits) bytes = std::make_unique<BitBytes>(std::move(bytes));
   return openBinaryValues(std::move(bytes), what, array.type, true);
@@ -106,7 +108,8 @@ MeshPiece pieceOf(const SharedVtk& vtk) {
 Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   bytes = makeSeekable(std::move(bytes), options.temp_dir);
   VtkFile file = parseVtk(*bytes);
-  const auto vtk = std::make_shared<OpenVtk>(OpenVtk{std::move(bytes), std::move(file)});
+  const auto vtk = std::make_shared<OpenVtk>(
+      OpenVtk{std::move(bytes), std::move(file), {options.threads, std::this_thread::get_id()}});
   MeshPieces mesh;
   mesh.name = vtk->bytes->name();
   mesh.form = vtk->file.offsets ? CellForm::kOffsets : CellForm::kInterleaved;

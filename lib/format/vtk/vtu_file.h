@@ -1,16 +1,15 @@
 // format/vtk: what the XML header of a .vtu file says: pieces, arrays and where their values lie.
-// Depends on mesh_pieces.h.
+// Depends on mesh_pieces.h, text_pieces.h.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "bytes.h"
 #include "mesh_pieces.h"
-#include "tasks.h"
+#include "text_pieces.h"
 
 namespace tetstream {
 
@@ -35,20 +34,13 @@ struct VtuPiece {
   std::optional<VtuArray> points, connectivity, offsets, types;
 };
 
-// Threads that help the one that opened the file, when it reads.
-struct VtuHelpers {
-  const Tasks* tasks = nullptr;  // borrowed; null: nobody
-  std::thread::id thread;
-  bool areHere() const;
-};
-
 struct VtuFile {
   bool big_endian = false;
   const VtuCompressor* compressor = nullptr;
   size_t word_bytes = 4;  // of lengths and block tables
   std::vector<VtuPiece> pieces;
   std::string global_ids;  // the points' array of that meaning, if the header names one
-  VtuHelpers helpers;
+  Helpers helpers;
   std::vector<std::string> notes;  // what was left out, each once
   void addNote(const std::string& text) { MeshPieces::addNoteTo(notes, text); }
 };

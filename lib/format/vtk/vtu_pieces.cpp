@@ -25,10 +25,10 @@ std::optional<MeshArray> arrayOf(const std::shared_ptr<OpenVtu>& vtu,
 
 }  // namespace
 
-void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const Tasks* tasks) {
+void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const TextThreads& threads) {
   VtuFile parsed = parseVtuHeader(*bytes);
   mesh.name = bytes->name();
-  parsed.helpers = {tasks, std::this_thread::get_id()};
+  parsed.helpers = {threads, std::this_thread::get_id()};
   if (parsed.compressor && parsed.helpers.areHere()) bytes = openShared(std::move(bytes));
   const auto vtu = std::make_shared<OpenVtu>(OpenVtu{std::move(bytes), std::move(parsed)});
   for (const std::string& note : vtu->file.notes) mesh.addNote(note);

@@ -10,11 +10,11 @@
 
 namespace tetstream {
 
-// Adds the pieces of one file, which stays open; the mesh takes its name. `tasks`, which may be
-// null and is borrowed, helps the thread that calls when it reads.
-void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const Tasks* tasks);
+// Adds the pieces of one file, which stays open; the mesh takes its name. `threads`
+// help the thread that calls when it reads.
+void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const TextThreads& threads);
 
 // Adds those of the files that a .pvtu file names.
-void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes, const Tasks* tasks);
+void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes, const TextThreads& threads);
 
 }  // namespace tetstream

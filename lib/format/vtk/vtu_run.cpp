@@ -123,7 +123,7 @@ std::unique_ptr<Values> openVtuValues(ByteSource& bytes, const VtuFile& file, co
                                       uint64_t count) {
   const std::string what = placeOf(bytes, array.name);
   if (array.format == VtuFormat::kAscii)
-    return openTextValues(bytes, what, array.type, {array.begin, array.end, count});
+    return openTextValues(bytes, what, array.type, {array.begin, array.end, count}, file.helpers);
   return openBinaryValues(openVtuBytes(bytes, file, array, count * sizeOf(array.type)), what,
                           array.type, file.big_endian);
 }

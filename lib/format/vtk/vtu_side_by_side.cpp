@@ -21,14 +21,14 @@ constexpr size_t kMostParts = 8;
 
 class SideBySide final : public ValueBytes {
  public:
-  SideBySide(const VtuHelpers& helpers, uint64_t size, uint64_t part_bytes,
+  SideBySide(const Helpers& helpers, uint64_t size, uint64_t part_bytes,
              std::unique_ptr<ValueBytes> bytes, OpenBytes open)
       : helpers_(helpers),
         open_(std::move(open)),
         size_(size),
         part_bytes_(part_bytes),
         held_(account_) {
-    parts_.resize(std::min(helpers.tasks->threads(), kMostParts));
+    parts_.resize(std::min(helpers.threads.tasks->threads(), kMostParts));
     parts_[0] = std::move(bytes);
   }
 
@@ -60,7 +60,7 @@ class SideBySide final : public ValueBytes {
     end_ = begin_ = 0;
     try {
       if (held_.size() < bytes) held_.resize(bytes);
-      helpers_.tasks->forParts(
+      helpers_.threads.tasks->forParts(
           static_cast<size_t>((bytes - 1) / part_bytes_ + 1), [&](size_t part) {
             if (!parts_[part]) parts_[part] = open_();
             const uint64_t at = part * part_bytes_;
@@ -78,7 +78,7 @@ class SideBySide final : public ValueBytes {
     end_ = begin + bytes;
   }
 
-  const VtuHelpers helpers_;
+  const Helpers helpers_;
   const OpenBytes open_;
   const uint64_t size_, part_bytes_;
   std::vector<std::unique_ptr<ValueBytes>>
@@ -112,11 +112,7 @@ class SharedBytes final : public ByteSource {
 
 }  // namespace
 
-bool VtuHelpers::areHere() const {
-  return tasks && tasks->threads() > 1 && std::this_thread::get_id() == thread;
-}
-
-std::unique_ptr<ValueBytes> openSideBySide(const VtuHelpers& helpers, uint64_t size,
+std::unique_ptr<ValueBytes> openSideBySide(const Helpers& helpers, uint64_t size,
                                            uint64_t block_bytes, std::unique_ptr<ValueBytes> bytes,
                                            OpenBytes open) {
   const uint64_t part = ((kPartBytes - 1) / block_bytes + 1) * block_bytes;

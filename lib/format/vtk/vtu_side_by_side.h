@@ -15,7 +15,7 @@ using OpenBytes = std::function<std::unique_ptr<ValueBytes>()>;
 // `bytes`, which are `size` in blocks of `block_bytes`, decompressed ahead with the helpers where
 // they are read in sequence on the helpers' thread: some parts side by side, of whole blocks each.
 // Errors come when it is their turn. Blocks that are too large to be held come as they did.
-std::unique_ptr<ValueBytes> openSideBySide(const VtuHelpers& helpers, uint64_t size,
+std::unique_ptr<ValueBytes> openSideBySide(const Helpers& helpers, uint64_t size,
                                            uint64_t block_bytes, std::unique_ptr<ValueBytes> bytes,
                                            OpenBytes open);
 

@@ -100,13 +100,14 @@ MeshArray XdmfArrays::ofText(const XdmfItem& item, MeshArray array) {
     array.type = wide ? ValueType::kUInt64 : ValueType::kUInt32;
   else
     array.type = wide ? ValueType::kInt64 : ValueType::kInt32;
-  array.open = [bytes = bytes_, item, name = array.name, type = array.type](uint64_t count) {
+  array.open = [bytes = bytes_, helpers = helpers_, item, name = array.name,
+                type = array.type](uint64_t count) {
     if (count != item.count())
       failCount(textOf("%s: byte %llu", bytes->name().c_str(),
                        static_cast<unsigned long long>(item.begin)),
                 item.count(), count);
     return openTextValues(*bytes, tetstream::placeOf(*bytes, name), type,
-                          {item.begin, item.end, count});
+                          {item.begin, item.end, count}, helpers);
   };
   return array;
 }

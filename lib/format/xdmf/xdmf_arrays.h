@@ -18,7 +18,8 @@ class Hdf5File;
 
 class XdmfArrays {
  public:
-  explicit XdmfArrays(std::shared_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {}
+  XdmfArrays(std::shared_ptr<ByteSource> bytes, const Helpers& helpers)
+      : bytes_(std::move(bytes)), helpers_(helpers) {}
 
   // The item's values, which are as many as its sizes say: throws if they are not.
   MeshArray arrayOf(const XdmfItem& item, const std::string& name, int components);
@@ -37,6 +38,7 @@ class XdmfArrays {
   [[noreturn]] void failItem(const XdmfItem& item, Status status, const std::string& text) const;
 
   std::shared_ptr<ByteSource> bytes_;
+  const Helpers helpers_;  // of text
   std::map<std::string, std::shared_ptr<Hdf5File>> files_;
   std::shared_ptr<FilePool> pool_ = std::make_shared<FilePool>();
   std::map<std::string, std::shared_ptr<ByteSource>> raw_files_;

@@ -21,7 +21,10 @@ constexpr int kMostOthers = 1024;  // functions, each of which looks for its mes
 class Xdmf {
  public:
   Xdmf(const std::shared_ptr<ByteSource>& bytes, const ReadOptions& options, MeshPieces& mesh)
-      : options_(options), mesh_(mesh), arrays_(bytes), grids_(readXdmf(*bytes)) {
+      : options_(options),
+        mesh_(mesh),
+        arrays_(bytes, {options.threads, std::this_thread::get_id()}),
+        grids_(readXdmf(*bytes)) {
     mesh_.name = bytes->name();
     children_.resize(grids_.size());
     for (int i = 0; i < gridCount(); ++i)

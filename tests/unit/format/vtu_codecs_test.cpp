@@ -138,7 +138,7 @@ TEST(VtuCodecs, AreReadByThreadsInAnyOrder) {
   const auto open = [] { return std::make_unique<Sevens>(); };
   const uint64_t size = 8 << 20;
   const auto bytes =
-      openSideBySide({&eight, std::this_thread::get_id()}, size, 32768, open(), open);
+      openSideBySide({{&eight}, std::this_thread::get_id()}, size, 32768, open(), open);
   // Two in sequence, by which what follows is held: of the end, and then of much more.
   for (const uint64_t offset : {size - 3000, size - 2000, uint64_t{0}, uint64_t{1000}}) {
     unsigned char row[1000];
