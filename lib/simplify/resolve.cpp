@@ -224,7 +224,8 @@ void Resolver<S>::addFound(uint32_t v, const Found& found, const Part& part) {
   sheets_.clear();
   for (size_t i = found.begin; i < found.begin + found.count; ++i) {
     const uint64_t face = part.faces[i];
-    addFace(v, static_cast<uint32_t>(face >> 32), static_cast<uint32_t>(face), kBoundary, nullptr);
+    addFace(v, static_cast<uint32_t>(face >> 32), static_cast<uint32_t>(face), SheetFace::kOuter,
+            nullptr);
   }
   finishFaces(v, found.is_disk);
 }
