@@ -26,7 +26,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
       refusals_(account),
       sound_(account),
       link_(account),
-      face_labels_(mesh, core.window.faces),
+      edge_faces_(mesh, core.window.faces),
       stars_(account),
       merged_(static_cast<size_t>(core.plan.values)),
       z_(static_cast<size_t>(core.plan.dimension)) {}
@@ -265,7 +265,7 @@ auto Collapser<Mesh>::adjust(const Strata& strata) -> S {
 template <class Mesh>
 bool Collapser<Mesh>::mayKeepStrata(const Strata& strata, uint32_t other, const Star& ring) const {
   const bool in_labelled =
-      core_.inner_sheets && strata.onSheets() && face_labels_.holdEdge(ring, other);
+      core_.inner_sheets && strata.onSheets() && edge_faces_.holdEdge(ring, other);
   return StrataCondition::mayHold(strata.u, strata.v, ring, strata.embedded, in_labelled);
 }
 
@@ -275,8 +275,8 @@ void Collapser<Mesh>::listLabelled(uint32_t u, uint32_t v) {
   labelled_.u.clear();
   labelled_.v.clear();
   const uint8_t* const flags = mesh_.allFlags();
-  if (flags[u] & kInterface) face_labels_.list(stars_.u, stars_.ring, labelled_.u);
-  if (flags[v] & kInterface) face_labels_.list(stars_.v, stars_.ring_from_v, labelled_.v);
+  if (flags[u] & kInterface) edge_faces_.list(stars_.u, stars_.ring, labelled_.u);
+  if (flags[v] & kInterface) edge_faces_.list(stars_.v, stars_.ring_from_v, labelled_.v);
 }
 
 // Of the stars as gathered.
@@ -402,7 +402,7 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   if (core_.plan.values > core_.plan.dimension) interpolateCarried(u, v);
   if (core_.plan.picks > 0) pickNearest(u, v);
   if (core_.plan.cell_means > 0) heirs_.handOver(mesh_, v, stars_, core_.plan.cell_means);
-  if (core_.window.faces.anyPlaced()) face_labels_.handOver(u, v, stars_);
+  if (core_.window.faces.anyPlaced()) edge_faces_.handOver(u, v, stars_);
   const double in_users_terms = static_cast<double>(error) * core_.error_unit;
   if (core_.tracer) trace(u, v, in_users_terms);
   mesh_.merge(u, v, stars_);

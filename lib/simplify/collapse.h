@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core.h"
+#include "edge_faces.h"
 #include "edge_notes.h"
-#include "face_labels.h"
 #include "heirs.h"
 #include "link.h"
 #include "patch.h"
@@ -130,7 +130,7 @@ class Collapser {
   float price_ = 1;
   LinkCondition link_;
   StrataCondition strata_;
-  FaceLabels<Mesh> face_labels_;
+  EdgeFaces<Mesh> edge_faces_;
   StrataCondition::Labelled labelled_;  // of the edge that is tested
   SheetSides sides_;
   RegionVolumes volumes_;

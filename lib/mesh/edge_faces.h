@@ -11,9 +11,9 @@
 namespace tetstream {
 
 template <class Mesh>
-class FaceLabels {
+class EdgeFaces {
  public:
-  FaceLabels(const Mesh& mesh, LabelledFaces& faces) : mesh_(mesh), faces_(faces) {}
+  EdgeFaces(const Mesh& mesh, LabelledFaces& faces) : mesh_(mesh), faces_(faces) {}
 
   // Whether one end's edge to `other` is one of a labelled face inside the domain. `ring`: the
   // cells that hold both, as gathered from that end.
