@@ -21,6 +21,7 @@ struct Ledger {
   double error_unit = 1;  // times an error in normalised units: the report's
   double error = 0, error_limit = 0;  // of all that was read, made and allowed
   bool error_met = false;             // a collapse was refused for it
+  bool flips = false;                 // after every pass cells are flipped
 };
 
 // When to stop; 0: not given. The first that is reached ends the run.

@@ -255,6 +255,7 @@ class WindowedEngine final : public Simplifier::Engine {
     l.live = mesh().liveCells();
     l.keep = keptCells();
     l.rescaled = core_.rescaled;
+    l.flips = core_.flips();
     l.error_unit = core_.error_unit;
     l.error = core_.tally.error;
     l.error_limit = core_.error_limit;

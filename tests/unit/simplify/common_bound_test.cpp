@@ -245,9 +245,10 @@ TEST(CommonBound, ChangesItsUnitsWithTheQuadrics) {
 // Every window of a stream that nobody knows is approached: in fewer passes than where a pilot
 // tells that a strong reduction is worth them, and from not far below.
 TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {
-  const auto second = [](double ratio, const Pilot& pilot, bool is_tight) {
+  const auto second = [](double ratio, const Pilot& pilot, bool is_tight, bool flips = false) {
     CommonBound budget({ratio, 0, 0}, 1000000, pilot, is_tight);
-    const Ledger window = {20000, 0, 2000, 20000, 10000};
+    Ledger window = {20000, 0, 2000, 20000, 10000};
+    window.flips = flips;
     budget.goalOf(window);
     budget.learn(1e-3, window, window, 500);
     return budget.goalOf(window);
@@ -258,6 +259,7 @@ TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {
     EXPECT_EQ(unknown.approaches, 2);
     EXPECT_EQ(unknown.step, 3);
     EXPECT_EQ(second(ratio, {}, true).approaches, 0) << "memory is bounded";
+    EXPECT_EQ(second(ratio, {}, false, true).approaches, 4) << "flips come between";
   }
   EXPECT_EQ(second(0.5, pilot, false).approaches, 0);
   const Goal known = second(0.02, pilot, false);
