@@ -608,11 +608,11 @@ typedef struct tetstream_log_rows {
 /* Takes a log; the rules of tetstream_reader_callbacks hold. Every collapse comes once, in the order
  * in which it was done. Done in that order on the input (the cells with both vertices go, those with
  * the removed one get the kept one in its place) they make the cells of the output, the last row of
- * a vertex having its position and values; a vertex without a row is as it was. No cells are flipped
- * for that, as thin ones are in a run without a log. With the option `shape` at "solver",
+ * a vertex having its position and values; a vertex without a row is as it was. No cells are
+ * flipped for that, as thin ones are in a run without a log. With the option `shape` at "solver",
  * where that has an effect, they are, of which the log does not tell: vertices are right, cells are
- * not those of the output. A vertex that was removed is in no later row. The same input and options give the same log. Memory: 8 bytes
- * for each vertex in the window. */
+ * not those of the output. A vertex that was removed is in no later row. The same input and options
+ * give the same log. Memory: 8 bytes for each vertex in the window. */
 typedef struct tetstream_log_callbacks {
   size_t struct_size;
   void *user;

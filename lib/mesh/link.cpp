@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "turn_weight.h"
+
 namespace tetstream {
 
 LinkCondition::LinkCondition(Account& account) : marks_(account) {}
@@ -92,19 +94,11 @@ bool LinkCondition::noCommonTriangle(const Stars& stars) const {
   return true;
 }
 
-// Looks random, and is another for each vertex.
-static uint64_t sizeOf(uint32_t vertex) {
-  const uint64_t x = vertex * uint64_t{0x9e3779b97f4a7c15};
-  return x ^ (x >> 32);
-}
-
-// In the link of an end the triangles round a vertex a go from b to c, on to d, and so forth. With
-// a number for each vertex, that of c less that of b summed over them is 0 where they close a
-// circle, and otherwise the difference of two: not 0. Of several fans round a it is 0 by a chance
-// of about 2^-60; such ends do not come here, they are locked.
+// In the link of an end the triangles round a vertex a go from b to c, on to d, and so forth. Ends
+// with several fans round a do not come here, they are locked.
 void LinkCondition::addTurns(const Star& cells, Side& side) const {
   for (const StarCell& s : cells) {
-    const uint64_t a = sizeOf(s.t[0]), b = sizeOf(s.t[1]), c = sizeOf(s.t[2]);
+    const uint64_t a = turnWeight(s.t[0]), b = turnWeight(s.t[1]), c = turnWeight(s.t[2]);
     side.turn[numberOf(s.t[0])] += c - b;
     side.turn[numberOf(s.t[1])] += a - c;
     side.turn[numberOf(s.t[2])] += b - a;

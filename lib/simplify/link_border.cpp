@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-namespace tetstream {
+#include "turn_weight.h"
 
-// Looks random, and is another for each number.
-static uint64_t weightOf(uint32_t number) {
-  const uint64_t x = (number + 1) * uint64_t{0x9e3779b97f4a7c15};
-  return x ^ (x >> 32);
-}
+namespace tetstream {
 
 // Of each vertex of the link: the weights of the ends of the edges from it less those of the edges
 // to it. 0 where there is one back for each.
@@ -25,7 +21,7 @@ void LinkBorder::sumEdges(const Star& star) {
     for (uint32_t t : s.t) *n++ = numbers_.numberOf(t);
   std::fill_n(sums_.data(), numbers_.count(), uint64_t{0});
   for (n = corner_numbers_.data(); n < corner_numbers_.data() + corners; n += 3) {
-    const uint64_t a = weightOf(n[0]), b = weightOf(n[1]), c = weightOf(n[2]);
+    const uint64_t a = turnWeight(n[0]), b = turnWeight(n[1]), c = turnWeight(n[2]);
     sums_[n[0]] += b - c;
     sums_[n[1]] += c - a;
     sums_[n[2]] += a - b;

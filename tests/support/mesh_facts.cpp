@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "exact_reference.h"
+#include "groups.h"
 
 namespace tetstream::test {
 namespace {
@@ -14,22 +14,6 @@ namespace {
 using Edge = std::array<int64_t, 2>;
 using Face = std::array<int64_t, 3>;
 using Cell = std::array<int64_t, 4>;
-
-// Sets that are joined.
-class Groups {
- public:
-  explicit Groups(size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), size_t{0});
-  }
-  size_t find(size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(size_t a, size_t b) { parent_[find(a)] = find(b); }
-
- private:
-  std::vector<size_t> parent_;
-};
 
 void corners(const TestMesh& mesh, size_t cell, double p[4][3]) {
   for (size_t j = 0; j < 4; ++j)

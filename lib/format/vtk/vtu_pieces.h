@@ -10,8 +10,8 @@
 
 namespace tetstream {
 
-// Adds the pieces of one file, which stays open; the mesh takes its name. `threads`
-// help the thread that calls when it reads.
+// Adds the pieces of one file, which stays open; the mesh takes its name. `threads` help the thread
+// that calls when it reads.
 void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const TextThreads& threads);
 
 // Adds those of the files that a .pvtu file names.

@@ -1,7 +1,6 @@
 // Arrays of text, of VTK's files and of XDMF, that several threads read.
 #include <gtest/gtest.h>
 
-#include "strange_workers.h"
 #include "text_threads_testing.h"
 
 namespace tetstream {
@@ -93,19 +92,15 @@ std::string xdmfText() {
          xdmfItem("Float", kPoints, 1, a.values) + "</Attribute>\n</Grid></Domain></Xdmf>\n";
 }
 
-const struct ArrayFormat {
-  const char* name;
-  Open open;
-  std::string text;
-} kFormats[] = {{"vtk 3.0", openVtk, oldVtkText()},
-                {"vtk 5.1", openVtk, newVtkText()},
-                {"vtu", openVtu, vtuText()},
-                {"xdmf", openXdmf, xdmfText()}};
+const TextFormat kFormats[] = {{"vtk 3.0", openVtk, oldVtkText()},
+                               {"vtk 5.1", openVtk, newVtkText()},
+                               {"vtu", openVtu, vtuText()},
+                               {"xdmf", openXdmf, xdmfText()}};
 
 TEST(ArrayThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
-  for (const ArrayFormat& format : kFormats) {
+  for (const TextFormat& format : kFormats) {
     SCOPED_TRACE(format.name);
-    const OpenIt open = opening(format.open, format.text);
+    const OpenIt open = format.opening();
     const std::string mesh = expectSame(open, {40, 1000, 100000});
     EXPECT_NE(mesh.substr(0, 6), "error:") << mesh.substr(0, 200);
     for (size_t bytes = 8; bytes < 200; bytes += 5)
@@ -114,10 +109,10 @@ TEST(ArrayThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
 }
 
 TEST(ArrayThreads, KnowEveryBlank) {
-  for (const ArrayFormat& format : kFormats) {
+  for (const TextFormat& format : kFormats) {
     SCOPED_TRACE(format.name);
     const std::vector<std::string> all = linesOf(format.text);
-    const std::string mesh = outcomeOf(opening(format.open, format.text));
+    const std::string mesh = outcomeOf(format.opening());
     for (const char* end : {"\r\n", " \t\n", "\n\n"}) {
       if (std::string_view(format.name).starts_with("vtk") && end[1] == '\n') continue;
       EXPECT_TRUE(expectSame(opening(format.open, joined(all, end)), {30, 300}) == mesh);
@@ -126,7 +121,7 @@ TEST(ArrayThreads, KnowEveryBlank) {
 }
 
 TEST(ArrayThreads, FindTheFirstBadValueOfOneThread) {
-  for (const ArrayFormat& format : kFormats) {
+  for (const TextFormat& format : kFormats) {
     SCOPED_TRACE(format.name);
     const std::vector<std::string> all = linesOf(format.text);
     size_t errors = 0, tried = 0;
@@ -142,28 +137,11 @@ TEST(ArrayThreads, FindTheFirstBadValueOfOneThread) {
 }
 
 TEST(ArrayThreads, StopWhereATextIsCutOff) {
-  for (const ArrayFormat& format : kFormats) {
-    SCOPED_TRACE(format.name);
-    for (size_t size = 61; size < format.text.size(); size += 211)
-      expectSame(opening(format.open, format.text.substr(0, size)), {50});
-  }
+  expectSameWhereverCutOff(kFormats);
 }
 
 TEST(ArrayThreads, NeedNobodyWhoComes) {
-  NoWorkers none;
-  HastyWorkers hasty;
-  LazyWorkers lazy;
-  for (const ArrayFormat& format : kFormats) {
-    const OpenIt open = opening(format.open, format.text);
-    const std::string mesh = outcomeOf(open);
-    for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
-      const Tasks tasks(4, workers);
-      EXPECT_TRUE(outcomeOf(open, {&tasks, 50}) == mesh) << format.name;
-    }
-  }
-  EXPECT_GT(none.refused, 0U);
-  EXPECT_GT(lazy.waiting.size(), 0U);
-  lazy.workAll();  // too late
+  expectSameWhoeverComes(kFormats);
 }
 
 }  // namespace

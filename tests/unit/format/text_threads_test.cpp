@@ -7,7 +7,6 @@
 #include <fstream>
 
 #include "file_scan.h"
-#include "strange_workers.h"
 #include "text_threads_testing.h"
 
 namespace tetstream {
@@ -96,36 +95,29 @@ std::string faceText() {
   return text;
 }
 
-const struct TextFormat {
-  const char* name;
-  Open open;
-  std::string text;
-  char comment;
-} kFormats[] = {{"mesh", openMedit, meshText(), '#'},
-                {"msh 2.2", openMsh, msh2Text(), 0},
-                {"msh 4.1", openMsh, msh4Text(), 0},
-                {"su2", openSu2, su2Text(), '%'}};
+const TextFormat kFormats[] = {{"mesh", openMedit, meshText(), '#'},
+                               {"msh 2.2", openMsh, msh2Text()},
+                               {"msh 4.1", openMsh, msh4Text()},
+                               {"su2", openSu2, su2Text(), '%'}};
 
 // --------------------------------------------------------------------------------------- the tests
 
 TEST(TextThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
   for (const TextFormat& format : kFormats) {
     SCOPED_TRACE(format.name);
-    const std::string mesh = outcomeOf(opening(format.open, format.text));
+    const std::string mesh = outcomeOf(format.opening());
     EXPECT_NE(mesh.substr(0, 6), "error:") << mesh.substr(0, 200);
     for (size_t bytes = 8; bytes < 200; bytes += 5)
-      EXPECT_TRUE(outcomeOf(opening(format.open, format.text),
-                            {someTasks()[bytes % 3].get(), bytes}) == mesh)
+      EXPECT_TRUE(outcomeOf(format.opening(), {someTasks()[bytes % 3].get(), bytes}) == mesh)
           << bytes;
-    EXPECT_EQ(expectSame(opening(format.open, format.text), {40, 1000, 100000}).size(),
-              mesh.size());
+    EXPECT_EQ(expectSame(format.opening(), {40, 1000, 100000}).size(), mesh.size());
   }
 }
 
 TEST(TextThreads, KnowEveryWayToEndALine) {
   for (const TextFormat& format : kFormats) {
     SCOPED_TRACE(format.name);
-    const std::string mesh = outcomeOf(opening(format.open, format.text));
+    const std::string mesh = outcomeOf(format.opening());
     std::vector<std::string> lines = linesOf(format.text);
     const auto same = [&](const std::string& text) {
       EXPECT_TRUE(expectSame(opening(format.open, text), {30, 64, 300}) == mesh);
@@ -150,7 +142,7 @@ TEST(TextThreads, ReadRowsThatShareLinesOrRunOverSeveral) {
   for (const TextFormat& format : kFormats) {
     if (std::strcmp(format.name, "su2") == 0) continue;
     SCOPED_TRACE(format.name);
-    const std::string mesh = outcomeOf(opening(format.open, format.text));
+    const std::string mesh = outcomeOf(format.opening());
     std::string one_line = format.text, short_lines = format.text;
     std::replace(one_line.begin() + 60, one_line.end(), '\n', ' ');
     std::replace(short_lines.begin() + 60, short_lines.end(), ' ', '\n');
@@ -177,11 +169,7 @@ TEST(TextThreads, FindTheFirstBadLineOfOneThread) {
 }
 
 TEST(TextThreads, StopWhereATextIsCutOff) {
-  for (const TextFormat& format : kFormats) {
-    SCOPED_TRACE(format.name);
-    for (size_t size = 61; size < format.text.size(); size += 211)
-      expectSame(opening(format.open, format.text.substr(0, size)), {50});
-  }
+  expectSameWhereverCutOff(kFormats);
 }
 
 // Bytes that cannot be read from some place on.
@@ -224,20 +212,7 @@ TEST(TextThreads, SayThatReadingFailedOnlyAfterWhatIsWrongBefore) {
 }
 
 TEST(TextThreads, NeedNobodyWhoComes) {
-  NoWorkers none;
-  HastyWorkers hasty;
-  LazyWorkers lazy;
-  for (const TextFormat& format : kFormats) {
-    const OpenIt open = opening(format.open, format.text);
-    const std::string mesh = outcomeOf(open);
-    for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
-      const Tasks tasks(4, workers);
-      EXPECT_TRUE(outcomeOf(open, {&tasks, 50}) == mesh) << format.name;
-    }
-  }
-  EXPECT_GT(none.refused, 0U);
-  EXPECT_GT(lazy.waiting.size(), 0U);
-  lazy.workAll();  // too late
+  expectSameWhoeverComes(kFormats);
 }
 
 // A long text, of which it is known how far it was read.

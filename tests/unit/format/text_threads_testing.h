@@ -6,16 +6,17 @@
 
 #include <functional>
 #include <random>
+#include <span>
 
 #include "indexed_testing.h"
+#include "strange_workers.h"
 #include "tasks.h"
 
 namespace tetstream::test {
 
 constexpr int kPoints = 60, kCells = 70;
 
-// ----------------------------------------------------------------------------- texts of all
-// formats
+// ------------------------------------------------------------------------ texts of all formats
 
 // Numbers in many ways; a comment where the format has them.
 class Words {
@@ -43,8 +44,7 @@ class Words {
   std::mt19937_64 random_{5};
 };
 
-// ------------------------------------------------------------------------------ what comes of a
-// text
+// ------------------------------------------------------------------------- what comes of a text
 
 template <class Read>
 inline void appendRows(std::string& out, size_t row_bytes, int64_t rows, Read read) {
@@ -146,5 +146,39 @@ inline const std::function<std::string(const std::string&)> kDamages[] = {
     [](const std::string& line) { return std::string(1500, '7') + " " + line; },
     [](const std::string&) { return std::string(); },
 };
+
+// A text of some format.
+struct TextFormat {
+  const char* name;
+  Open open;
+  std::string text;
+  char comment = 0;  // where one begins; 0: the format has none
+  OpenIt opening() const { return test::opening(open, text); }
+};
+
+inline void expectSameWhereverCutOff(std::span<const TextFormat> formats) {
+  for (const TextFormat& format : formats) {
+    SCOPED_TRACE(format.name);
+    for (size_t size = 61; size < format.text.size(); size += 211)
+      expectSame(opening(format.open, format.text.substr(0, size)), {50});
+  }
+}
+
+inline void expectSameWhoeverComes(std::span<const TextFormat> formats) {
+  NoWorkers none;
+  HastyWorkers hasty;
+  LazyWorkers lazy;
+  for (const TextFormat& format : formats) {
+    const OpenIt open = format.opening();
+    const std::string mesh = outcomeOf(open);
+    for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
+      const Tasks tasks(4, workers);
+      EXPECT_TRUE(outcomeOf(open, {&tasks, 50}) == mesh) << format.name;
+    }
+  }
+  EXPECT_GT(none.refused, 0U);
+  EXPECT_GT(lazy.waiting.size(), 0U);
+  lazy.workAll();  // too late
+}
 
 }  // namespace tetstream::test

@@ -2,10 +2,10 @@
 // kept as interfaces are.
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 
 #include "faces.h"
+#include "groups.h"
 #include "mesh_facts.h"
 #include "ways_testing.h"
 
@@ -45,22 +45,6 @@ bool inSquare(double a, double b, double half) {
   return std::fabs(a) < half && std::fabs(b) < half;
 }
 
-// Parts of what is joined: numbers that were never joined are parts of their own.
-class Parts {
- public:
-  explicit Parts(size_t count) : above_(count) {
-    std::iota(above_.begin(), above_.end(), size_t{0});
-  }
-  size_t of(size_t i) {
-    while (above_[i] != i) i = above_[i] = above_[above_[i]];
-    return i;
-  }
-  void join(size_t i, size_t j) { above_[of(i)] = of(j); }
-
- private:
-  std::vector<size_t> above_;
-};
-
 // By brute force: of the faces of each label, the boundary's others being 0, and of the edges at
 // which faces of the same labels meet, but two of one: parts, and the Euler characteristic.
 struct Pattern {
@@ -74,7 +58,7 @@ std::pair<size_t, int64_t> partsAndEuler(const Simplices& simplices) {
   std::set<int64_t> vertices;
   std::set<std::vector<int64_t>> edges;
   std::map<std::vector<int64_t>, size_t> first;  // that has this part of its rim
-  Parts parts(simplices.size());
+  Groups parts(simplices.size());
   for (size_t s = 0; s < simplices.size(); ++s)
     for (size_t j = 0; j < simplices[s].size(); ++j) {
       std::vector<int64_t> side = simplices[s];
@@ -84,7 +68,7 @@ std::pair<size_t, int64_t> partsAndEuler(const Simplices& simplices) {
       parts.join(first.emplace(side, s).first->second, s);
     }
   std::set<size_t> found;
-  for (size_t s = 0; s < simplices.size(); ++s) found.insert(parts.of(s));
+  for (size_t s = 0; s < simplices.size(); ++s) found.insert(parts.find(s));
   const auto count = [](size_t n) { return static_cast<int64_t>(n); };
   const bool flat = !simplices.empty() && simplices[0].size() == 3;
   return {found.size(), flat
@@ -133,7 +117,7 @@ std::map<int64_t, double> areasOf(const TestMesh& mesh, const FaceLabels& labels
 // Of the cells that labelled faces close off from the boundary.
 double enclosedVolume(const TestMesh& mesh, const FaceLabels& labels) {
   std::map<Face, size_t> first;
-  Parts parts(mesh.cellCount() + 1);  // the outside is the last
+  Groups parts(mesh.cellCount() + 1);  // the outside is the last
   const auto faceOf = [&](size_t c, size_t j) {
     Face f;
     for (size_t k = 0; k < 3; ++k) f[k] = mesh.cells[4 * c + (j + 1 + k) % 4];
@@ -151,7 +135,7 @@ double enclosedVolume(const TestMesh& mesh, const FaceLabels& labels) {
     if (cells == 1 && !labels.count(face)) parts.join(first[face], mesh.cellCount());
   double volume = 0;
   for (size_t c = 0; c < mesh.cellCount(); ++c)
-    if (parts.of(c) != parts.of(mesh.cellCount())) volume += cellVolume(mesh, c);
+    if (parts.find(c) != parts.find(mesh.cellCount())) volume += cellVolume(mesh, c);
   return volume;
 }
 
