@@ -162,4 +162,14 @@ const void* RowSpool::row(uint64_t index) {
   return held_.data() + place * blockBytes() + static_cast<size_t>(in_block) * row_bytes_;
 }
 
+void RowSpool::read(uint64_t first, size_t count, void* out) {
+  auto* to = static_cast<unsigned char*>(out);
+  for (size_t n; count > 0; first += n, count -= n, to += n * row_bytes_) {
+    const uint64_t in_block = first & ((uint64_t{1} << shift_) - 1);
+    n = file_ ? static_cast<size_t>(std::min<uint64_t>(count, (uint64_t{1} << shift_) - in_block))
+              : count;
+    std::memcpy(to, row(first), n * row_bytes_);
+  }
+}
+
 }  // namespace tetstream

@@ -31,6 +31,7 @@ class RowSpool {
   void append(const void* rows, size_t count);
   void finish();                    // before the first read
   const void* row(uint64_t index);  // lives until the next call
+  void read(uint64_t first, size_t count, void* out);
 
   uint64_t rows() const { return rows_; }
   uint64_t diskBytes() const { return file_ ? file_->size() : 0; }

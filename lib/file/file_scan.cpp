@@ -47,8 +47,15 @@ size_t FileScan::readText(char* out, size_t size) {
   unread_ = {};
   unread_at_ = 0;
   if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
-  const size_t got = ended_ ? 0 : bytes_->read(out, size);
+  const size_t got = ended_ ? 0 : readFile(out, size);
   ended_ = got == 0;
+  return got;
+}
+
+size_t FileScan::readFile(char* out, size_t size) {
+  if (!bytes_->seekable()) return bytes_->read(out, size);
+  const size_t got = bytes_->readAt(read_to_, out, size);
+  read_to_ += got;
   return got;
 }
 
@@ -330,6 +337,13 @@ void FileScan::skipPast(std::string_view mark) {
 
 void FileScan::skipTo(uint64_t place, const char* what) {
   leaveAhead();
+  if (place > origin_ + filled_ && unread_at_ == unread_.size() && bytes_->seekable()) {
+    if (place > bytes_->size()) failBad(std::string("the file ends within ") + what);
+    origin_ = read_to_ = place;
+    at_ = filled_ = 0;
+    buffer_[0] = 0;
+    return;
+  }
   while (offset() < place) {
     if (at_ == filled_ && !refill()) failBad(std::string("the file ends within ") + what);
     at_ += static_cast<size_t>(std::min<uint64_t>(filled_ - at_, place - offset()));

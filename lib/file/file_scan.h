@@ -68,11 +68,13 @@ class FileScan {
   std::string_view peekBytes(size_t size);
   // Passes everything up to the end of the next `mark`.
   void skipPast(std::string_view mark);
-  void skipTo(uint64_t offset, const char* what);  // forward
+  void skipTo(uint64_t offset, const char* what);  // forward; not read where the file can seek
 
   uint64_t offset() const { return origin_ + at_ + (ahead_ ? ahead_->place().bytes : 0); }
   // Bytes from here to the end, as far as that is known: else the largest number.
   uint64_t bytesLeft() const;
+  // The file itself, for those who come back to what was passed over; null unless it can seek.
+  std::shared_ptr<ByteSource> source() const { return bytes_->seekable() ? bytes_ : nullptr; }
   const std::string& name() const { return bytes_->name(); }
   // "NAME: line 12", "NAME: byte 345"
   std::string place() const;
@@ -84,6 +86,7 @@ class FileScan {
  private:
   bool refill();  // adds to the buffer; false at the end of the file
   size_t readText(char* out, size_t size);
+  size_t readFile(char* out, size_t size);
   size_t readTextAhead(char* out, size_t size, bool* fails);
   // What was read ahead and not taken is text again.
   void leaveAhead() {
@@ -103,7 +106,8 @@ class FileScan {
   size_t wordSize();
   [[noreturn]] void failWord(std::string_view word, const char* what) const;
 
-  std::unique_ptr<ByteSource> bytes_;
+  std::shared_ptr<ByteSource> bytes_;
+  uint64_t read_to_ = 0;  // of a file that can seek: where reading goes on
   char comment_;
   const TextThreads threads_;
   std::unique_ptr<NumbersAhead> ahead_;  // of the text behind the buffer, which is empty then

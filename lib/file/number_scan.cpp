@@ -61,4 +61,11 @@ uint64_t NumberScan::count(size_t width, size_t least_bytes, const char* what) {
   return static_cast<uint64_t>(found);
 }
 
+std::optional<RowsPlace> NumberScan::rowsHere(uint64_t rows, size_t row_bytes) const {
+  if (!binary_ || rows == 0 || row_bytes > FileWindow::kMostBytes) return std::nullopt;
+  std::shared_ptr<ByteSource> file = file_.source();
+  if (!file || rows > file_.bytesLeft() / row_bytes) return std::nullopt;
+  return RowsPlace{std::move(file), file_.offset(), rows, row_bytes, swapped_};
+}
+
 }  // namespace tetstream

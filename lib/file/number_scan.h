@@ -1,7 +1,11 @@
-// file: numbers of a file that may be text or binary. Depends on file_scan.h.
+// file: numbers of a file that may be text or binary. Depends on file_scan.h,
+// file_window.h.
 #pragma once
 
+#include <optional>
+
 #include "file_scan.h"
+#include "file_window.h"
 
 namespace tetstream {
 
@@ -28,6 +32,10 @@ class NumberScan {
   }
   // The number of things to come, at least `least_bytes` each; checked against the file's size.
   uint64_t count(size_t width, size_t least_bytes, const char* what);
+  // Where the next rows lie, if they are binary, in a file that can seek, all of them. They stay
+  // the next ones.
+  std::optional<RowsPlace> rowsHere(uint64_t rows, size_t row_bytes) const;
+  void pass(const RowsPlace& rows, const char* what) { file_.skipTo(rows.end(), what); }
 
  private:
   FileScan& file_;

@@ -37,11 +37,7 @@ void MeshIntake::addPointLabels(const char* name, bool wide) {
 }
 
 void MeshIntake::takeLabel(Labels& labels, int64_t label, size_t count, int64_t number) {
-  if (label == 0 && !labels.any) {
-    labels.zeros += count;
-    return;
-  }
-  if (!labels.any) countZeros(labels);
+  if (takeZeros(labels, count, label != 0)) return;
   if (!labels.wide && static_cast<int32_t>(label) != label)
     file_.failHere(Status::kUnsupported, "label " + std::to_string(label) + " of " +
                                              (labels.of_points ? "point " : "cell ") +
@@ -50,7 +46,16 @@ void MeshIntake::takeLabel(Labels& labels, int64_t label, size_t count, int64_t 
   if (labels.held.size() >= kRowsAtOnce) writeLabels(labels);
 }
 
-// The first that is not 0 has come: those before it are rows now.
+// True: so many were counted, as there is none that is not 0 yet. If there is `any`, those before
+// it are rows now.
+bool MeshIntake::takeZeros(Labels& labels, uint64_t count, bool any) {
+  if (!any && !labels.any)
+    labels.zeros += count;
+  else if (!labels.any)
+    countZeros(labels);
+  return !any && !labels.any;
+}
+
 void MeshIntake::countZeros(Labels& labels) {
   constexpr int64_t none[kRowsAtOnce] = {};
   labels.any = true;
@@ -79,6 +84,36 @@ void MeshIntake::appendLabels(Labels& labels, const int64_t* rows, size_t count)
   }
 }
 
+void MeshIntake::placeLabels(Labels& labels, uint64_t count, std::shared_ptr<RowReader> rows) {
+  writeLabels(labels);
+  if (labels.of_points)
+    mesh_->placeField(labels.column, count, std::move(rows));
+  else
+    mesh_->placeCellData(labels.column, count, std::move(rows));
+}
+
+void MeshIntake::placeLabels(Labels& labels, const RowsPlace& rows, const NumbersOfRow& label) {
+  const bool any =
+      labels.any || anyNonZero(rows, label.at_byte, label.width, options_.threads.tasks);
+  if (takeZeros(labels, rows.rows, any)) return;
+  const auto& window = labels.of_points ? points_window_ : cells_window_;
+  placeLabels(labels, rows.rows, placeNumbers(window, rows, label, typeOf(labels)));
+}
+
+void MeshIntake::placePointLabels(const RowsPlace& rows, const NumbersOfRow& label) {
+  placeLabels(point_labels_.front(), rows, label);
+}
+
+void MeshIntake::placeCellLabels(size_t labels, const RowsPlace& rows, const NumbersOfRow& label) {
+  placeLabels(labels_[labels], rows, label);
+}
+
+void MeshIntake::placeCellLabels(size_t labels, uint64_t count, int64_t label) {
+  Labels& all = labels_[labels];
+  if (!takeZeros(all, count, label != 0))
+    placeLabels(all, count, placeConstant(label, typeOf(all)));
+}
+
 void MeshIntake::labelPoint(int64_t label) {
   takeLabel(point_labels_.front(), label, 1, static_cast<int64_t>(mesh_->pointCount()));
 }
@@ -97,6 +132,27 @@ void MeshIntake::addPoint(const double position[3]) {
   float narrow[3];
   for (int k = 0; k < 3; ++k) narrow[k] = static_cast<float>(position[k]);
   mesh_->appendPositions(narrow, 1);
+}
+
+static std::shared_ptr<FileWindow> windowOf(std::shared_ptr<FileWindow>& window,
+                                            const RowsPlace& rows) {
+  if (!window) window = std::make_shared<FileWindow>(rows.file);
+  return window;
+}
+
+void MeshIntake::placePoints(const RowsPlace& rows, const NumbersOfRow& reals) {
+  NumbersOfRow position = reals;
+  position.finite = true;
+  mesh_->placePositions(rows.rows, placeNumbers(windowOf(points_window_, rows), rows, position,
+                                                mesh_->schema().position_type));
+}
+
+void MeshIntake::placeCells(CellKind kind, PlacedCellsPlan plan) {
+  writeHeld();
+  const uint64_t count = plan.place.rows;
+  if (kind.nodes > cornersOf(kind.shape)) quadratic_ += count;
+  std::shared_ptr<FileWindow> window = windowOf(cells_window_, plan.place);
+  mesh_->placeCells(count, tetstream::placeCells(std::move(window), std::move(plan)));
 }
 
 size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t* labels,
@@ -122,6 +178,7 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
 }
 
 void MeshIntake::writeHeld() {
+  if (held_ == 0) return;
   mesh_->appendCells(held_cells_.data(), held_);
   held_ = 0;
 }
@@ -140,7 +197,7 @@ void MeshIntake::addFace(CellKind kind, const int64_t* corners, int64_t label) {
 // ------------------------------------------------------------------------------------------ data
 
 size_t MeshIntake::addData(const Column& column, bool of_cells) {
-  data_.push_back(std::make_unique<Data>(column, of_cells, options_.temp_dir));
+  data_.push_back(std::make_unique<Data>(column, of_cells));
   return data_.size() - 1;
 }
 
@@ -150,12 +207,33 @@ size_t MeshIntake::addCellNumbers(const std::string& name) {
   return data;
 }
 
+void MeshIntake::placeData(size_t data, const RowsPlace& rows, const NumbersOfRow& reals,
+                           std::shared_ptr<FileWindow> window) {
+  Data& d = *data_[data];
+  d.placed = placeNumbers(std::move(window), rows, reals, d.column.type);
+  d.placed_rows = rows.rows;
+}
+
+// What was said before of where the rows lie gives way to copies of them.
+ScatteredRows& MeshIntake::scattered(Data& data) {
+  if (data.rows) return *data.rows;
+  data.rows.emplace(data.column.bytesPerRow(), options_.temp_dir);
+  std::vector<unsigned char> row(data.column.bytesPerRow());
+  for (uint64_t i = 0; i < data.placed_rows; ++i) {
+    data.placed->read(i, 1, row.data());
+    data.rows->put(i, row.data());
+  }
+  data.placed.reset();
+  data.placed_rows = 0;
+  return *data.rows;
+}
+
 void MeshIntake::putData(size_t data, uint64_t row, const double* values) {
   Data& d = *data_[data];
   const auto count = static_cast<size_t>(d.column.components);
   d.maybe_integers = d.maybe_integers && *values >= INT32_MIN && *values <= INT32_MAX &&
                      *values == std::trunc(*values);
-  if (d.column.type == ScalarType::kFloat64) return d.rows.put(row, values);
+  if (d.column.type == ScalarType::kFloat64) return scattered(d).put(row, values);
   int64_t rounded[kMaxComponents];  // room for any type
   if (d.column.type == ScalarType::kFloat32) {
     convertScalars(values, ScalarType::kFloat64, rounded, ScalarType::kFloat32, count);
@@ -173,7 +251,7 @@ void MeshIntake::putData(size_t data, uint64_t row, const double* values) {
         std::memcpy(to, &value, sizeof value);
     }
   }
-  d.rows.put(row, rounded);
+  scattered(d).put(row, rounded);
 }
 
 // In place: each is read before it is written over.
@@ -186,27 +264,42 @@ static void toIntegers(std::vector<unsigned char>& rows, size_t count) {
   }
 }
 
+void MeshIntake::appendData(const Data& data, size_t column, const void* rows, size_t count) {
+  if (data.of_cells)
+    mesh_->appendCellData(column, rows, count);
+  else
+    mesh_->appendField(column, rows, count);
+}
+
+void MeshIntake::copyRows(Data& data, size_t column, uint64_t count) {
+  ScatteredRows& from = scattered(data);
+  from.finish(count);
+  if (from.given() < count)
+    note("\"" + data.column.name + "\" has no value at " +
+         plural(count - from.given(), data.of_cells ? "tetrahedra" : "points") +
+         ", where it is taken as 0");
+  std::vector<unsigned char> rows(kRowsAtOnce * from.rowBytes());
+  for (uint64_t at = 0; at < count; at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - at));
+    from.read(at, n, rows.data());
+    if (data.maybe_integers) toIntegers(rows, n);
+    appendData(data, column, rows.data(), n);
+  }
+}
+
 void MeshIntake::copyData() {
-  std::vector<unsigned char> rows;
   for (auto& d : data_) {
     const uint64_t count = d->of_cells ? mesh_->cellCount() : mesh_->pointCount();
-    d->rows.finish(count);
-    if (d->rows.given() < count)
-      note("\"" + d->column.name + "\" has no value at " +
-           plural(count - d->rows.given(), d->of_cells ? "tetrahedra" : "points") +
-           ", where it is taken as 0");
+    const bool is_placed = d->placed && d->placed_rows == count;
+    if (!is_placed) scattered(*d);
     if (d->maybe_integers) d->column.type = ScalarType::kInt32;
     const size_t column = d->of_cells ? mesh_->addCellData(d->column) : mesh_->addField(d->column);
-    rows.resize(kRowsAtOnce * d->rows.rowBytes());
-    for (uint64_t at = 0; at < count; at += kRowsAtOnce) {
-      const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - at));
-      d->rows.read(at, n, rows.data());
-      if (d->maybe_integers) toIntegers(rows, n);
-      if (d->of_cells)
-        mesh_->appendCellData(column, rows.data(), n);
-      else
-        mesh_->appendField(column, rows.data(), n);
-    }
+    if (!is_placed)
+      copyRows(*d, column, count);
+    else if (d->of_cells)
+      mesh_->placeCellData(column, count, d->placed);
+    else
+      mesh_->placeField(column, count, d->placed);
     d.reset();  // and its file
   }
 }

@@ -1,10 +1,11 @@
 // gather: what the readers of indexed files share: points, cells of any shape, labelled faces and
 // data come in the file's order, and an indexed mesh comes out. Depends on cell_kinds.h,
-// file_scan.h, mesh_spool.h, format_rows.h, scattered_rows.h.
+// file_scan.h, mesh_spool.h, format_rows.h, placed_cells.h, placed_numbers.h, scattered_rows.h.
 #pragma once
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,8 @@
 #include "file_scan.h"
 #include "format_rows.h"
 #include "mesh_spool.h"
+#include "placed_cells.h"
+#include "placed_numbers.h"
 #include "scattered_rows.h"
 
 namespace tetstream {
@@ -48,6 +51,24 @@ class MeshIntake {
   size_t addCellNumbers(const std::string& name);
   void putData(size_t data, uint64_t row, const double* values);
 
+  // Rows that are read where they lie in the file, in place of as many calls of the above. Whether
+  // points, or cells, may be so: else they are to be added.
+  bool mayPlacePoints() const { return mesh_->mayPlacePositions(); }
+  bool mayPlaceCells() const { return mesh_->mayPlaceCells(); }
+  // Positions are `reals` of the rows.
+  void placePoints(const RowsPlace& rows, const NumbersOfRow& reals);
+  // An integer of each row, of the last points that came.
+  void placePointLabels(const RowsPlace& rows, const NumbersOfRow& label);
+  // Tetrahedra, of which the caller tells the labels then, of every column.
+  void placeCells(CellKind kind, PlacedCellsPlan plan);
+  void placeCellLabels(size_t labels, const RowsPlace& rows, const NumbersOfRow& label);
+  void placeCellLabels(size_t labels, uint64_t count, int64_t label);  // of at most 32 bits
+  size_t labelColumns() const { return labels_.size(); }
+  // All rows of new data of floats, from the first on.
+  bool mayPlaceData(size_t data) const { return data_[data]->isNew(); }
+  void placeData(size_t data, const RowsPlace& rows, const NumbersOfRow& reals,
+                 std::shared_ptr<FileWindow> window);
+
   // After the last: checks that every corner is a point, writes the data, tells what was left out.
   std::unique_ptr<IndexedSource> finish();
 
@@ -60,13 +81,23 @@ class MeshIntake {
     std::vector<int64_t> held = {};
   };
   struct Data {
-    Data(const Column& c, bool cells, const std::string& temp_dir)
-        : column(c), of_cells(cells), rows(c.bytesPerRow(), temp_dir) {}
+    Data(const Column& c, bool cells) : column(c), of_cells(cells) {}
+    bool isNew() const { return !rows && !placed && isFloat(column.type) && !maybe_integers; }
     Column column;
     bool of_cells, maybe_integers = false;
-    ScatteredRows rows;
+    // Rows that were put, or those that lie in the file.
+    std::optional<ScatteredRows> rows;
+    std::shared_ptr<RowReader> placed;
+    uint64_t placed_rows = 0;
   };
   void takeLabel(Labels& labels, int64_t label, size_t count, int64_t number);
+  bool takeZeros(Labels& labels, uint64_t count, bool any);
+  void placeLabels(Labels& labels, uint64_t count, std::shared_ptr<RowReader> rows);
+  void placeLabels(Labels& labels, const RowsPlace& rows, const NumbersOfRow& label);
+  ScalarType typeOf(const Labels& labels) const {
+    return labels.wide ? ScalarType::kInt64 : ScalarType::kInt32;
+  }
+  ScatteredRows& scattered(Data& data);
   void appendLabels(Labels& labels, const int64_t* rows, size_t count);
   void writeLabels(Labels& labels);
   void countZeros(Labels& labels);
@@ -78,6 +109,8 @@ class MeshIntake {
   void checkCorners();
   void takeFaces();
   void copyData();
+  void copyRows(Data& data, size_t column, uint64_t count);
+  void appendData(const Data& data, size_t column, const void* rows, size_t count);
 
   const FileScan& file_;
   ReadOptions options_;
@@ -88,6 +121,7 @@ class MeshIntake {
   size_t held_ = 0;                  // of them
   RowSpool faces_;  // three points and a label; only those of cells go into the mesh
   std::vector<std::unique_ptr<Data>> data_;
+  std::shared_ptr<FileWindow> points_window_, cells_window_;  // of the points' and the cells' rows
   std::map<std::string, uint64_t> left_out_;
   int64_t largest_corner_ = -1;
   uint64_t split_ = 0, quadratic_ = 0;

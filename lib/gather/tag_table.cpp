@@ -15,16 +15,24 @@ constexpr SpoolShape kLooked = {1024, kSampledRuns * 32};
 }  // namespace
 
 void TagTable::add(int64_t tag, int64_t first, int64_t count) {
+  addRun({tag, first, 1, count});
+}
+
+void TagTable::addRun(int64_t tag, int64_t first, int64_t tags) {
+  if (tags > 0) addRun({tag, first, tags, 1});
+}
+
+void TagTable::addRun(const Run& more) {
   if (!runs_.empty()) {
     Run& run = runs_.back();
-    if (tag == run.tag + run.tags && first == run.first + run.tags * run.step &&
-        count == run.step) {
-      ++run.tags;
+    if (more.tag == run.tag + run.tags && more.first == run.first + run.tags * run.step &&
+        more.step == run.step) {
+      run.tags += more.tags;
       return;
     }
   }
   if (runs_.size() == kHeldRuns) spill();
-  runs_.push_back({tag, first, 1, count});
+  runs_.push_back(more);
 }
 
 void TagTable::spill() {
@@ -89,6 +97,14 @@ bool TagTable::finish(int64_t* twice) {
     *twice = runAt(i).tag;
     if (*twice < before.tag + before.tags) return false;
   }
+  return true;
+}
+
+bool TagTable::isOneRun(int64_t* tag, int64_t* tags, int64_t* first) const {
+  if (spool_ || runs_.size() != 1 || runs_[0].step != 1) return false;
+  *tag = runs_[0].tag;
+  *tags = runs_[0].tags;
+  *first = runs_[0].first;
   return true;
 }
 

@@ -20,8 +20,12 @@ class TagTable {
 
   // The tag's ranks are [first, first + count), count possibly 0.
   void add(int64_t tag, int64_t first, int64_t count = 1);
+  // As many tags that follow each other, with a rank each.
+  void addRun(int64_t tag, int64_t first, int64_t tags);
   // Before the first look. Returns a tag that was added twice in *twice, or true.
   bool finish(int64_t* twice);
+  // Of tags that follow each other, with ranks that do. After finish.
+  uint64_t runs() const { return spool_ ? spool_->rows() : runs_.size(); }
 
   // False: there is no such tag. Looks near each other are the fast ones.
   bool find(int64_t tag, int64_t* first, int64_t* count);
@@ -33,14 +37,17 @@ class TagTable {
     int64_t count;
     return find(tag, rank, &count);
   }
+  // If all tags are of one run, with a rank each: those are [tag, tag + tags), the ranks begin at
+  // `first`.
+  bool isOneRun(int64_t* tag, int64_t* tags, int64_t* first) const;
 
  private:
   struct Run {
     int64_t tag = 0, first = 0, tags = 0, step = 0;  // ranks per tag
   };
+  void addRun(const Run& more);
   void spill();
   void merge();
-  uint64_t runs() const { return spool_ ? spool_->rows() : runs_.size(); }
   Run runAt(uint64_t index);
   uint64_t lastNotAbove(int64_t tag);
 

@@ -25,21 +25,21 @@ MeshSpool::MeshSpool(ScalarType position_type, const std::string& temp_dir, cons
 size_t MeshSpool::addField(const Column& column) {
   schema_.fields.push_back(column);
   fields_.push_back(
-      std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
+      std::make_unique<ColumnRows>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
   return fields_.size() - 1;
 }
 
 size_t MeshSpool::addCellData(const Column& column) {
   schema_.cell_data.push_back(column);
   cell_data_.push_back(
-      std::make_unique<RowSpool>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
+      std::make_unique<ColumnRows>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
   return cell_data_.size() - 1;
 }
 
-static void removeAt(std::vector<Column>& columns, std::vector<std::unique_ptr<RowSpool>>& spools,
+static void removeAt(std::vector<Column>& columns, std::vector<std::unique_ptr<ColumnRows>>& rows,
                      size_t column) {
   columns.erase(columns.begin() + static_cast<std::ptrdiff_t>(column));
-  spools.erase(spools.begin() + static_cast<std::ptrdiff_t>(column));
+  rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(column));
 }
 
 void MeshSpool::appendCells(const int64_t* rows, size_t count) {
@@ -85,13 +85,13 @@ void MeshSpool::growLocks() {
   std::fill(locked_.data() + known, locked_.data() + points, uint8_t{0});
 }
 
-void MeshSpool::checkRows(const std::vector<Column>& columns, const Spools& spools,
-                          uint64_t rows) const {
-  for (size_t i = 0; i < spools.size(); ++i)
-    if (spools[i]->rows() != rows)
+void MeshSpool::checkRows(const std::vector<Column>& columns, const Columns& rows,
+                          uint64_t count) const {
+  for (size_t i = 0; i < rows.size(); ++i)
+    if (rows[i]->rows() != count)
       fail(Status::kInternal, "column \"%s\" was given %llu rows of %llu", columns[i].name.c_str(),
-           static_cast<unsigned long long>(spools[i]->rows()),
-           static_cast<unsigned long long>(rows));
+           static_cast<unsigned long long>(rows[i]->rows()),
+           static_cast<unsigned long long>(count));
 }
 
 void MeshSpool::finish() {
@@ -101,9 +101,10 @@ void MeshSpool::finish() {
   schema_.vertex_count = static_cast<int64_t>(positions_.rows());
   schema_.cell_count = static_cast<int64_t>(cellCount());
   if (locked_.size() > 0) growLocks();
-  for (RowSpool* spool : {&positions_, &cells_, &wide_cells_}) spool->finish();
-  for (Spools* spools : {&fields_, &cell_data_})
-    for (auto& spool : *spools) spool->finish();
+  positions_.finish();
+  for (RowSpool* spool : {&cells_, &wide_cells_}) spool->finish();
+  for (Columns* columns : {&fields_, &cell_data_})
+    for (auto& rows : *columns) rows->finish();
 }
 
 void MeshSpool::finishFaces() {
@@ -111,21 +112,22 @@ void MeshSpool::finishFaces() {
   faces_.finish();
 }
 
-static void readRows(RowSpool& spool, size_t row_bytes, uint64_t first, size_t count, void* out) {
-  auto* to = static_cast<unsigned char*>(out);
-  for (size_t i = 0; i < count; ++i, to += row_bytes)
-    std::memcpy(to, spool.row(first + i), row_bytes);
-}
-
 void MeshSpool::readPositions(uint64_t first, size_t count, void* out) {
-  readRows(positions_, 3 * sizeOf(schema_.position_type), first, count, out);
+  positions_.read(first, count, out);
 }
 
 void MeshSpool::readField(size_t column, uint64_t first, size_t count, void* out) {
-  readRows(*fields_[column], schema_.fields[column].bytesPerRow(), first, count, out);
+  fields_[column]->read(first, count, out);
 }
 
 void MeshSpool::readCells(uint64_t first, size_t count, int64_t* out) {
+  placed_cells_.read(first, count, 4 * sizeof *out, out,
+                     [this](uint64_t index, size_t n, void* to) {
+                       readCopiedCells(index, n, static_cast<int64_t*>(to));
+                     });
+}
+
+void MeshSpool::readCopiedCells(uint64_t first, size_t count, int64_t* out) {
   for (size_t i = 0; i < count; ++i, out += 4) {
     const uint64_t cell = first + i;
     if (cell >= cells_.rows()) {
@@ -138,7 +140,7 @@ void MeshSpool::readCells(uint64_t first, size_t count, int64_t* out) {
 }
 
 void MeshSpool::readCellData(size_t column, uint64_t first, size_t count, void* out) {
-  readRows(*cell_data_[column], schema_.cell_data[column].bytesPerRow(), first, count, out);
+  cell_data_[column]->read(first, count, out);
 }
 
 void MeshSpool::readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {

@@ -1,13 +1,13 @@
-// stream: an indexed mesh in temporary files, for those who get it row by row. Depends on source.h,
-// row_spool.h.
+// stream: an indexed mesh in temporary files, for those who get it row by row, or, as far as that
+// is told, where its rows lie. Depends on source.h, column_rows.h.
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "column_rows.h"
 #include "memory.h"
-#include "row_spool.h"
 #include "source.h"
 
 namespace tetstream {
@@ -32,10 +32,25 @@ class MeshSpool : public IndexedSource {
   void appendCellData(size_t column, const void* rows, size_t count) {
     cell_data_[column]->append(rows, count);
   }
+  // Rows that are read where they lie, instead of as many that are appended. Cells come as int64.
+  bool mayPlacePositions() const { return positions_.mayPlace(); }
+  void placePositions(uint64_t count, std::shared_ptr<RowReader> rows) {
+    positions_.place(count, std::move(rows));
+  }
+  bool mayPlaceCells() const { return !placed_cells_.isFull(); }
+  void placeCells(uint64_t count, std::shared_ptr<RowReader> rows) {
+    placed_cells_.add(cellCount(), count, std::move(rows));
+  }
+  void placeField(size_t column, uint64_t count, std::shared_ptr<RowReader> rows) {
+    fields_[column]->place(count, std::move(rows));
+  }
+  void placeCellData(size_t column, uint64_t count, std::shared_ptr<RowReader> rows) {
+    cell_data_[column]->place(count, std::move(rows));
+  }
   void appendFace(const int64_t corners[3], int64_t label);
   void lock(uint64_t point);  // of those that came
   uint64_t pointCount() const { return positions_.rows(); }
-  uint64_t cellCount() const { return cells_.rows() + wide_cells_.rows(); }
+  uint64_t cellCount() const { return cells_.rows() + wide_cells_.rows() + placed_cells_.rows(); }
   uint64_t faceCount() const { return faces_.rows(); }
   // Before anything is read. Every column has its rows then; faces may follow, up to their own end.
   void finish();
@@ -50,16 +65,20 @@ class MeshSpool : public IndexedSource {
   void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override;
 
  private:
-  using Spools = std::vector<std::unique_ptr<RowSpool>>;
-  void checkRows(const std::vector<Column>& columns, const Spools& spools, uint64_t rows) const;
+  using Columns = std::vector<std::unique_ptr<ColumnRows>>;
+  void checkRows(const std::vector<Column>& columns, const Columns& rows, uint64_t count) const;
+  void readCopiedCells(uint64_t first, size_t count, int64_t* out);
   void growLocks();
 
   Schema schema_;
   std::string temp_dir_;
   const Tasks* tasks_;
-  // Cells as int32 up to the first point that needs more. A face: three points and its label.
-  RowSpool positions_, cells_, wide_cells_, faces_;
-  Spools fields_, cell_data_;
+  ColumnRows positions_;
+  // Cells that were appended as int32 up to the first point that needs more. A face: three points
+  // and its label.
+  RowSpool cells_, wide_cells_, faces_;
+  PlacedParts placed_cells_;
+  Columns fields_, cell_data_;
   Account account_;
   Array<uint8_t> locked_;  // per point, if any is: in memory
 };

@@ -32,7 +32,7 @@ void readTextElements(MshMesh& mesh, uint64_t count) {
     int64_t head[3];  // number, type, tags
     mesh.file.integers(head, 3, "an element");
     const CellKind kind = needKind(mesh, head[1]);
-    if (head[0] < 0 || head[0] > INT64_MAX / 2 || head[2] < 0 || head[2] > kMostTags)
+    if (head[0] < 0 || head[0] > kMostTag || head[2] < 0 || head[2] > kMostTags)
       mesh.file.failBad(textOf("element %lld has %lld tags", static_cast<long long>(head[0]),
                                static_cast<long long>(head[2])));
     const int64_t tag = head[0], tag_count = head[2];
@@ -57,8 +57,9 @@ void readBlocks(MshMesh& mesh, uint64_t count) {
       mesh.file.failBad(textOf("elements with %lld tags", static_cast<long long>(head[2])));
     const auto tags = static_cast<size_t>(head[2]);
     const size_t width = 1 + tags + static_cast<size_t>(kind.nodes);
-    rows.resize(kElementsAtOnce * width);
     count -= static_cast<uint64_t>(head[1]);
+    if (mesh.placeElements({kind, static_cast<uint64_t>(head[1]), kMshInt, tags, 0, 0})) continue;
+    rows.resize(kElementsAtOnce * width);
     for (auto left = static_cast<size_t>(head[1]); left > 0;) {
       const size_t n = std::min(left, kElementsAtOnce);
       mesh.numbers.integers(rows.data(), n * width, kMshInt, "an element");
@@ -79,14 +80,15 @@ void readNodes2(MshMesh& mesh) {
       static_cast<uint64_t>(mesh.file.integer("the number of nodes", 0, INT64_MAX));
   mesh.file.checkClaim(count, mesh.numbers.binary() ? kMshInt + 3 * kMshDouble : 8, "nodes");
   if (mesh.numbers.binary()) mesh.file.line();
+  if (mesh.placeNodes2(count)) return mesh.endNodes();
   mesh.numbers.expectRows(count, {{{false, 1}, {true, 3}}});
   for (uint64_t i = 0; i < count; ++i) {
     double position[3];
     const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");
-    if (tag < 0 || tag > INT64_MAX / 2)
+    if (tag < 0 || tag > kMostTag)
       mesh.file.failBad(textOf("node %lld", static_cast<long long>(tag)));
     mesh.numbers.reals(position, 3, kMshDouble, "the position of a node");
-    mesh.points.add(tag, static_cast<int64_t>(i));
+    mesh.points->add(tag, static_cast<int64_t>(i));
     mesh.intake->addPoint(position);
   }
   mesh.endNodes();

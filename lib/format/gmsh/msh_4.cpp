@@ -9,8 +9,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr int64_t kMostTag = INT64_MAX / 2;
-
 // Numbers that say nothing to us.
 void skipIntegers(MshMesh& mesh, uint64_t count, const char* what) {
   for (uint64_t i = 0; i < count; ++i) mesh.numbers.integer(kMshInt, what);
@@ -86,7 +84,7 @@ void readNodeTags(MshMesh& mesh, uint64_t first, uint64_t count) {
     mesh.numbers.integers(tags, n, mesh.size_bytes, "the tag of a node");
     for (size_t i = 0; i < n; ++i) {
       checkTag(mesh, tags[i]);
-      mesh.points.add(tags[i], static_cast<int64_t>(first + done + i));
+      mesh.points->add(tags[i], static_cast<int64_t>(first + done + i));
     }
     done += n;
   }
@@ -94,6 +92,7 @@ void readNodeTags(MshMesh& mesh, uint64_t first, uint64_t count) {
 
 void readPositions(MshMesh& mesh, uint64_t count, size_t parameters) {
   const size_t width = 3 + parameters;
+  if (mesh.placePositions4(count, width)) return;
   double rows[kRowsAtOnce];
   mesh.numbers.expectRows(count, {{{true, width}}});
   for (uint64_t done = 0; done < count;) {
@@ -151,6 +150,8 @@ void readElements4(MshMesh& mesh) {
     const auto found = mesh.physical.find({static_cast<int>(head[0]), head[1]});
     const int64_t group = found == mesh.physical.end() ? 0 : found->second;
     const uint64_t rows = rowsOfBlock(mesh, left, "the number of elements of a block");
+    left -= rows;
+    if (mesh.placeElements({*kind, rows, mesh.size_bytes, 0, group, head[1]})) continue;
     const size_t width = 1 + static_cast<size_t>(kind->nodes);
     elements.resize(width * kRowsAtOnce);
     mesh.numbers.expectRows(rows, {{{false, width}}});
@@ -164,7 +165,6 @@ void readElements4(MshMesh& mesh) {
       }
       done += n;
     }
-    left -= rows;
   }
   checkRead(mesh, left, "elements");
 }

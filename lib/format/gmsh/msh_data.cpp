@@ -56,6 +56,7 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
   if (!mesh.intake) mesh.file.failBad("data before the nodes that it belongs to");
   DataHead head = readHead(mesh, of_cells);
   if (of_cells && !cells_finished_) {
+    mesh.addPlacedTags();
     int64_t twice;
     if (!mesh.cells.finish(&twice))
       mesh.file.failBad("element " + std::to_string(twice) + " is there twice");
@@ -68,7 +69,9 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
   const size_t data =
       kept ? dataFor(mesh, head.name, head.step, of_cells, static_cast<int>(head.components)) : 0;
   std::vector<double> values(static_cast<size_t>(head.components));
-  TagTable& tags = of_cells ? mesh.cells : mesh.points;
+  if (kept && mesh.placeData(data, of_cells, static_cast<uint64_t>(head.rows), values.size()))
+    return;
+  TagTable& tags = of_cells ? mesh.cells : *mesh.points;
   mesh.numbers.expectRows(static_cast<uint64_t>(head.rows), {{{false, 1}, {true, values.size()}}});
   for (int64_t i = 0; i < head.rows; ++i) {
     const int64_t tag = mesh.numbers.integer(kMshInt, of_cells ? "an element" : "a node");

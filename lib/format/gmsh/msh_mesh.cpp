@@ -4,6 +4,11 @@
 
 namespace tetstream {
 
+std::string notThere(int64_t element, int64_t node) {
+  return "element " + std::to_string(element) + " uses node " + std::to_string(node) +
+         ", which is not there";
+}
+
 void MshMesh::beginNodes() {
   if (intake) file.failBad("a second section of nodes");
   intake = std::make_unique<MeshIntake>(file, options, hints.position_type);
@@ -20,7 +25,7 @@ void MshMesh::beginNodes() {
 
 void MshMesh::endNodes() {
   int64_t twice;
-  if (!points.finish(&twice)) file.failBad("node " + std::to_string(twice) + " is there twice");
+  if (!points->finish(&twice)) file.failBad("node " + std::to_string(twice) + " is there twice");
 }
 
 void MshMesh::addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity) {
@@ -37,9 +42,7 @@ void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t 
   if (dimension < 2) return intake->leaveOut(dimension == 0 ? "points" : "lines");
   int64_t corners[8];
   for (int k = 0; k < cornersOf(kind.shape); ++k)
-    if (!points.find(nodes[k], &corners[k]))
-      file.failBad("element " + std::to_string(tag) + " uses node " + std::to_string(nodes[k]) +
-                   ", which is not there");
+    if (!points->find(nodes[k], &corners[k])) file.failBad(notThere(tag, nodes[k]));
   if (dimension == 2) return addFace(kind, corners, group, entity);
   const int64_t both[] = {group, entity};
   const int64_t* labels = hints.physical.empty() ? both + 1 : both;

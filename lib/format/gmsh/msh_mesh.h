@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,7 +23,7 @@ struct MshMesh {
       : file(scan),
         numbers(scan),
         options(read_options),
-        points(read_options.temp_dir),
+        points(std::make_shared<TagTable>(read_options.temp_dir)),
         cells(read_options.temp_dir) {}
 
   FileScan& file;
@@ -32,7 +33,8 @@ struct MshMesh {
   size_t size_bytes = 8;  // of a count in version 4
   MshHints hints;
   std::unique_ptr<MeshIntake> intake;                    // from the nodes on
-  TagTable points, cells;                                // by Gmsh's tags, as ranks
+  std::shared_ptr<TagTable> points;                      // by Gmsh's tags, as ranks
+  TagTable cells;                                        // the same; see addPlacedTags
   std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
   std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
   uint64_t further_groups = 0;                           // that entities are in beside their first
@@ -44,9 +46,39 @@ struct MshMesh {
   void beginNodes();
   void endNodes();
 
+  // msh_placed.cpp: what is read where it lies. Each passes over rows that can be, or returns false
+  // with nothing taken: they are to be added.
+  //
+  bool placeNodes2(uint64_t count);
+  bool placePositions4(uint64_t count, size_t reals_of_row);
+  // Elements of integers of that width: their tag, some others, the nodes. In version 4 all have
+  // the group and the entity; else those are the first two of the others.
+  struct Elements {
+    CellKind kind;
+    uint64_t count;
+    size_t width, others;
+    int64_t group, entity;
+  };
+  bool placeElements(const Elements& elements);
+  // The tags of elements that were placed, which only data ask for.
+  void addPlacedTags();
+  // Values of all nodes, or of all cells, in their order.
+  bool placeData(size_t data, bool of_cells, uint64_t rows, size_t components);
+
  private:
+  struct PlacedElements {
+    RowsPlace rows;
+    size_t width;
+    uint64_t first;  // rank of the first cell
+  };
   void addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity);
+  void addTags(TagTable& table, const RowsPlace& rows, size_t width, uint64_t first);
+  void placeLabels(const Elements& elements, const RowsPlace& rows);
+
+  std::vector<PlacedElements> placed_;
 };
+
+std::string notThere(int64_t element, int64_t node);
 
 // msh_2.cpp, msh_4.cpp: the bodies of sections, up to their $End.
 void readNodes2(MshMesh& mesh);

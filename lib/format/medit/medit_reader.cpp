@@ -1,6 +1,6 @@
 // Reads MEDIT's meshes, text (.mesh) and binary (.meshb), versions 1 to 4, in one go, with the
-// solutions that lie beside them (.sol, .solb). Vertices are numbered from 1; references are the
-// labels of cells and faces.
+// solutions that lie beside them (.sol, .solb); rows of binary files where they lie. Vertices are
+// numbered from 1; references are the labels of cells and faces.
 #include <algorithm>
 
 #include "medit_scan.h"
@@ -66,6 +66,7 @@ class MeditReader {
     if (any_vertices_) scan_.file().failBad("a second section of Vertices");
     any_vertices_ = true;
     const uint64_t count = scan_.rows(1, 3, "vertices");
+    if (placeVertices(count)) return;
     double position[3];
     scan_.expectRows(count, {{{true, 3}, {false, 1}}});
     for (uint64_t i = 0; i < count; ++i) {
@@ -77,6 +78,17 @@ class MeditReader {
     }
   }
 
+  // Whether they can be read where they lie.
+  bool placeVertices(uint64_t count) {
+    const auto rows = scan_.rowsHere(count, 1, 3);
+    if (!rows || !intake_.mayPlacePoints()) return false;
+    const NumbersOfRow position = scan_.realsOfRow(0, 3);
+    intake_.placePoints(*rows, position);
+    intake_.placePointLabels(*rows, scan_.integersOfRow(3 * position.width, 1));
+    scan_.pass(*rows, "the vertices");
+    return true;
+  }
+
   // Corners may be told before there are vertices; the intake checks them then.
   void readCells(const MeditSection& section, CellKind kind) {
     const auto nodes = static_cast<size_t>(kind.nodes);
@@ -85,6 +97,7 @@ class MeditReader {
       rows_.first_tetrahedron = intake_.cellCount();
       rows_.tetrahedra = count;
     }
+    if (placeTetrahedra(kind, count)) return;
     const auto corners = static_cast<size_t>(cornersOf(kind.shape));
     const bool is_cell = dimensionOf(kind.shape) == 3;
     const int64_t last = lastVertex();
@@ -100,6 +113,26 @@ class MeditReader {
     }
   }
 
+  // As placeVertices.
+  bool placeTetrahedra(CellKind kind, uint64_t count) {
+    if (kind.shape != CellShape::kTetra || !any_vertices_ || !intake_.mayPlaceCells()) return false;
+    const auto nodes = static_cast<size_t>(kind.nodes);
+    const auto rows = scan_.rowsHere(count, nodes + 1, 0);
+    if (!rows) return false;
+    const int64_t last = lastVertex();
+    const auto vertices = std::make_shared<TagTable>(options_.temp_dir);
+    vertices->addRun(1, 0, last);
+    int64_t twice;
+    vertices->finish(&twice);
+    const size_t width = scan_.integersOfRow(0, 1).width;
+    intake_.placeCells(kind, {*rows, {0, width, false}, vertices, [last](int64_t, int64_t vertex) {
+                                return notOneOf(vertex, last);
+                              }});
+    intake_.placeCellLabels(0, *rows, scan_.integersOfRow(nodes * width, 1));
+    scan_.pass(*rows, "the tetrahedra");
+    return true;
+  }
+
   int64_t lastVertex() {
     return any_vertices_ ? static_cast<int64_t>(intake_.mesh().pointCount()) : INT64_MAX;
   }
@@ -109,9 +142,12 @@ class MeditReader {
   }
 
   [[noreturn]] void failVertex(int64_t vertex) {
-    scan_.file().failBad(textOf("vertex %lld, where there are 1 to %lld",
-                                static_cast<long long>(vertex),
-                                static_cast<long long>(intake_.mesh().pointCount())));
+    scan_.file().failBad(notOneOf(vertex, static_cast<int64_t>(intake_.mesh().pointCount())));
+  }
+
+  static std::string notOneOf(int64_t vertex, int64_t last) {
+    return textOf("vertex %lld, where there are 1 to %lld", static_cast<long long>(vertex),
+                  static_cast<long long>(last));
   }
 
   void readRequired() {

@@ -1,12 +1,14 @@
 // format/medit: a MEDIT file as sections, text or binary, of meshes and of solutions. Depends on
-// medit_keywords.h, number_scan.h.
+// medit_keywords.h, number_scan.h, placed_numbers.h.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "medit_keywords.h"
 #include "number_scan.h"
+#include "placed_numbers.h"
 
 namespace tetstream {
 
@@ -29,6 +31,18 @@ class MeditScan {
   void expectRows(uint64_t rows, const RowPattern& pattern) { numbers_.expectRows(rows, pattern); }
   void integers(int64_t* out, size_t count, const char* what) {
     numbers_.integers(out, count, integer_bytes_, what);
+  }
+  // Where so many rows of a binary file lie, which are the next ones, and what their numbers are
+  // from a byte of the row on.
+  std::optional<RowsPlace> rowsHere(uint64_t rows, size_t integers, size_t reals) const {
+    return numbers_.rowsHere(rows, integers * integer_bytes_ + reals * real_bytes_);
+  }
+  void pass(const RowsPlace& rows, const char* what) { numbers_.pass(rows, what); }
+  NumbersOfRow integersOfRow(size_t at_byte, size_t count) const {
+    return {at_byte, count, integer_bytes_, false, false};
+  }
+  NumbersOfRow realsOfRow(size_t at_byte, size_t count) const {
+    return {at_byte, count, real_bytes_, true, false};
   }
   int64_t small(const char* what) { return numbers_.integer(4, what); }  // 32 bits in any version
   void reals(double* out, size_t count, const char* what) {

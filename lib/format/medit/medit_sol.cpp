@@ -29,6 +29,25 @@ std::vector<int> readTypes(MeditScan& scan) {
   return components;
 }
 
+struct Solution {
+  size_t data, start, components;  // start: in a row
+};
+
+// Whether the rows can be read where they lie.
+bool place(MeditScan& scan, MeshIntake& intake, const std::vector<Solution>& solutions,
+           uint64_t count, size_t width) {
+  const auto rows = scan.rowsHere(count, 0, width);
+  if (!rows) return false;
+  const auto window = std::make_shared<FileWindow>(rows->file);
+  for (const Solution& s : solutions) {
+    NumbersOfRow reals = scan.realsOfRow(0, s.components);
+    reals.at_byte = s.start * reals.width;
+    intake.placeData(s.data, *rows, reals, window);
+  }
+  scan.pass(*rows, "the values of a solution");
+  return true;
+}
+
 }  // namespace
 
 void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& rows,
@@ -42,21 +61,21 @@ void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& 
   const ScalarType type = scan.version() == 1 ? ScalarType::kFloat32 : ScalarType::kFloat64;
   size_t& number = of_cells ? cell_data_ : fields_;
   size_t width = 0;
-  std::vector<size_t> columns, starts;
+  std::vector<Solution> solutions;
   for (int components : readTypes(scan)) {
     const std::string name = "sol" + (number == 0 ? "" : std::to_string(number));
-    columns.push_back(intake.addData({name, components, type}, of_cells));
-    starts.push_back(width);
+    solutions.push_back({intake.addData({name, components, type}, of_cells), width,
+                         static_cast<size_t>(components)});
     width += static_cast<size_t>(components);
     ++number;
   }
-  std::vector<double> values(width);
   const uint64_t first = of_cells ? rows.first_tetrahedron : 0;
+  if (first == 0 && place(scan, intake, solutions, count, width)) return;
+  std::vector<double> values(width);
   scan.expectRows(count, {{{true, width}}});
   for (uint64_t i = 0; i < count; ++i) {
     scan.reals(values.data(), width, "a value of a solution");
-    for (size_t k = 0; k < columns.size(); ++k)
-      intake.putData(columns[k], first + i, values.data() + starts[k]);
+    for (const Solution& s : solutions) intake.putData(s.data, first + i, values.data() + s.start);
   }
 }
 

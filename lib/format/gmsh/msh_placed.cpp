@@ -1,0 +1,107 @@
+// Rows of Gmsh's binary files that are read where they lie.
+#include "msh_mesh.h"
+#include "status.h"
+#include "stored_number.h"
+
+namespace tetstream {
+
+namespace {
+
+// Of nodes: every reading of cells looks for them, fast where there are few runs of tags.
+constexpr uint64_t kMostRuns = 64;
+
+NumbersOfRow mshReals(size_t at_byte, size_t count) {
+  return {at_byte, count, kMshDouble, true, false};
+}
+
+}  // namespace
+
+void MshMesh::addTags(TagTable& table, const RowsPlace& rows, size_t width, uint64_t first) {
+  FileWindow window(rows.file);
+  forPlacedRows(window, rows, 0, rows.rows, [&](const unsigned char* row, size_t n, uint64_t at) {
+    for (size_t i = 0; i < n; ++i, row += rows.row_bytes) {
+      const int64_t tag = storedInteger(row, width, rows.swapped);
+      if (tag < 0 || tag > kMostTag)
+        fail(Status::kBadData, "%s: byte %llu: %lld is no tag", file.name().c_str(),
+             static_cast<unsigned long long>(rows.begin + (at + i) * rows.row_bytes),
+             static_cast<long long>(tag));
+      table.add(tag, static_cast<int64_t>(first + at + i));
+    }
+    return true;
+  });
+}
+
+bool MshMesh::placeNodes2(uint64_t count) {
+  const auto rows = numbers.rowsHere(count, kMshInt + 3 * kMshDouble);
+  if (!rows) return false;
+  addTags(*points, *rows, kMshInt, 0);
+  intake->placePoints(*rows, mshReals(kMshInt, 3));
+  numbers.pass(*rows, "the nodes");
+  return true;
+}
+
+bool MshMesh::placePositions4(uint64_t count, size_t reals_of_row) {
+  const auto rows = numbers.rowsHere(count, reals_of_row * kMshDouble);
+  if (!rows || !intake->mayPlacePoints()) return false;
+  intake->placePoints(*rows, mshReals(0, 3));
+  numbers.pass(*rows, "the positions of nodes");
+  return true;
+}
+
+bool MshMesh::placeElements(const Elements& elements) {
+  if (elements.kind.shape != CellShape::kTetra || !intake->mayPlaceCells()) return false;
+  if (points->runs() > kMostRuns || static_cast<int32_t>(elements.group) != elements.group)
+    return false;
+  const size_t before = 1 + elements.others, width = elements.width;
+  const auto rows =
+      numbers.rowsHere(elements.count, width * (before + static_cast<size_t>(elements.kind.nodes)));
+  if (!rows) return false;
+  placed_.push_back({*rows, width, intake->cellCount()});
+  intake->placeCells(elements.kind, {*rows, {width * before, width, true}, points, notThere});
+  placeLabels(elements, *rows);
+  numbers.pass(*rows, "the elements");
+  return true;
+}
+
+// In the order of MshMesh::addCell.
+void MshMesh::placeLabels(const Elements& elements, const RowsPlace& rows) {
+  const size_t without_group = hints.physical.empty() ? 1 : 0;
+  for (size_t k = 0; k < intake->labelColumns(); ++k) {
+    const size_t label = k + without_group;
+    if (version_4)
+      intake->placeCellLabels(k, rows.rows, label == 0 ? elements.group : elements.entity);
+    else if (label < elements.others)
+      intake->placeCellLabels(k, rows, {kMshInt * (1 + label), 1, kMshInt, false, false});
+    else
+      intake->placeCellLabels(k, rows.rows, 0);
+  }
+}
+
+void MshMesh::addPlacedTags() {
+  for (const PlacedElements& p : placed_) addTags(cells, p.rows, p.width, p.first);
+  placed_.clear();
+}
+
+bool MshMesh::placeData(size_t data, bool of_cells, uint64_t rows, size_t components) {
+  const uint64_t wanted = of_cells ? intake->cellCount() : intake->mesh().pointCount();
+  if (rows != wanted || !intake->mayPlaceData(data)) return false;
+  const auto place = numbers.rowsHere(rows, kMshInt + components * kMshDouble);
+  if (!place) return false;
+  const auto window = std::make_shared<FileWindow>(place->file);
+  TagTable& tags = of_cells ? cells : *points;
+  bool in_order = true;
+  forPlacedRows(*window, *place, 0, rows, [&](const unsigned char* row, size_t n, uint64_t at) {
+    for (size_t i = 0; i < n && in_order; ++i, row += place->row_bytes) {
+      int64_t first, count;
+      in_order = tags.find(storedInteger(row, kMshInt, place->swapped), &first, &count) &&
+                 count == 1 && static_cast<uint64_t>(first) == at + i;
+    }
+    return in_order;
+  });
+  if (!in_order) return false;
+  intake->placeData(data, *place, mshReals(kMshInt, components), window);
+  numbers.pass(*place, "the values of data");
+  return true;
+}
+
+}  // namespace tetstream
