@@ -29,25 +29,28 @@ struct CornerRows {
 template <class Stored, bool kSwapped, bool kTagged>
 bool ranksInRun(const CornerRows& in, const PointRun& run, size_t rows, int64_t* out) {
   using Bits = std::make_unsigned_t<Stored>;
-  constexpr Bits sign = Bits{1} << (8 * sizeof(Bits) - 1);
+  using Four [[gnu::vector_size(4 * sizeof(Bits))]] = Bits;
+  using FourRanks [[gnu::vector_size(4 * sizeof(uint64_t))]] = uint64_t;
   const auto tag = static_cast<Bits>(run.tag);
   const auto last = static_cast<Bits>(
       std::min<int64_t>(run.tags - 1, std::numeric_limits<Stored>::max() - run.tag));
-  Bits outside = 0;
-  for (size_t i = 0; i < rows; ++i, out += 4) {
-    const unsigned char* row = in.at + i * in.row_bytes;
-    for (size_t k = 0; k < 4; ++k) {
-      const Bits before =
-          static_cast<Bits>(storedNumber<Stored, kSwapped>(row + k * sizeof(Bits))) - tag;
-      outside |= before | (last - before);
-      out[k] = static_cast<int64_t>(before) + run.rank;
-    }
-    if constexpr (kTagged) {
-      const auto own = static_cast<Bits>(storedNumber<Stored, kSwapped>(row - in.own_tag));
-      outside |= sizeof own == 8 ? own | own << 1 : own;  // kMostTag has 62 bits
-    }
+  const auto rank = static_cast<uint64_t>(run.rank);
+  Four outside = {};
+  Bits own_tags = 0;
+  const unsigned char* row = in.at;
+  const size_t row_bytes = in.row_bytes, own_tag = in.own_tag;
+  for (size_t i = 0; i < rows; ++i, row += row_bytes, out += 4) {
+    Four before;
+    for (size_t k = 0; k < 4; ++k) before[k] = storedNumber<Bits, kSwapped>(row + k * sizeof tag);
+    before -= tag;
+    outside |= before | (last - before);
+    const FourRanks ranks = __builtin_convertvector(before, FourRanks) + rank;
+    std::memcpy(out, &ranks, sizeof ranks);
+    if constexpr (kTagged) own_tags |= storedNumber<Bits, kSwapped>(row - own_tag);
   }
-  return (outside & sign) == 0;
+  if (sizeof tag == 8) own_tags |= own_tags << 1;  // kMostTag has 62 bits
+  constexpr Bits sign = Bits{1} << (8 * sizeof(Bits) - 1);
+  return ((outside[0] | outside[1] | outside[2] | outside[3] | own_tags) & sign) == 0;
 }
 
 using Ranks = bool (*)(const CornerRows&, const PointRun&, size_t, int64_t*);

@@ -3,9 +3,9 @@
 meshio, gmsh and VTK in turn, where those are installed and read the format. Wall seconds, with one
 thread and with --threads: medians, or with --least the least, for machines that others use, too. MB
 is 10^6 bytes of the file. "s" is the scan, after which points, cells and data are arrays in temporary
-files; of what is such where it lies (vtu, vtk, vtkhdf) it is the reading of all columns. "and columns
-s": with their reading in any case, with all threads. Ordering comes later and is not in it. "times":
-against all threads, the others as they are."""
+files; of what is such where it lies (vtu, vtk, vtkhdf, binary msh and meshb) it is opening and the
+reading of all columns. "and columns s": with their reading in any case, with all threads. Ordering
+comes later and is not in it. "times": against all threads, the others as they are."""
 import contextlib
 import io
 import os
@@ -140,7 +140,8 @@ def reading(program, threads, path):
     words = subprocess.run([program, "--once", str(threads), path], check=True,
                            stdout=subprocess.PIPE, text=True).stdout.split()
     opened, both = float(words[2]), float(words[3])
-    return both if path.endswith((".vtu", ".vtk", ".vtkhdf")) else opened, both
+    in_place = path.endswith((".vtu", ".vtk", ".vtkhdf", "binary.msh", ".meshb"))
+    return both if in_place else opened, both
 
 
 def measure(program, path, threads, rounds, figure):

@@ -1,0 +1,140 @@
+// Bytes of a file by range: whoever reads ahead, they are the file's, and an end that comes too
+// early is told.
+#include "file_window.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <thread>
+
+#include "status.h"
+#include "strange_workers.h"
+
+namespace tetstream {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+
+Bytes someBytes(size_t size) {
+  Bytes bytes(size);
+  for (size_t i = 0; i < size; ++i) bytes[i] = static_cast<unsigned char>(i * 2654435761u >> 13);
+  return bytes;
+}
+
+std::shared_ptr<ByteSource> sourceOf(const Bytes& bytes) {
+  return openMemory(bytes.data(), bytes.size(), "bytes");
+}
+
+Helpers helpersOf(const Tasks& tasks) {
+  return {{&tasks}, std::this_thread::get_id()};
+}
+
+void expectSequence(FileWindow& window, const Bytes& bytes, size_t step) {
+  for (size_t at = 0; at < bytes.size(); at += step) {
+    const size_t n = std::min(step, bytes.size() - at);
+    ASSERT_EQ(std::memcmp(window.bytes(at, n), bytes.data() + at, n), 0) << at;
+  }
+}
+
+// In sequence, as columns of the same rows one after the other, from the front again, at random.
+void expectAllWays(const Bytes& bytes, const Helpers& helpers) {
+  FileWindow window(sourceOf(bytes), helpers);
+  for (size_t step : {size_t{100}, size_t{65536}, size_t{100000}, FileWindow::kMostBytes})
+    for (int again = 0; again < 2; ++again) expectSequence(window, bytes, step);
+  for (size_t i = 0; i < 300; ++i) {
+    const size_t n = i * 12345 % FileWindow::kMostBytes;
+    const size_t at = i * 7654321 % (bytes.size() - n);
+    ASSERT_EQ(std::memcmp(window.bytes(at, n), bytes.data() + at, n), 0) << i;
+  }
+}
+
+TEST(FileWindow, GivesTheFilesBytesWhoeverReadsAhead) {
+  const Bytes bytes = someBytes(3000000);
+  expectAllWays(bytes, {});
+  {
+    const Tasks two(2);
+    expectAllWays(bytes, helpersOf(two));
+    std::thread([&] { expectAllWays(bytes, {{&two}, {}}); }).join();
+  }
+  test::NoWorkers no;
+  test::HastyWorkers hasty;
+  test::LazyWorkers lazy;
+  for (Workers* workers :
+       {static_cast<Workers*>(&no), static_cast<Workers*>(&hasty), static_cast<Workers*>(&lazy)}) {
+    const Tasks tasks(3, workers);
+    expectAllWays(bytes, helpersOf(tasks));
+  }
+  EXPECT_GT(no.refused, 0u);
+  EXPECT_FALSE(lazy.waiting.empty());
+  lazy.workAll();  // when the windows are gone
+}
+
+// A file of which less and less is there, or that cannot be read.
+class BadSource final : public ByteSource {
+ public:
+  explicit BadSource(const Bytes& bytes) : ByteSource("bytes"), bytes_(bytes) {}
+  size_t read(void*, size_t) override { return 0; }
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    if (fails) fail(Status::kIo, "bytes: broken");
+    if (offset >= end) return 0;
+    const size_t n = std::min(size, end - static_cast<size_t>(offset));
+    std::memcpy(out, bytes_.data() + offset, n);
+    return n;
+  }
+  bool seekable() const override { return true; }
+  uint64_t size() const override { return bytes_.size(); }
+  size_t end = SIZE_MAX;
+  bool fails = false;
+
+ private:
+  const Bytes& bytes_;
+};
+
+TEST(FileWindow, TellsWhereTheFileEndsOrCannotBeRead) {
+  const Bytes bytes = someBytes(1000000);
+  test::LazyWorkers lazy;
+  const Tasks tasks(3, &lazy);
+  const auto source = std::make_shared<BadSource>(bytes);
+  FileWindow window(source, helpersOf(tasks));
+  window.bytes(0, 100000);
+  source->end = 150000;
+  lazy.workAll();  // reads too little ahead
+  try {
+    window.bytes(100000, 100000);
+    ADD_FAILURE() << "it gave bytes that are not there";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::kBadData);
+    EXPECT_NE(error.text().find("bytes: byte 150000: the file ends here"), std::string::npos);
+  }
+  source->end = bytes.size();
+  EXPECT_EQ(std::memcmp(window.bytes(0, 100000), bytes.data(), 100000), 0);
+  source->fails = true;
+  window.bytes(0, 100000);  // which are held
+  lazy.workAll();
+  EXPECT_THROW(window.bytes(100000, 100000), Error);
+  source->fails = false;
+  EXPECT_EQ(std::memcmp(window.bytes(100000, 100000), bytes.data() + 100000, 100000), 0);
+}
+
+TEST(FileWindow, FindsAnIntegerThatIsNotZeroWhereverItIs) {
+  constexpr size_t kRows = 100000, kRowBytes = 20;
+  Bytes bytes(kRows * kRowBytes + 4, 0);
+  const Tasks three(3);
+  const RowsPlace place = {sourceOf(bytes), 4, kRows, kRowBytes, false};
+  for (const Tasks* tasks : {static_cast<const Tasks*>(nullptr), &three})
+    for (size_t width : {size_t{4}, size_t{8}}) {
+      EXPECT_FALSE(anyNonZero(place, 12, width, tasks));
+      for (size_t row : {size_t{0}, size_t{16383}, size_t{16384}, size_t{44444}, kRows - 1}) {
+        unsigned char& byte = bytes[4 + row * kRowBytes + 12 + width - 1];
+        byte = 0x80;
+        EXPECT_TRUE(anyNonZero(place, 12, width, tasks)) << row;
+        byte = 0;
+        bytes[4 + row * kRowBytes + 11] = 1;  // beside it
+        EXPECT_FALSE(anyNonZero(place, 12, width, tasks)) << row;
+        bytes[4 + row * kRowBytes + 11] = 0;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace tetstream
