@@ -53,7 +53,7 @@ size_t FileScan::readText(char* out, size_t size) {
 }
 
 size_t FileScan::readFile(char* out, size_t size) {
-  if (!bytes_->seekable()) return bytes_->read(out, size);
+  if (!has_jumped_) return bytes_->read(out, size);
   const size_t got = bytes_->readAt(read_to_, out, size);
   read_to_ += got;
   return got;
@@ -340,6 +340,7 @@ void FileScan::skipTo(uint64_t place, const char* what) {
   if (place > origin_ + filled_ && unread_at_ == unread_.size() && bytes_->seekable()) {
     if (place > bytes_->size()) failBad(std::string("the file ends within ") + what);
     origin_ = read_to_ = place;
+    has_jumped_ = true;
     at_ = filled_ = 0;
     buffer_[0] = 0;
     return;

@@ -107,7 +107,8 @@ class FileScan {
   [[noreturn]] void failWord(std::string_view word, const char* what) const;
 
   std::shared_ptr<ByteSource> bytes_;
-  uint64_t read_to_ = 0;  // of a file that can seek: where reading goes on
+  bool has_jumped_ = false;  // then the file is read from read_to_ on, and not in sequence
+  uint64_t read_to_ = 0;
   char comment_;
   const TextThreads threads_;
   std::unique_ptr<NumbersAhead> ahead_;  // of the text behind the buffer, which is empty then

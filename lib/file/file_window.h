@@ -4,27 +4,20 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "bytes.h"
-#include "text_pieces.h"
+#include "tasks.h"
 
 namespace tetstream {
 
 // The bytes of a file that were asked for last, and some behind them: columns that lie in the same
-// rows are read from the file together. Where much is asked for in sequence, a helper reads what
-// comes next.
+// rows are read from the file together.
 class FileWindow {
  public:
   static constexpr size_t kMostBytes = 256 << 10;  // stays in the processor's cache
 
-  // The file may be read by several threads at once.
-  explicit FileWindow(std::shared_ptr<ByteSource> file, const Helpers& helpers = {});
-  ~FileWindow();
-  FileWindow(const FileWindow&) = delete;
-  FileWindow& operator=(const FileWindow&) = delete;
-
+  explicit FileWindow(std::shared_ptr<ByteSource> file) : file_(std::move(file)) {}
   // Bytes [offset, offset + size), of kMostBytes at most; they live until the next call. Throws
   // kBadData where the file has become shorter.
   const unsigned char* bytes(uint64_t offset, size_t size);
@@ -32,17 +25,10 @@ class FileWindow {
   const ByteSource& file() const { return *file_; }
 
  private:
-  class Ahead;
-  size_t load(uint64_t offset, size_t size);
-  void askAhead(uint64_t offset, size_t size);
-
   std::shared_ptr<ByteSource> file_;
-  const Helpers helpers_;
   std::vector<unsigned char> held_;
   uint64_t begin_ = 0;  // in the file, of what is held
   size_t size_ = 0;     // of that
-  uint64_t next_ = 0;   // behind what was last read from the file
-  std::optional<Kept<Ahead>> ahead_;
 };
 
 // Where rows lie that were passed over. All of them were in the file then.

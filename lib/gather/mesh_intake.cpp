@@ -134,24 +134,25 @@ void MeshIntake::addPoint(const double position[3]) {
   mesh_->appendPositions(narrow, 1);
 }
 
-std::shared_ptr<FileWindow> MeshIntake::openWindow(const RowsPlace& rows) const {
-  return std::make_shared<FileWindow>(rows.file, Helpers{options_.threads, thread_});
+static std::shared_ptr<FileWindow> windowOf(std::shared_ptr<FileWindow>& window,
+                                            const RowsPlace& rows) {
+  if (!window) window = std::make_shared<FileWindow>(rows.file);
+  return window;
 }
 
 void MeshIntake::placePoints(const RowsPlace& rows, const NumbersOfRow& reals) {
   NumbersOfRow position = reals;
   position.finite = true;
-  if (!points_window_) points_window_ = openWindow(rows);
-  mesh_->placePositions(
-      rows.rows, placeNumbers(points_window_, rows, position, mesh_->schema().position_type));
+  mesh_->placePositions(rows.rows, placeNumbers(windowOf(points_window_, rows), rows, position,
+                                                mesh_->schema().position_type));
 }
 
 void MeshIntake::placeCells(CellKind kind, PlacedCellsPlan plan) {
   writeHeld();
   const uint64_t count = plan.place.rows;
   if (kind.nodes > cornersOf(kind.shape)) quadratic_ += count;
-  if (!cells_window_) cells_window_ = openWindow(plan.place);
-  mesh_->placeCells(count, tetstream::placeCells(cells_window_, std::move(plan)));
+  std::shared_ptr<FileWindow> window = windowOf(cells_window_, plan.place);
+  mesh_->placeCells(count, tetstream::placeCells(std::move(window), std::move(plan)));
 }
 
 size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t* labels,

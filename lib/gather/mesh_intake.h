@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "cell_kinds.h"
@@ -65,8 +64,6 @@ class MeshIntake {
   void placeCellLabels(size_t labels, const RowsPlace& rows, const NumbersOfRow& label);
   void placeCellLabels(size_t labels, uint64_t count, int64_t label);  // of at most 32 bits
   size_t labelColumns() const { return labels_.size(); }
-  // For rows that data share.
-  std::shared_ptr<FileWindow> openWindow(const RowsPlace& rows) const;
   // All rows of new data of floats, from the first on.
   bool mayPlaceData(size_t data) const { return data_[data]->isNew(); }
   void placeData(size_t data, const RowsPlace& rows, const NumbersOfRow& reals,
@@ -117,7 +114,6 @@ class MeshIntake {
 
   const FileScan& file_;
   ReadOptions options_;
-  const std::thread::id thread_ = std::this_thread::get_id();
   std::string name_;
   std::unique_ptr<MeshSpool> mesh_;
   std::vector<Labels> labels_, point_labels_;

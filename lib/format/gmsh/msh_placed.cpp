@@ -87,7 +87,7 @@ bool MshMesh::placeData(size_t data, bool of_cells, uint64_t rows, size_t compon
   if (rows != wanted || !intake->mayPlaceData(data)) return false;
   const auto place = numbers.rowsHere(rows, kMshInt + components * kMshDouble);
   if (!place) return false;
-  const auto window = intake->openWindow(*place);
+  const auto window = std::make_shared<FileWindow>(place->file);
   TagTable& tags = of_cells ? cells : *points;
   bool in_order = true;
   forPlacedRows(*window, *place, 0, rows, [&](const unsigned char* row, size_t n, uint64_t at) {

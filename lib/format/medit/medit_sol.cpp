@@ -38,7 +38,7 @@ bool place(MeditScan& scan, MeshIntake& intake, const std::vector<Solution>& sol
            uint64_t count, size_t width) {
   const auto rows = scan.rowsHere(count, 0, width);
   if (!rows) return false;
-  const auto window = intake.openWindow(*rows);
+  const auto window = std::make_shared<FileWindow>(rows->file);
   for (const Solution& s : solutions) {
     NumbersOfRow reals = scan.realsOfRow(0, s.components);
     reals.at_byte = s.start * reals.width;

@@ -5,10 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <thread>
 
 #include "status.h"
-#include "strange_workers.h"
 
 namespace tetstream {
 namespace {
@@ -25,10 +23,6 @@ std::shared_ptr<ByteSource> sourceOf(const Bytes& bytes) {
   return openMemory(bytes.data(), bytes.size(), "bytes");
 }
 
-Helpers helpersOf(const Tasks& tasks) {
-  return {{&tasks}, std::this_thread::get_id()};
-}
-
 void expectSequence(FileWindow& window, const Bytes& bytes, size_t step) {
   for (size_t at = 0; at < bytes.size(); at += step) {
     const size_t n = std::min(step, bytes.size() - at);
@@ -37,8 +31,9 @@ void expectSequence(FileWindow& window, const Bytes& bytes, size_t step) {
 }
 
 // In sequence, as columns of the same rows one after the other, from the front again, at random.
-void expectAllWays(const Bytes& bytes, const Helpers& helpers) {
-  FileWindow window(sourceOf(bytes), helpers);
+TEST(FileWindow, GivesTheFilesBytes) {
+  const Bytes bytes = someBytes(3000000);
+  FileWindow window(sourceOf(bytes));
   for (size_t step : {size_t{100}, size_t{65536}, size_t{100000}, FileWindow::kMostBytes})
     for (int again = 0; again < 2; ++again) expectSequence(window, bytes, step);
   for (size_t i = 0; i < 300; ++i) {
@@ -46,27 +41,6 @@ void expectAllWays(const Bytes& bytes, const Helpers& helpers) {
     const size_t at = i * 7654321 % (bytes.size() - n);
     ASSERT_EQ(std::memcmp(window.bytes(at, n), bytes.data() + at, n), 0) << i;
   }
-}
-
-TEST(FileWindow, GivesTheFilesBytesWhoeverReadsAhead) {
-  const Bytes bytes = someBytes(3000000);
-  expectAllWays(bytes, {});
-  {
-    const Tasks two(2);
-    expectAllWays(bytes, helpersOf(two));
-    std::thread([&] { expectAllWays(bytes, {{&two}, {}}); }).join();
-  }
-  test::NoWorkers no;
-  test::HastyWorkers hasty;
-  test::LazyWorkers lazy;
-  for (Workers* workers :
-       {static_cast<Workers*>(&no), static_cast<Workers*>(&hasty), static_cast<Workers*>(&lazy)}) {
-    const Tasks tasks(3, workers);
-    expectAllWays(bytes, helpersOf(tasks));
-  }
-  EXPECT_GT(no.refused, 0u);
-  EXPECT_FALSE(lazy.waiting.empty());
-  lazy.workAll();  // when the windows are gone
 }
 
 // A file of which less and less is there, or that cannot be read.
@@ -92,13 +66,10 @@ class BadSource final : public ByteSource {
 
 TEST(FileWindow, TellsWhereTheFileEndsOrCannotBeRead) {
   const Bytes bytes = someBytes(1000000);
-  test::LazyWorkers lazy;
-  const Tasks tasks(3, &lazy);
   const auto source = std::make_shared<BadSource>(bytes);
-  FileWindow window(source, helpersOf(tasks));
+  FileWindow window(source);
   window.bytes(0, 100000);
   source->end = 150000;
-  lazy.workAll();  // reads too little ahead
   try {
     window.bytes(100000, 100000);
     ADD_FAILURE() << "it gave bytes that are not there";
@@ -110,7 +81,6 @@ TEST(FileWindow, TellsWhereTheFileEndsOrCannotBeRead) {
   EXPECT_EQ(std::memcmp(window.bytes(0, 100000), bytes.data(), 100000), 0);
   source->fails = true;
   window.bytes(0, 100000);  // which are held
-  lazy.workAll();
   EXPECT_THROW(window.bytes(100000, 100000), Error);
   source->fails = false;
   EXPECT_EQ(std::memcmp(window.bytes(100000, 100000), bytes.data() + 100000, 100000), 0);
