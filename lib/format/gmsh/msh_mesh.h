@@ -50,6 +50,7 @@ struct MshMesh {
   // with nothing taken: they are to be added.
   //
   bool placeNodes2(uint64_t count);
+  bool passTags4(uint64_t count, uint64_t first);  // of nodes, the first one's rank
   bool placePositions4(uint64_t count, size_t reals_of_row);
   // Elements of integers of that width: their tag, some others, the nodes. In version 4 all have
   // the group and the entity; else those are the first two of the others.

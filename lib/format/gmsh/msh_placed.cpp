@@ -10,6 +10,24 @@ namespace {
 // Of nodes: every reading of cells looks for them, fast where there are few runs of tags.
 constexpr uint64_t kMostRuns = 64;
 
+// Whether the integers that rows begin with count on from `tag`.
+template <class Stored, bool kSwapped>
+bool countsOn(const unsigned char* row, size_t row_bytes, size_t rows, int64_t tag) {
+  uint64_t others = 0;
+  for (size_t i = 0; i < rows; ++i, row += row_bytes)
+    others |= static_cast<uint64_t>(storedNumber<Stored, kSwapped>(row)) -
+              (static_cast<uint64_t>(tag) + i);
+  return others == 0;
+}
+
+bool countsOn(const unsigned char* row, const RowsPlace& place, size_t width, size_t rows,
+              int64_t tag) {
+  const auto count = place.swapped
+                         ? (width == 4 ? countsOn<int32_t, true> : countsOn<int64_t, true>)
+                         : (width == 4 ? countsOn<int32_t, false> : countsOn<int64_t, false>);
+  return count(row, place.row_bytes, rows, tag);
+}
+
 NumbersOfRow mshReals(size_t at_byte, size_t count) {
   return {at_byte, count, kMshDouble, true, false};
 }
@@ -19,6 +37,12 @@ NumbersOfRow mshReals(size_t at_byte, size_t count) {
 void MshMesh::addTags(TagTable& table, const RowsPlace& rows, size_t width, uint64_t first) {
   FileWindow window(rows.file);
   forPlacedRows(window, rows, 0, rows.rows, [&](const unsigned char* row, size_t n, uint64_t at) {
+    const int64_t first_tag = storedInteger(row, width, rows.swapped);
+    if (first_tag >= 0 && first_tag <= kMostTag - static_cast<int64_t>(n) &&
+        countsOn(row, rows, width, n, first_tag)) {
+      table.addRun(first_tag, static_cast<int64_t>(first + at), static_cast<int64_t>(n));
+      return true;
+    }
     for (size_t i = 0; i < n; ++i, row += rows.row_bytes) {
       const int64_t tag = storedInteger(row, width, rows.swapped);
       if (tag < 0 || tag > kMostTag)
@@ -37,6 +61,14 @@ bool MshMesh::placeNodes2(uint64_t count) {
   addTags(*points, *rows, kMshInt, 0);
   intake->placePoints(*rows, mshReals(kMshInt, 3));
   numbers.pass(*rows, "the nodes");
+  return true;
+}
+
+bool MshMesh::passTags4(uint64_t count, uint64_t first) {
+  const auto rows = numbers.rowsHere(count, size_bytes);
+  if (!rows) return false;
+  addTags(*points, *rows, size_bytes, first);
+  numbers.pass(*rows, "the tags of nodes");
   return true;
 }
 
@@ -89,10 +121,14 @@ bool MshMesh::placeData(size_t data, bool of_cells, uint64_t rows, size_t compon
   if (!place) return false;
   const auto window = std::make_shared<FileWindow>(place->file);
   TagTable& tags = of_cells ? cells : *points;
+  int64_t tag = 0, count = 0, first = 0;
+  const bool is_one_run =
+      tags.isOneRun(&tag, &count, &first) && first == 0 && static_cast<uint64_t>(count) == rows;
   bool in_order = true;
   forPlacedRows(*window, *place, 0, rows, [&](const unsigned char* row, size_t n, uint64_t at) {
+    if (is_one_run && countsOn(row, *place, kMshInt, n, tag + static_cast<int64_t>(at)))
+      return true;
     for (size_t i = 0; i < n && in_order; ++i, row += place->row_bytes) {
-      int64_t first, count;
       in_order = tags.find(storedInteger(row, kMshInt, place->swapped), &first, &count) &&
                  count == 1 && static_cast<uint64_t>(first) == at + i;
     }
