@@ -324,28 +324,52 @@ void MeshIntake::checkCorners() {
        name_.c_str(), static_cast<long long>(largest_corner_), static_cast<long long>(points));
 }
 
+// visit(row) for all faces: three points and a label.
+template <class Visit>
+void MeshIntake::forFaces(Visit visit) {
+  std::vector<int64_t> rows(4 * kRowsAtOnce);
+  for (uint64_t at = 0; at < faces_.rows(); at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, faces_.rows() - at));
+    faces_.read(at, n, rows.data());
+    for (size_t i = 0; i < n; ++i) visit(rows.data() + 4 * i);
+  }
+}
+
 // Of faces that no cell has, most have points that no cell has either.
 void MeshIntake::takeFaces() {
   faces_.finish();
   if (faces_.rows() == 0) return;
   Account account;
-  Array<uint64_t> used(account, static_cast<size_t>(mesh_->pointCount() / 64 + 1));
-  std::fill_n(used.data(), used.size(), uint64_t{0});
-  std::vector<int64_t> rows(4 * kRowsAtOnce);
-  for (uint64_t at = 0; at < mesh_->cellCount(); at += kRowsAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->cellCount() - at));
+  const auto words = static_cast<size_t>(mesh_->pointCount() / 64 + 1);
+  Array<uint64_t> unused(account, words);  // a bit for each of the faces' points that is
+  std::fill_n(unused.data(), words, uint64_t{0});
+  const auto word = [&](int64_t p) -> uint64_t& { return unused[static_cast<uint64_t>(p) / 64]; };
+  const auto bit = [](int64_t p) { return uint64_t{1} << static_cast<uint64_t>(p) % 64; };
+  uint64_t left = 0;
+  forFaces([&](const int64_t* face) {
+    for (int k = 0; k < 3; ++k) {
+      left += (word(face[k]) & bit(face[k])) == 0;
+      word(face[k]) |= bit(face[k]);
+    }
+  });
+  constexpr size_t kCells = 4 * kRowsAtOnce;  // each time
+  std::vector<int64_t> rows(4 * kCells);
+  for (uint64_t at = 0; at < mesh_->cellCount() && left > 0; at += kCells) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kCells, mesh_->cellCount() - at));
     mesh_->readCells(at, n, rows.data());
-    for (size_t i = 0; i < 4 * n; ++i)
-      used[static_cast<size_t>(rows[i] / 64)] |= uint64_t{1} << rows[i] % 64;
+    for (size_t i = 0; i < 4 * n; ++i) {
+      if ((word(rows[i]) & bit(rows[i])) == 0) continue;
+      word(rows[i]) &= ~bit(rows[i]);
+      --left;
+    }
   }
-  const auto isUsed = [&](int64_t p) { return used[static_cast<size_t>(p / 64)] >> p % 64 & 1; };
-  for (uint64_t i = 0; i < faces_.rows(); ++i) {
-    const auto* row = static_cast<const int64_t*>(faces_.row(i));
-    if (isUsed(row[0]) && isUsed(row[1]) && isUsed(row[2]))
-      mesh_->appendFace(row, row[3]);
+  const auto isUsed = [&](int64_t p) { return (word(p) & bit(p)) == 0; };
+  forFaces([&](const int64_t* face) {
+    if (isUsed(face[0]) && isUsed(face[1]) && isUsed(face[2]))
+      mesh_->appendFace(face, face[3]);
     else
       leaveOut("triangles that are no faces of cells");
-  }
+  });
   mesh_->finishFaces();
 }
 

@@ -107,6 +107,8 @@ class MeshIntake {
   }
   void writeHeld();
   void checkCorners();
+  template <class Visit>
+  void forFaces(Visit visit);
   void takeFaces();
   void copyData();
   void copyRows(Data& data, size_t column, uint64_t count);
