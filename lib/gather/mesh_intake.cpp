@@ -23,8 +23,7 @@ MeshIntake::MeshIntake(const FileScan& file, const ReadOptions& options, ScalarT
       options_(options),
       name_(file.name()),
       mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir, options.threads.tasks)),
-      held_cells_(4 * (kRowsAtOnce + kMostSplit)),
-      faces_(sizeof(int64_t[4]), options.temp_dir, {2, 256 << 10}, options.threads.tasks) {}
+      held_cells_(4 * (kRowsAtOnce + kMostSplit)) {}
 
 void MeshIntake::addLabels(const char* name, bool wide, bool sure) {
   const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;
@@ -188,10 +187,7 @@ void MeshIntake::addFace(CellKind kind, const int64_t* corners, int64_t label) {
   const size_t count = splitFace(kind.shape, corners, made);
   for (int c = 0; c < cornersOf(kind.shape); ++c)
     largest_corner_ = std::max(largest_corner_, corners[c]);
-  for (size_t i = 0; i < count; ++i) {
-    const int64_t row[4] = {made[i][0], made[i][1], made[i][2], label};
-    faces_.append(row, 1);
-  }
+  for (size_t i = 0; i < count; ++i) mesh_->appendFace(made[i], label);
 }
 
 // ------------------------------------------------------------------------------------------ data
@@ -324,21 +320,21 @@ void MeshIntake::checkCorners() {
        name_.c_str(), static_cast<long long>(largest_corner_), static_cast<long long>(points));
 }
 
-// visit(row) for all faces: three points and a label.
+// visit(its three points) for all faces.
 template <class Visit>
 void MeshIntake::forFaces(Visit visit) {
-  std::vector<int64_t> rows(4 * kRowsAtOnce);
-  for (uint64_t at = 0; at < faces_.rows(); at += kRowsAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, faces_.rows() - at));
-    faces_.read(at, n, rows.data());
-    for (size_t i = 0; i < n; ++i) visit(rows.data() + 4 * i);
+  int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
+  for (uint64_t at = 0; at < mesh_->faceCount(); at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->faceCount() - at));
+    mesh_->readFaces(at, n, corners, labels);
+    for (size_t i = 0; i < n; ++i) visit(corners + 3 * i);
   }
 }
 
 // Of faces that no cell has, most have points that no cell has either.
-void MeshIntake::takeFaces() {
-  faces_.finish();
-  if (faces_.rows() == 0) return;
+void MeshIntake::dropStrayFaces() {
+  if (mesh_->faceCount() == 0) return;
+  mesh_->finishFaces();
   Account account;
   const auto words = static_cast<size_t>(mesh_->pointCount() / 64 + 1);
   Array<uint64_t> unused(account, words);  // a bit for each of the faces' points that is
@@ -363,14 +359,11 @@ void MeshIntake::takeFaces() {
       --left;
     }
   }
+  if (left == 0) return;
   const auto isUsed = [&](int64_t p) { return (word(p) & bit(p)) == 0; };
-  forFaces([&](const int64_t* face) {
-    if (isUsed(face[0]) && isUsed(face[1]) && isUsed(face[2]))
-      mesh_->appendFace(face, face[3]);
-    else
-      leaveOut("triangles that are no faces of cells");
-  });
-  mesh_->finishFaces();
+  const uint64_t gone = mesh_->keepFaces(
+      [&](const int64_t* face) { return isUsed(face[0]) && isUsed(face[1]) && isUsed(face[2]); });
+  leaveOut("triangles that are no faces of cells", gone);
 }
 
 std::unique_ptr<IndexedSource> MeshIntake::finish() {
@@ -384,7 +377,7 @@ std::unique_ptr<IndexedSource> MeshIntake::finish() {
     if (!labels.any) mesh_->removeField(labels.column);
   mesh_->finish();
   checkCorners();
-  takeFaces();
+  dropStrayFaces();
   if (mesh_->cellCount() == 0 && mesh_->pointCount() > 0)
     fail(Status::kUnsupported, "%s: there are points, but no tetrahedron", name_.c_str());
   if (quadratic_ > 0) note(plural(quadratic_, kHigherOrderNote));

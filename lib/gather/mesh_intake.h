@@ -109,7 +109,7 @@ class MeshIntake {
   void checkCorners();
   template <class Visit>
   void forFaces(Visit visit);
-  void takeFaces();
+  void dropStrayFaces();
   void copyData();
   void copyRows(Data& data, size_t column, uint64_t count);
   void appendData(const Data& data, size_t column, const void* rows, size_t count);
@@ -121,7 +121,6 @@ class MeshIntake {
   std::vector<Labels> labels_, point_labels_;
   std::vector<int64_t> held_cells_;  // some, which are written together
   size_t held_ = 0;                  // of them
-  RowSpool faces_;  // three points and a label; only those of cells go into the mesh
   std::vector<std::unique_ptr<Data>> data_;
   std::shared_ptr<FileWindow> points_window_, cells_window_;  // of the points' and the cells' rows
   std::map<std::string, uint64_t> left_out_;

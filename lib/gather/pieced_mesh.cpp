@@ -295,14 +295,27 @@ class PiecedMesh final : public IndexedSource {
     return from;
   }
 
+  // note: of a number that is no point, itself or the number of points behind it is negative; a
+  // comparison would keep the compiler from working on several at once.
   void checkIds(const MeshPiece& piece, uint64_t first, size_t count, int64_t* ids) const {
+    const uint64_t last = piece.point_count - 1;
+    uint64_t outside = 0;
     for (size_t i = 0; i < 4 * count; ++i) {
-      if (static_cast<uint64_t>(ids[i]) >= piece.point_count)
-        fail(Status::kBadData, "%s: cell %llu uses point %lld, there are %llu", mesh_.name.c_str(),
-             static_cast<unsigned long long>(first + i / 4), static_cast<long long>(ids[i]),
-             static_cast<unsigned long long>(piece.point_count));
-      ids[i] += static_cast<int64_t>(piece.first_point);
+      const auto id = static_cast<uint64_t>(ids[i]);
+      outside |= id | (last - id);
+      ids[i] = static_cast<int64_t>(id + piece.first_point);
     }
+    if (outside >> 63) failId(piece, first, count, ids);
+  }
+
+  [[noreturn]] void failId(const MeshPiece& piece, uint64_t first, size_t count,
+                           const int64_t* ids) const {
+    size_t i = 0;
+    const auto id = [&] { return static_cast<uint64_t>(ids[i]) - piece.first_point; };
+    while (i + 1 < 4 * count && id() < piece.point_count) ++i;
+    fail(Status::kBadData, "%s: cell %llu uses point %lld, there are %llu", mesh_.name.c_str(),
+         static_cast<unsigned long long>(first + i / 4), static_cast<long long>(id()),
+         static_cast<unsigned long long>(piece.point_count));
   }
 
   MeshPieces mesh_;

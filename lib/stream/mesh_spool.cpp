@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "status.h"
 
@@ -17,7 +18,7 @@ MeshSpool::MeshSpool(ScalarType position_type, const std::string& temp_dir, cons
       positions_(3 * sizeOf(position_type), temp_dir, kInSequence, tasks),
       cells_(4 * sizeof(int32_t), temp_dir, kInSequence, tasks),
       wide_cells_(4 * sizeof(int64_t), temp_dir, kInSequence, tasks),
-      faces_(kFaceWords * sizeof(int64_t), temp_dir, kInSequence, tasks),
+      faces_(openFaces()),
       locked_(account_) {
   schema_.position_type = position_type;
 }
@@ -34,6 +35,10 @@ size_t MeshSpool::addCellData(const Column& column) {
   cell_data_.push_back(
       std::make_unique<ColumnRows>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
   return cell_data_.size() - 1;
+}
+
+std::unique_ptr<RowSpool> MeshSpool::openFaces() const {
+  return std::make_unique<RowSpool>(kFaceWords * sizeof(int64_t), temp_dir_, kInSequence, tasks_);
 }
 
 static void removeAt(std::vector<Column>& columns, std::vector<std::unique_ptr<ColumnRows>>& rows,
@@ -69,7 +74,7 @@ void MeshSpool::removeCellData(size_t column) {
 
 void MeshSpool::appendFace(const int64_t corners[3], int64_t label) {
   const int64_t row[kFaceWords] = {corners[0], corners[1], corners[2], label};
-  faces_.append(row, 1);
+  faces_->append(row, 1);
 }
 
 void MeshSpool::lock(uint64_t point) {
@@ -108,8 +113,18 @@ void MeshSpool::finish() {
 }
 
 void MeshSpool::finishFaces() {
-  schema_.face_count = static_cast<int64_t>(faces_.rows());
-  faces_.finish();
+  schema_.face_count = static_cast<int64_t>(faces_->rows());
+  faces_->finish();
+}
+
+uint64_t MeshSpool::keepFaces(const std::function<bool(const int64_t*)>& keep) {
+  std::unique_ptr<RowSpool> all = std::exchange(faces_, openFaces());
+  for (uint64_t i = 0; i < all->rows(); ++i) {
+    const auto* row = static_cast<const int64_t*>(all->row(i));
+    if (keep(row)) faces_->append(row, 1);
+  }
+  finishFaces();
+  return all->rows() - faces_->rows();
 }
 
 void MeshSpool::readPositions(uint64_t first, size_t count, void* out) {
@@ -145,7 +160,7 @@ void MeshSpool::readCellData(size_t column, uint64_t first, size_t count, void* 
 
 void MeshSpool::readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
   for (size_t i = 0; i < count; ++i, corners += 3) {
-    const auto* row = static_cast<const int64_t*>(faces_.row(first + i));
+    const auto* row = static_cast<const int64_t*>(faces_->row(first + i));
     std::memcpy(corners, row, 3 * sizeof(int64_t));
     labels[i] = row[3];
   }

@@ -2,6 +2,7 @@
 // is told, where its rows lie. Depends on source.h, column_rows.h.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,10 +52,12 @@ class MeshSpool : public IndexedSource {
   void lock(uint64_t point);  // of those that came
   uint64_t pointCount() const { return positions_.rows(); }
   uint64_t cellCount() const { return cells_.rows() + wide_cells_.rows() + placed_cells_.rows(); }
-  uint64_t faceCount() const { return faces_.rows(); }
+  uint64_t faceCount() const { return faces_->rows(); }
   // Before anything is read. Every column has its rows then; faces may follow, up to their own end.
   void finish();
   void finishFaces();
+  // Of the finished faces, those of which keep(three points) is true. Returns how many are gone.
+  uint64_t keepFaces(const std::function<bool(const int64_t*)>& keep);
 
   const Schema& schema() const override { return schema_; }
   const uint8_t* locked() const override { return locked_.size() > 0 ? locked_.data() : nullptr; }
@@ -67,6 +70,7 @@ class MeshSpool : public IndexedSource {
  private:
   using Columns = std::vector<std::unique_ptr<ColumnRows>>;
   void checkRows(const std::vector<Column>& columns, const Columns& rows, uint64_t count) const;
+  std::unique_ptr<RowSpool> openFaces() const;
   void readCopiedCells(uint64_t first, size_t count, int64_t* out);
   void growLocks();
 
@@ -76,7 +80,8 @@ class MeshSpool : public IndexedSource {
   ColumnRows positions_;
   // Cells that were appended as int32 up to the first point that needs more. A face: three points
   // and its label.
-  RowSpool cells_, wide_cells_, faces_;
+  RowSpool cells_, wide_cells_;
+  std::unique_ptr<RowSpool> faces_;
   PlacedParts placed_cells_;
   Columns fields_, cell_data_;
   Account account_;
