@@ -339,9 +339,10 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
  * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none
  * of them), `tmpdir`, and `threads`, `memory` and the pool: several threads read long runs of rows
- * of MSH, MEDIT, TetGen and SU2 text, in this function, and, where the mesh is read on the thread
- * that called it, text of VTU, VTK and XDMF, and decompress VTU; those of the pool or, without
- * options, the library's own, which end with the reader. With `memory` there is none. Since 0.1. */
+ * of MSH, MEDIT, TetGen and SU2 text, and look for references in binary MEDIT, in this function,
+ * and, where the mesh is read on the thread that called it, text of VTU, VTK and XDMF, and
+ * decompress VTU; those of the pool or, without options, the library's own, which end with the
+ * reader. With `memory` there is none. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
                                                                const tetstream_options *options,
                                                                tetstream_reader **reader);
