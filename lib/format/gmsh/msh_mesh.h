@@ -48,7 +48,6 @@ struct MshMesh {
 
   // msh_placed.cpp: what is read where it lies. Each passes over rows that can be, or returns false
   // with nothing taken: they are to be added.
-  //
   bool placeNodes2(uint64_t count);
   bool passTags4(uint64_t count, uint64_t first);  // of nodes, the first one's rank
   bool placePositions4(uint64_t count, size_t reals_of_row);

@@ -72,6 +72,18 @@ TEST(Medit, ReadsTextWithReferencesFacesAndLocks) {
   EXPECT_TRUE(anyNote(notes, "the section Ridges is left out"));
 }
 
+// The sixth vertex is no cell's.
+TEST(Medit, LeavesOutTrianglesWithPointsThatNoCellHas) {
+  const std::string text =
+      "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+      "1 1 1 0\n2 2 2 0\nTriangles 4\n1 2 3 7\n1 2 6 8\n3 4 5 9\n6 6 6 1\n"
+      "Tetrahedra 2\n1 2 3 4 0\n2 3 4 5 0\nEnd\n";
+  std::vector<std::string> notes;
+  Input input = openText(openMedit, text, {}, &notes);
+  EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 7}, {2, 3, 4, 9}}));
+  EXPECT_TRUE(anyNote(notes, "2 triangles that are no faces of cells are left out"));
+}
+
 TEST(Medit, GivesBackWhatItHasWritten) {
   const struct {
     ScalarType positions, fields, labels;
