@@ -79,18 +79,36 @@ size_t Tiling<S>::listVertices() {
   return count;
 }
 
+// Slices are worked on at the same time every other: of four by two threads. In more the seams
+// between them would weigh more than that, and of fewer vertices than kLeastSliced they do.
+// Larger meshes have as many tiles that lie apart.
+constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastSliced = 1024;
+
+// 0: none.
 template <class S>
-void Tiling<S>::cut(size_t count, unsigned round) {
+size_t Tiling<S>::slicesOf(size_t count, size_t most_in_one) {
+  if (count < kLeastSliced || count > kMostSlices * most_in_one) return 0;
+  return count > kFewSlices * most_in_one ? kMostSlices : kFewSlices;
+}
+
+template <class S>
+void Tiling<S>::cut(size_t count, unsigned round, bool together) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
-  const int64_t vertices = tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan));
-  const CutRule rule{kShare[round % 3], static_cast<size_t>(vertices)};
+  const auto most =
+      static_cast<size_t>(tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan)));
+  const CutRule rule{kShare[round % 3], most};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), rule, at);
-  pieces.cut(0, count, [this](size_t begin, size_t end) {
+  const auto add = [this](size_t begin, size_t end) {
     const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
     for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = tile;
     tiles_.push_back({begin, end, 0, tile - 1, 0});
-  });
+  };
+  const size_t slices = together ? slicesOf(count, most) : 0;
+  if (slices > 0)
+    pieces.slice(0, count, slices, round % 2 == 1, add);
+  else
+    pieces.cut(0, count, add);
 }
 
 // The tiles that own a vertex of the cell, each once.
@@ -198,12 +216,12 @@ void Tiling<S>::lookAhead() {
 }
 
 template <class S>
-void Tiling<S>::build(unsigned round, float bound) {
+void Tiling<S>::build(unsigned round, float bound, bool together) {
   tiles_.clear();
   markVertices(bound);
   const size_t count = listVertices();
   if (count == 0) return;
-  cut(count, round);
+  cut(count, round, together);
   addCells();
   colour();
   sortByColour();

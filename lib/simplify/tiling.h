@@ -45,8 +45,9 @@ class Tiling {
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
   // the cache. `round` shifts the cuts: what lies on a seam of one round is inside a tile of
-  // another. Tiles come ordered by colour.
-  void build(unsigned round, float bound);
+  // another. Tiles come ordered by colour. Where there are few, `together` asks for such that may
+  // be worked on at the same time, though they have more seams.
+  void build(unsigned round, float bound, bool together = false);
 
   // Of the vertices listed, those whose edges may have errors up to the bound.
   int64_t looking() const { return looking_; }
@@ -64,7 +65,8 @@ class Tiling {
  private:
   void markVertices(float bound);
   size_t listVertices();
-  void cut(size_t count, unsigned round);
+  static size_t slicesOf(size_t count, size_t most_in_one);
+  void cut(size_t count, unsigned round, bool together);
   using Earlier = std::vector<std::vector<uint32_t>>;
   // What was found in a part of the window's cells.
   struct Part {
