@@ -182,9 +182,10 @@ struct Core {
   // are of the first half.
   template <class Work>
   void forHalves(Work work) const {
-    constexpr uint32_t kLeastHalved = 1 << 15;
+    constexpr int64_t kLeastTiles = 8;  // or as many cells as these have vertices
     const uint32_t end = window.mesh.cellEnd();
-    const Tasks* const both = end < kLeastHalved ? nullptr : tasks();
+    const int64_t tile = options.tile_vertices > 0 ? options.tile_vertices : kTileVertices;
+    const Tasks* const both = end < kLeastTiles * tile ? nullptr : tasks();
     const uint32_t middle = both ? end / 2 : end;
     doBoth(
         both, [&] { work(0u, middle, 0u); }, [&] { work(middle, end, 1u); });

@@ -52,7 +52,8 @@ class MedianCut {
       const double share =
           (static_cast<double>(i) + (half_on ? 0.5 : 1)) / static_cast<double>(count);
       const auto middle = static_cast<size_t>(first + share * size);
-      if (middle >= end) break;
+      if (middle == begin) continue;
+      if (middle == end) break;
       partition(begin, end, side.axis, placeAt(begin, middle, end, side));
       leaf(begin, middle);
       begin = middle;

@@ -79,16 +79,15 @@ size_t Tiling<S>::listVertices() {
   return count;
 }
 
-// Slices are worked on at the same time every other: of four by two threads. In more the seams
-// between them would weigh more than that, and of fewer vertices than kLeastSliced they do.
-// Larger meshes have as many tiles that lie apart.
-constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastSliced = 1024;
+// Every other slice is worked on at the same time: of four two, by two threads. Of fewer vertices
+// than a quarter of a tile the seams between them would weigh more than that. Where there are more
+// than eight tiles enough of them lie apart.
+constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastPart = 4;
 
-// 0: none.
-template <class S>
-size_t Tiling<S>::slicesOf(size_t count, size_t most_in_one) {
-  if (count < kLeastSliced || count > kMostSlices * most_in_one) return 0;
-  return count > kFewSlices * most_in_one ? kMostSlices : kFewSlices;
+// 0: none. `tile`: the most vertices of one.
+static size_t slicesOf(size_t vertices, size_t tile) {
+  if (vertices < tile / kLeastPart || vertices > kMostSlices * tile) return 0;
+  return vertices > kFewSlices * tile ? kMostSlices : kFewSlices;
 }
 
 template <class S>

@@ -65,7 +65,6 @@ class Tiling {
  private:
   void markVertices(float bound);
   size_t listVertices();
-  static size_t slicesOf(size_t count, size_t most_in_one);
   void cut(size_t count, unsigned round, bool together);
   using Earlier = std::vector<std::vector<uint32_t>>;
   // What was found in a part of the window's cells.
