@@ -21,7 +21,7 @@ constexpr size_t kTilesTogether = 64;  // then what they did is added, for progr
 // Of the cells of the tiles of a group, where each may take its share of what is left to the goal.
 // A pass takes half of the cells, or less; less to take is shared by fewer tiles, and in the end is
 // taken by one after the other.
-constexpr double kLeastShare = 0.6;
+constexpr double kLeastShare = 0.5;
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
