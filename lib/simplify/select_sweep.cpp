@@ -21,7 +21,7 @@ constexpr size_t kTilesTogether = 64;  // then what they did is added, for progr
 // Of the cells of the tiles of a group, where each may take its share of what is left to the goal.
 // A pass takes half of the cells, or less; less to take is shared by fewer tiles, and in the end is
 // taken by one after the other.
-constexpr double kLeastShare = 0.5;
+constexpr double kLeastShare = 0.6, kLeastShareOfSlices = 0.5;
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
@@ -202,12 +202,14 @@ bool SweepSelector<S>::worksInOrder() const {
   return std::isfinite(core_.error_limit) || core_.tracer || core_.window.faces.anyPlaced();
 }
 
-// Whether all tiles of a pass may be swept at the same time, each taking a share of its cells.
+// Whether all tiles of a pass of the last goal may be swept at the same time, each taking a share
+// of its cells.
 template <class S>
 bool SweepSelector<S>::takesShares() const {
   const auto live = static_cast<double>(core_.window.liveCells());
-  return core_.shapesFirst() && core_.options.memory_bytes == 0 &&
-         !std::isfinite(core_.error_limit) && static_cast<double>(room()) > kLeastShare * live;
+  return core_.shapesFirst() && goal_.last && core_.options.memory_bytes == 0 &&
+         !std::isfinite(core_.error_limit) &&
+         static_cast<double>(room()) > kLeastShareOfSlices * live;
 }
 
 // As many tiles as can be swept before the goal may be met: with all of their cells, or where
@@ -220,13 +222,14 @@ size_t SweepSelector<S>::groupEnd(size_t first) {
   const size_t most = std::min(tiles.size(), first + kTilesTogether);
   const int64_t live = core_.window.liveCells();
   const auto left = static_cast<double>(room());
+  const double least_share = tiling_.areSlices() ? kLeastShareOfSlices : kLeastShare;
   auto cells = static_cast<int64_t>(tiles[first].cell_count);
   size_t end = first + 1;
   for (; end < most; ++end) {
     cells += static_cast<int64_t>(tiles[end].cell_count);
     if (!goal_.isMet(live - cells)) continue;
     const double share = left / static_cast<double>(cells);
-    if (!core_.shapesFirst() || share < kLeastShare) break;
+    if (!core_.shapesFirst() || share < least_share) break;
     share_ = std::min(share, 1.0);
   }
   return end;

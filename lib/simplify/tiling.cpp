@@ -80,13 +80,16 @@ size_t Tiling<S>::listVertices() {
 }
 
 // Every other slice is worked on at the same time: of four two, by two threads. Of fewer vertices
-// than a quarter of a tile the seams between them would weigh more than that. Where there are more
-// than eight tiles enough of them lie apart.
+// than a quarter of a tile the seams between them would weigh more than that. Windows of more than
+// eight tiles have enough that lie apart, at first; slices later on would cost them more in errors
+// than they save.
 constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastPart = 4;
 
 // 0: none. `tile`: the most vertices of one.
-static size_t slicesOf(size_t vertices, size_t tile) {
-  if (vertices < tile / kLeastPart || vertices > kMostSlices * tile) return 0;
+template <class S>
+size_t Tiling<S>::slicesOf(size_t vertices, size_t tile) const {
+  const bool is_large = core_.window.mesh.vertexEnd() > kMostSlices * tile;
+  if (is_large || vertices < tile / kLeastPart) return 0;
   return vertices > kFewSlices * tile ? kMostSlices : kFewSlices;
 }
 
@@ -104,7 +107,8 @@ void Tiling<S>::cut(size_t count, unsigned round, bool together) {
     tiles_.push_back({begin, end, 0, tile - 1, 0});
   };
   const size_t slices = together ? slicesOf(count, most) : 0;
-  if (slices > 0)
+  are_slices_ = slices > 0;
+  if (are_slices_)
     pieces.slice(0, count, slices, round % 2 == 1, add);
   else
     pieces.cut(0, count, add);
@@ -217,6 +221,7 @@ void Tiling<S>::lookAhead() {
 template <class S>
 void Tiling<S>::build(unsigned round, float bound, bool together) {
   tiles_.clear();
+  are_slices_ = false;
   markVertices(bound);
   const size_t count = listVertices();
   if (count == 0) return;

@@ -54,6 +54,8 @@ class Tiling {
   // Whether edges of free vertices that were not listed have errors above the bound.
   bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
+  // Whether they are such as may be worked on together.
+  bool areSlices() const { return are_slices_; }
   // Of each tile: those before it that it shares cells with.
   const std::vector<std::vector<uint32_t>>& earlier() const { return earlier_; }
   // Of each tile: its cells, and of those that wait for it the most that one has ahead.
@@ -65,6 +67,7 @@ class Tiling {
  private:
   void markVertices(float bound);
   size_t listVertices();
+  size_t slicesOf(size_t vertices, size_t tile) const;
   void cut(size_t count, unsigned round, bool together);
   using Earlier = std::vector<std::vector<uint32_t>>;
   // What was found in a part of the window's cells.
@@ -88,7 +91,7 @@ class Tiling {
   Part parts_[2];  // the second is empty where one thread works
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
-  bool others_wait_ = false;
+  bool others_wait_ = false, are_slices_ = false;
   Earlier earlier_;
   std::vector<size_t> ahead_;
 };
