@@ -96,8 +96,10 @@ bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out, doubl
   double found[kThinLanes];
   thinnessAt(made, found);
   out.after = std::max({found[0], found[1], found[2]});
-  out.made_count = 3;
-  std::copy_n(made[0], 12, out.made[0]);
+  while (out.made_count < 3) {
+    std::copy_n(made[out.made_count], 4, out.made[out.made_count]);
+    ++out.made_count;
+  }
   if (!(out.after < out.before - least_gain) || hasEdge(d, e)) out.after = kTurned;
   return true;
 }
