@@ -56,7 +56,8 @@ CLI::Option* addWord(CLI::App* command, const char* name, std::string& word, con
 // The words of the command line, as CLI11 is told about them.
 class Parser {
  public:
-  Parser();
+  // The first of them, if any.
+  explicit Parser(const std::string& first);
   Arguments parse(int argc, const char* const* argv);
 
  private:
@@ -93,7 +94,9 @@ class Parser {
   bool version_ = false;
 };
 
-Parser::Parser() {
+// Where the first word is a command that needs to know of no other the others are left out: to tell
+// of them takes longer than to read a small mesh.
+Parser::Parser(const std::string& first) {
   app_.get_formatter()->column_width(kHelpColumn);
   app_.get_formatter()->label("Positionals", "Arguments");
   app_.get_formatter()->label("Usage", "usage");
@@ -105,13 +108,19 @@ Parser::Parser() {
   app_.add_flag("--version", version_, "Show the library's version and formats and stop");
   app_.footer(std::string("`tetstream help COMMAND` says more about one.\n") + kExitCodes +
               "\nMore: man tetstream");
-  addSimplify();
-  addInfo();
-  addConvert();
-  addLayout();
-  addGenerate();
-  addDiagram();
-  addCompare();
+  static constexpr struct {
+    const char* name;
+    void (Parser::*add)();
+  } kCommands[] = {{"simplify", &Parser::addSimplify}, {"info", &Parser::addInfo},
+                   {"convert", &Parser::addConvert},   {"layout", &Parser::addLayout},
+                   {"generate", &Parser::addGenerate}, {"diagram", &Parser::addDiagram},
+                   {"compare", &Parser::addCompare}};
+  for (const auto& command : kCommands)
+    if (first == command.name) {
+      (this->*command.add)();
+      return;
+    }
+  for (const auto& command : kCommands) (this->*command.add)();
   addHelp();
   addCompletion();
 }
@@ -417,7 +426,7 @@ Arguments Parser::parse(int argc, const char* const* argv) {
 }  // namespace
 
 Arguments parseArguments(int argc, const char* const* argv) {
-  return Parser().parse(argc, argv);
+  return Parser(argc > 1 ? argv[1] : "").parse(argc, argv);
 }
 
 }  // namespace tetstream::cli

@@ -79,6 +79,21 @@ double scaleFor(const double* const p[4], int axis) {
   return std::ldexp(1.0, exponent > 1000 ? -1000 : exponent < -1000 ? 1000 : -exponent);
 }
 
+// Cells for which no arithmetic is needed, of boxes and of what is drawn out along an axis: all
+// corners in a plane across an axis, or two pairs of them on lines along the same one.
+bool inPlaneOfAxis(const double* const p[4]) {
+  const auto same = [p](int k, int l, int axis) { return p[k][axis] == p[l][axis]; };
+  const auto along = [same](int k, int l, int axis) {
+    return same(k, l, (axis + 1) % 3) && same(k, l, (axis + 2) % 3);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    if (same(0, 1, axis) && same(0, 2, axis) && same(0, 3, axis)) return true;
+    for (int k = 1; k < 4; ++k)
+      if (along(0, k, axis) && along(k % 3 + 1, (k + 1) % 3 + 1, axis)) return true;
+  }
+  return false;
+}
+
 int exactOrientation(const double* const p[4]) {
   Expansion d[3][3];
   for (int i = 0; i < 3; ++i) {
@@ -118,7 +133,7 @@ int orientation(const double a[3], const double b[3], const double c[3], const d
     if (det < -bound) return -1;
   }
   const double* const points[4] = {a, b, c, d};
-  return exactOrientation(points);
+  return inPlaneOfAxis(points) ? 0 : exactOrientation(points);
 }
 
 double largestDifference(const double a[3], const double b[3], const double c[3],

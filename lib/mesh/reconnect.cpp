@@ -20,19 +20,27 @@ void Reconnector<S>::replace(const Reconnection& r, uint32_t* slots) {
 }
 
 template <class S>
-double Reconnector<S>::thinnessAt(const uint32_t corners[4]) const {
-  double p[4][3];
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(patch_.values(corners[k])[i]);
-  return thinness(p);
+void Reconnector<S>::cornersOf(uint32_t c, uint32_t corners[4]) const {
+  for (uint32_t j = 0; j < 4; ++j) corners[j] = patch_.vertexOf(c, j);
+}
+
+template <class S>
+void Reconnector<S>::measureFour(const uint32_t* cells) {
+  uint32_t corners[kThinLanes][4];
+  double found[kThinLanes];
+  for (size_t i = 0; i < kThinLanes; ++i) cornersOf(cells[i], corners[i]);
+  thinnessAt(corners, found);
+  for (size_t i = 0; i < kThinLanes; ++i) thinness_[cells[i]] = found[i];
 }
 
 template <class S>
 double Reconnector<S>::thinnessOfCell(uint32_t c) {
   if (thinness_[c] == kNotKnown) {
-    const uint32_t corners[4] = {patch_.vertexOf(c, 0), patch_.vertexOf(c, 1),
-                                 patch_.vertexOf(c, 2), patch_.vertexOf(c, 3)};
-    thinness_[c] = thinnessAt(corners);
+    double p[4][3];
+    for (uint32_t k = 0; k < 4; ++k)
+      for (uint32_t i = 0; i < 3; ++i)
+        p[k][i] = static_cast<double>(patch_.values(patch_.vertexOf(c, k))[i]);
+    thinness_[c] = thinness(p);
   }
   return thinness_[c];
 }
@@ -82,15 +90,17 @@ bool Reconnector<S>::removeFace(uint32_t c, uint32_t j, Reconnection& out, doubl
   if (beyond == kNone) return false;
   addGone(c, out);
   addGone(beyond, out);
-  out.after = -1;
-  for (int k = 0; k < 3; ++k) {
-    // (d, t0, t1, t2) is positive; in it e, beyond the face, takes the place of each t in turn.
-    const uint32_t made[4] = {d, t[k], t[(k + 1) % 3], e};
-    std::copy_n(made, 4, out.made[out.made_count++]);
-    out.after = std::max(out.after, thinnessAt(made));
-    if (out.after >= out.before - least_gain) return true;
+  // (d, t0, t1, t2) is positive; in it e, beyond the face, takes the place of each t in turn.
+  const uint32_t made[kThinLanes][4] = {
+      {d, t[0], t[1], e}, {d, t[1], t[2], e}, {d, t[2], t[0], e}, {d, t[0], t[1], e}};
+  double found[kThinLanes];
+  thinnessAt(made, found);
+  out.after = std::max({found[0], found[1], found[2]});
+  while (out.made_count < 3) {
+    std::copy_n(made[out.made_count], 4, out.made[out.made_count]);
+    ++out.made_count;
   }
-  if (hasEdge(d, e)) out.after = kTurned;
+  if (!(out.after < out.before - least_gain) || hasEdge(d, e)) out.after = kTurned;
   return true;
 }
 
@@ -117,38 +127,75 @@ bool Reconnector<S>::orderRing(uint32_t v, uint32_t* ring) const {
   return next == from[0];
 }
 
+// Of the ring's vertices from place i to place k: how bad the worst cell is of the best
+// triangulation, and the third vertex of its triangle at both ends.
+template <class S>
+struct Reconnector<S>::Chains {
+  static constexpr uint32_t kMost = Reconnection::kMostRing;
+  explicit Chains(uint32_t vertices) : count(vertices) {
+    for (uint32_t i = 0; i + 1 < count; ++i) worst[i][i + 1] = -1;
+  }
+  uint32_t count;
+  double worst[kMost][kMost] = {};
+  uint32_t middle[kMost][kMost];
+};
+
+// Chains of the length, from those that are shorter. Two triangles at a time are measured, and none
+// whose parts are too bad.
+template <class S>
+void Reconnector<S>::addTriangles(uint32_t u, uint32_t v, const uint32_t* ring, uint32_t length,
+                                  double limit, Chains& chains) const {
+  struct Triangle {
+    uint32_t i, j, k;
+    double parts;
+  } triangles[Chains::kMost * Chains::kMost];
+  uint32_t count = 0;
+  for (uint32_t i = 0, k = length; k < chains.count; ++i, ++k) {
+    chains.worst[i][k] = kTurned;
+    for (uint32_t j = i + 1; j < k; ++j) {
+      const double parts = std::max(chains.worst[i][j], chains.worst[j][k]);
+      if (parts < limit) triangles[count++] = {i, j, k, parts};
+    }
+  }
+  for (uint32_t first = 0; first < count; first += 2) {
+    const uint32_t last = std::min(first + 1, count - 1);
+    uint32_t cells[kThinLanes][4];
+    for (uint32_t t = 0; t < 2; ++t) {
+      const Triangle& at = triangles[t == 0 ? first : last];
+      const uint32_t lower[4] = {u, ring[at.i], ring[at.j], ring[at.k]};
+      const uint32_t upper[4] = {v, ring[at.i], ring[at.k], ring[at.j]};
+      std::copy_n(lower, 4, cells[2 * t]);
+      std::copy_n(upper, 4, cells[2 * t + 1]);
+    }
+    double found[kThinLanes];
+    thinnessAt(cells, found);
+    for (uint32_t t = 0; first + t <= last; ++t) {
+      const auto [i, j, k, parts] = triangles[first + t];
+      const double w = std::max({parts, found[2 * t], found[2 * t + 1]});
+      if (w >= chains.worst[i][k]) continue;
+      chains.worst[i][k] = w;
+      chains.middle[i][k] = j;
+    }
+  }
+}
+
 // The triangulation of the ring whose worst cell is best, by dynamic programming over its chains
 // (Klincsek 1980): each triangle makes a cell with u and one with v.
 template <class S>
 void Reconnector<S>::triangulate(uint32_t u, uint32_t v, const uint32_t* ring, double least_gain,
                                  Reconnection& out) {
-  constexpr uint32_t kMost = Reconnection::kMostRing;
   const uint32_t n = out.gone_count;
   const double limit = out.before - least_gain;
-  double worst[kMost][kMost] = {};
-  uint32_t middle[kMost][kMost];
-  const auto best = [&](uint32_t i, uint32_t k) {
-    worst[i][k] = kTurned;
-    for (uint32_t j = i + 1; j < k; ++j) {
-      double w = std::max(worst[i][j], worst[j][k]);
-      const uint32_t lower[4] = {u, ring[i], ring[j], ring[k]};
-      const uint32_t upper[4] = {v, ring[i], ring[k], ring[j]};
-      if (w < limit) w = std::max(w, thinnessAt(lower));
-      if (w < limit) w = std::max(w, thinnessAt(upper));
-      if (w >= worst[i][k]) continue;
-      worst[i][k] = w;
-      middle[i][k] = j;
-    }
-  };
-  for (uint32_t i = 0; i + 1 < n; ++i) worst[i][i + 1] = -1;
-  for (uint32_t length = 2; length < n; ++length)
-    for (uint32_t i = 0; i + length < n; ++i) best(i, i + length);
-  out.after = worst[0][n - 1];
-  if (out.after < limit && n == 3 && hasFace(ring)) out.after = kTurned;
-  if (!(out.after < limit)) return;
-  uint32_t chains[kMost][2] = {{0, n - 1}};
+  Chains found(n);
+  for (uint32_t length = 2; length < n; ++length) addTriangles(u, v, ring, length, limit, found);
+  out.after = found.worst[0][n - 1];
+  if (!(out.after < limit) || (n == 3 && hasFace(ring))) {
+    out.after = kTurned;
+    return;
+  }
+  uint32_t chains[Chains::kMost][2] = {{0, n - 1}};
   for (uint32_t count = 1; count > 0;) {
-    const uint32_t i = chains[--count][0], k = chains[count][1], j = middle[i][k];
+    const uint32_t i = chains[--count][0], k = chains[count][1], j = found.middle[i][k];
     const uint32_t cells[2][4] = {{u, ring[i], ring[j], ring[k]}, {v, ring[i], ring[k], ring[j]}};
     for (const auto& cell : cells) std::copy_n(cell, 4, out.made[out.made_count++]);
     for (const auto& [begin, end] : {std::pair(i, j), std::pair(j, k)}) {

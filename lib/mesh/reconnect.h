@@ -16,7 +16,8 @@ struct Reconnection {
   static constexpr uint32_t kMostRing = 7, kMostCells = 2 * (kMostRing - 2);
   uint32_t gone[kMostRing], made[kMostCells][4];  // cells; corners, positively ordered
   uint32_t gone_count = 0, made_count = 0;
-  // The worst thinness. Where it would not gain what is asked for, `made` is not complete.
+  // The worst thinness; kTurned, with `made` not complete, where it would not gain what is asked
+  // for.
   double before = -1, after = kTurned;
   bool improves() const { return after < before; }
 };
@@ -33,6 +34,19 @@ class Reconnector {
   // As Patch::replace.
   void replace(const Reconnection& r, uint32_t* slots);
 
+  // Measures the live cells that are wanted, several at a time: those that will be asked for.
+  template <class Wanted>
+  void measure(Wanted wanted) {
+    uint32_t cells[kThinLanes];
+    size_t count = 0;
+    for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
+      if (!patch_.isLive(c) || !wanted(c)) continue;
+      cells[count++] = c;
+      if (count == kThinLanes) measureFour(cells);
+      count %= kThinLanes;
+    }
+  }
+
   // The face opposite corner j of cell c makes way for an edge: two cells become three. False where
   // it is on the boundary or the cell beyond is not known. Of no interest are flips after which the
   // worst thinness is not less by more than `least_gain`: they are not looked at any further.
@@ -45,11 +59,18 @@ class Reconnector {
   double thinnessOfCell(uint32_t c);
 
  private:
-  double thinnessAt(const uint32_t corners[4]) const;
+  void cornersOf(uint32_t c, uint32_t corners[4]) const;
+  void thinnessAt(const uint32_t (*corners)[4], double* out) const {
+    thinnessOfFour(patch_.allValues(), patch_.valueStride(), corners, out);
+  }
+  void measureFour(const uint32_t* cells);
   bool hasEdge(uint32_t a, uint32_t b);
   bool hasFace(const uint32_t corners[3]);
   bool orderRing(uint32_t v, uint32_t* ring) const;
   void addGone(uint32_t c, Reconnection& out);
+  struct Chains;
+  void addTriangles(uint32_t u, uint32_t v, const uint32_t* ring, uint32_t length, double limit,
+                    Chains& chains) const;
   void triangulate(uint32_t u, uint32_t v, const uint32_t* ring, double least_gain,
                    Reconnection& out);
 

@@ -12,14 +12,16 @@ namespace tetstream {
 struct ThinAngle {
   explicit ThinAngle(double angle);  // in degrees; 0: no cell is
   double degrees;
-  double cos2;          // squared cosine
-  double shape;         // no cell of a better shape (below) is thin
-  bool barred = false;  // a thin cell counts as one that is not positive
+  double cos2;            // squared cosine
+  double shape;           // no cell of a better shape (below) is thin
+  bool barred = false;    // a thin cell counts as one that is not positive
+  double inner_cos2 = 1;  // of a smaller angle: thin cells below that one are counted, too
 };
 
 struct StarShape {
   bool positive;  // every cell strictly, decided exactly; where they are barred none is thin
   size_t thin;    // cells; 0 when not positive
+  size_t inner;   // of them those below the smaller angle, if there is one
   size_t turned;  // when not positive: the place of a cell that is not
 };
 

@@ -138,8 +138,8 @@ inline unsigned bitsOf(const M& mask) {
 
 // Those of the lanes whose bits are set.
 inline unsigned thinLanes(const Corner<LanesOf<double>>& p, const Corner<LanesOf<double>>& q,
-                          const Corner<LanesOf<double>>& r, const ThinAngle& thin, unsigned lanes) {
-  return bitsOf(thinCells(p, q, r, thin.cos2)) & lanes;
+                          const Corner<LanesOf<double>>& r, double cos2, unsigned lanes) {
+  return bitsOf(thinCells(p, q, r, cos2)) & lanes;
 }
 // Angles need doubles: 1 - cos^2 of the smallest floor is no more than float32 resolves.
 template <int first>
@@ -151,15 +151,27 @@ inline Corner<LanesOf<double>> halfOf(const Corner<LanesOf<float>>& c) {
   return {half(c.x), half(c.y), half(c.z)};
 }
 inline unsigned thinLanes(const Corner<LanesOf<float>>& p, const Corner<LanesOf<float>>& q,
-                          const Corner<LanesOf<float>>& r, const ThinAngle& thin, unsigned lanes) {
-  return thinLanes(halfOf<0>(p), halfOf<0>(q), halfOf<0>(r), thin, lanes & 15) |
-         thinLanes(halfOf<4>(p), halfOf<4>(q), halfOf<4>(r), thin, lanes >> 4) << 4;
+                          const Corner<LanesOf<float>>& r, double cos2, unsigned lanes) {
+  return thinLanes(halfOf<0>(p), halfOf<0>(q), halfOf<0>(r), cos2, lanes & 15) |
+         thinLanes(halfOf<4>(p), halfOf<4>(q), halfOf<4>(r), cos2, lanes >> 4) << 4;
+}
+
+// Counts the thin ones among the lanes, and returns their bits.
+template <class L>
+inline unsigned countThin(const Corner<L>& p, const Corner<L>& q, const Corner<L>& r,
+                          const ThinAngle& thin, unsigned lanes, StarShape& shape) {
+  const unsigned is_thin = thinLanes(p, q, r, thin.cos2, lanes);
+  shape.thin += static_cast<size_t>(__builtin_popcount(is_thin));
+  if (is_thin && thin.inner_cos2 < 1)
+    shape.inner +=
+        static_cast<size_t>(__builtin_popcount(thinLanes(p, q, r, thin.inner_cos2, is_thin)));
+  return is_thin;
 }
 
 // One cell that the filter could not decide, or of a size whose products it cannot hold.
 template <class S>
 inline bool carefully(const double x[3], const S* values, size_t stride, const StarCell& cell,
-                      const ThinAngle& thin, size_t* count) {
+                      const ThinAngle& thin, StarShape& shape) {
   double t[3][3];
   for (size_t i = 0; i < 3; ++i)
     for (size_t j = 0; j < 3; ++j) t[i][j] = static_cast<double>(values[cell.t[i] * stride + j]);
@@ -170,9 +182,7 @@ inline bool carefully(const double x[3], const S* values, size_t stride, const S
     c[i] = {LanesOf<double>{} + (t[i][0] - x[0]) * scale,
             LanesOf<double>{} + (t[i][1] - x[1]) * scale,
             LanesOf<double>{} + (t[i][2] - x[2]) * scale};
-  const unsigned is_thin = thinLanes(c[0], c[1], c[2], thin, 1);
-  *count += is_thin;
-  return !(is_thin && thin.barred);
+  return !(countThin(c[0], c[1], c[2], thin, 1, shape) && thin.barred);
 }
 
 // As many cells as a vector has lanes, and the bits of those that were not met before.
@@ -202,7 +212,7 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
   using L = LanesOf<S>;
   const size_t stride = static_cast<size_t>(stride_given);
   const S unit = static_cast<S>(scale), shape = static_cast<S>(kRounding * thin.shape);
-  size_t thin_cells = 0;
+  StarShape found = {true, 0, 0, 0};
   for (size_t first = 0; first < count; first += W::kLanes) {
     StarCell room[W::kLanes];
     const auto [c, begin, fresh] = lanesFrom<W::kLanes>(cells, first, count, room);
@@ -216,21 +226,20 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
     const L det2 = det * det, sum3 = sum * sum * sum;
     const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum) & (det2 > W::kSure * sum3);
     if (const unsigned turned = bitsOf((det < 0) & held))
-      return {false, 0, begin + static_cast<size_t>(__builtin_ctz(turned))};
+      return {false, 0, 0, begin + static_cast<size_t>(__builtin_ctz(turned))};
     const auto sure = (det > 0) & held;
     const auto suspect = sure & (S(kRegular) * det2 < shape * sum3);
     if (const unsigned which = bitsOf(suspect) & fresh) {
-      const unsigned is_thin = thinLanes(p, q, r, thin, which);
+      const unsigned is_thin = countThin(p, q, r, thin, which, found);
       if (is_thin && thin.barred)
-        return {false, 0, begin + static_cast<size_t>(__builtin_ctz(is_thin))};
-      thin_cells += static_cast<size_t>(__builtin_popcount(is_thin));
+        return {false, 0, 0, begin + static_cast<size_t>(__builtin_ctz(is_thin))};
     }
     const unsigned unsure = ~bitsOf(sure) & fresh;
     for (size_t k = 0; unsure >> k; ++k)
-      if ((unsure >> k & 1) && !carefully(x, values, stride, c[k], thin, &thin_cells))
-        return {false, 0, begin + k};
+      if ((unsure >> k & 1) && !carefully(x, values, stride, c[k], thin, found))
+        return {false, 0, 0, begin + k};
   }
-  return {true, thin_cells, 0};
+  return found;
 }
 
 // With x as the origin, the coordinate of a corner is to the whole as the volume with x in its

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "orient.h"
+#include "processor.h"
+#include "thinness.inl"
+#include "thinness_v3.h"
 #include "vector3.h"
 
 namespace tetstream {
@@ -25,17 +27,13 @@ double regularity(const double p[4][3], double scale) {
 }
 
 // e: from its first corner the cell's edges; n: of the face opposite each corner twice the area as
-// a vector, outwards. 6 V = e0 . (e1 x e2) is wrong by no more than kOrientationBound times the sum
-// of its products' sizes, which is at most that of the edges' squares to the power of 3/2. Within
-// the limits nothing over- or underflows; beyond them cells are brought to size.
+// a vector, outwards.
 double thinness(const double p[4][3]) {
-  constexpr double kSure = 4 * kOrientationBound * kOrientationBound;
-  constexpr double kLeastSum = 1e-40, kLargestSum = 1e70;
   double e[3][3], n[4][3], n2[4];
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 3; ++i) e[k][i] = p[k + 1][i] - p[0][i];
   const double sum = dot(e[0], e[0]) + dot(e[1], e[1]) + dot(e[2], e[2]);
-  const bool fits = sum > kLeastSum && sum < kLargestSum;
+  const bool fits = sum > kLeastThinSum && sum < kLargestThinSum;
   if (!fits) {
     const double unit = 1 / largestDifference(p[0], p[1], p[2], p[3]);
     for (auto& edge : e)
@@ -50,7 +48,7 @@ double thinness(const double p[4][3]) {
   }
   cross(e[1], e[2], n[0]);
   const double six = -dot(e[0], n[1]);
-  if (!(fits && six > 0 && six * six > kSure * (sum * sum * sum)) &&
+  if (!(fits && six > 0 && six * six > kSureVolume * (sum * sum * sum)) &&
       orientation(p[0], p[1], p[2], p[3]) <= 0)
     return kTurned;
   for (int k = 0; k < 4; ++k) n2[k] = dot(n[k], n[k]);
@@ -63,5 +61,17 @@ double thinness(const double p[4][3]) {
     }
   return worst;
 }
+
+template <class S>
+void thinnessOfFour(const S* values, int stride, const uint32_t (*corners)[4], double* out) {
+#ifdef TETSTREAM_V3_KERNELS
+  static const bool has_v3 = processorHasV3();
+  if (has_v3) return v3::thinnessOfFour(values, stride, corners, out);
+#endif
+  thinnessOfFourOf(values, stride, corners, out);
+}
+
+template void thinnessOfFour(const float*, int, const uint32_t (*)[4], double*);
+template void thinnessOfFour(const double*, int, const uint32_t (*)[4], double*);
 
 }  // namespace tetstream

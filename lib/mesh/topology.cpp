@@ -65,15 +65,6 @@ uint32_t Topology::addCell(const uint32_t corners[4], uint8_t flags) {
   return cell;
 }
 
-StarCell Topology::starCell(uint32_t corner) const {
-  const uint32_t cell = corner / 4, j = corner % 4;
-  const uint32_t* v_of = corners(cell);
-  const bool negative = cell_flags_[cell] & kNegative;
-  return {cell,
-          {v_of[kOpposite[j][0]], v_of[kOpposite[j][negative ? 2 : 1]],
-           v_of[kOpposite[j][negative ? 1 : 2]]}};
-}
-
 void Topology::gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
   star.clear();
   ring.clear();

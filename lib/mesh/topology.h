@@ -116,7 +116,12 @@ class Topology {
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring);
 
   // One cell of v's star.
-  StarCell starCell(uint32_t corner) const;
+  StarCell starCell(uint32_t corner) const {
+    const uint32_t cell = corner / 4, j = corner % 4;
+    const uint32_t* const v = corners(cell);
+    const uint32_t swap = cell_flags_[cell] & kNegative;
+    return {cell, {v[kOpposite[j][0]], v[kOpposite[j][1 + swap]], v[kOpposite[j][2 - swap]]}};
+  }
 
   void kill(uint32_t cell);
   // Cells were flagged as dead, not counted.

@@ -31,6 +31,8 @@ constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
 // Larger meshes are sampled, which takes this share.
 constexpr double kSampleShare = 0.05;
+// A stream of so many cells, which most files hold in one piece, is not read ahead.
+constexpr int64_t kReadAtOnce = 1 << 14;
 
 class Nowhere final : public Sink {
  public:
@@ -73,9 +75,11 @@ struct SimplifyRun::State {
   // A memory budget is for one batch on its way, as it is for a single patch.
   bool overlaps() const { return tasks.threads() > 1 && options.simplify.memory_bytes == 0; }
 
-  // The stream, read ahead where that may be.
+  // The stream, read ahead where that may be, and takes longer than another thread to begin.
   std::unique_ptr<ReadAhead> ahead(Source& stream, const Ordering& ordering) const {
-    if (!overlaps() || ordering.staysWithCaller()) return nullptr;
+    const int64_t cells = stream.schema().cell_count;
+    const bool is_short = cells >= 0 && cells <= kReadAtOnce;
+    if (!overlaps() || is_short || ordering.staysWithCaller()) return nullptr;
     return std::make_unique<ReadAhead>(stream, tasks);
   }
 

@@ -91,15 +91,16 @@ float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) cons
   return static_cast<float>(1 / std::clamp(part, 1.0 / kHighestPrice, 1.0));
 }
 
-// `thin_after`: cells that would be below the largest angle in question.
+// After the collapse: cells below the largest angle in question, and of them those below the floor,
+// which where there is no price are the same.
 template <class Mesh>
-Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, size_t thin_after) {
+Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, size_t thin_after,
+                               size_t below_floor) {
   if (!isPriced(most_price))
     return thinsOut(u, v, core_.thin, thin_after) ? Outcome::kDone : Outcome::kOrientation;
+  if (!thinsOut(u, v, core_.thin, below_floor)) return Outcome::kOrientation;
   const size_t flat_after =
       core_.isFlat() && thin_after > 0 ? thinAfter(core_.dear.back()) : thin_after;
-  if (flat_after > 0 && !thinsOut(u, v, core_.thin, thinAfter(core_.thin)))
-    return Outcome::kOrientation;
   if (core_.isFlat()) price_ = std::max(price_, flatPrice(u, v, flat_after));
   if (price_ < kThinPrice && !thinsOut(u, v, core_.dear.front(), thin_after)) price_ = kThinPrice;
   return price_ > most_price ? Outcome::kDear : Outcome::kDone;
@@ -296,9 +297,9 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   for (S value : merged_)
     if (!std::isfinite(value)) return Outcome::kNotFinite;
   // Where no cell is thin none may become so: the first one tells.
-  ThinAngle floor = core_.thin;
-  floor.barred = sound_.has(u) && sound_.has(v);
-  if (turnsSameCell(u, v, floor)) return Outcome::kOrientation;
+  ThinAngle angle = core_.thin;
+  angle.barred = sound_.has(u) && sound_.has(v);
+  if (turnsSameCell(u, v, angle)) return Outcome::kOrientation;
   const bool u_first = isFarther(u, v);
   const auto gather = [&](bool of_u) {
     if (of_u)
@@ -321,7 +322,10 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     if (price_ > most_price) return Outcome::kDear;
     *error = std::max(*error, moved);
   }
-  const ThinAngle& angle = isPriced(most_price) ? core_.dear.front() : floor;
+  if (isPriced(most_price)) {
+    angle = core_.dear.front();
+    angle.inner_cos2 = core_.thin.cos2;
+  }
   const Star& farther = u_first ? stars_.u : stars_.v;
   const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size(), angle);
   if (!a.positive) return refuseFor(u, v, farther[a.turned]);
@@ -330,7 +334,8 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size(), angle);
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
   const size_t thin = a.thin + b.thin;
-  if (const Outcome o = thins(u, v, most_price, thin); o != Outcome::kDone) return o;
+  if (const Outcome o = thins(u, v, most_price, thin, a.inner + b.inner); o != Outcome::kDone)
+    return o;
   if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
   leaves_thin_ = thin > 0;
   return Outcome::kDone;

@@ -107,7 +107,7 @@ class Collapser {
   bool isPriced(float most_price) const {
     return !core_.dear.empty() && most_price < (core_.isFlat() ? kHighestPrice : kThinPrice);
   }
-  Outcome thins(uint32_t u, uint32_t v, float most_price, size_t thin_after);
+  Outcome thins(uint32_t u, uint32_t v, float most_price, size_t thin_after, size_t below_floor);
   size_t thinBefore(uint32_t u, uint32_t v, const ThinAngle& angle) const {
     const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
     return thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +

@@ -178,12 +178,17 @@ struct Core {
   }
 
   // Calls work(first, end, half) for the first cells of the window and for the others: half is 0
-  // and 1. Where one thread works all are of the first half.
+  // and 1. Where one thread works, as where there are so few that another would come too late, all
+  // are of the first half.
   template <class Work>
   void forHalves(Work work) const {
-    const uint32_t end = window.mesh.cellEnd(), middle = tasks() ? end / 2 : end;
+    constexpr int64_t kLeastTiles = 8;  // or as many cells as these have vertices
+    const uint32_t end = window.mesh.cellEnd();
+    const int64_t tile = options.tile_vertices > 0 ? options.tile_vertices : kTileVertices;
+    const Tasks* const both = end < kLeastTiles * tile ? nullptr : tasks();
+    const uint32_t middle = both ? end / 2 : end;
     doBoth(
-        tasks(), [&] { work(0u, middle, 0u); }, [&] { work(middle, end, 1u); });
+        both, [&] { work(0u, middle, 0u); }, [&] { work(middle, end, 1u); });
   }
 
   // Whether some collapses have more than the price of their error.

@@ -11,20 +11,16 @@ namespace tetstream {
 // to it. 0 where there is one back for each.
 void LinkBorder::sumEdges(const Star& star) {
   const size_t corners = 3 * star.size();
-  if (corner_numbers_.size() < corners) {
-    corner_numbers_.resize(corners + corners / 2);
-    sums_.resize(corners + corners / 2);
-  }
+  if (corner_places_.size() < corners) corner_places_.resize(corners + corners / 2);
   numbers_.start(corners);
-  uint32_t* n = corner_numbers_.data();
-  for (const StarCell& s : star)
-    for (uint32_t t : s.t) *n++ = numbers_.numberOf(t);
-  std::fill_n(sums_.data(), numbers_.count(), uint64_t{0});
-  for (n = corner_numbers_.data(); n < corner_numbers_.data() + corners; n += 3) {
-    const uint64_t a = turnWeight(n[0]), b = turnWeight(n[1]), c = turnWeight(n[2]);
-    sums_[n[0]] += b - c;
-    sums_[n[1]] += c - a;
-    sums_[n[2]] += a - b;
+  uint32_t* at = corner_places_.data();
+  for (const StarCell& s : star) {
+    const uint64_t a = turnWeight(s.t[0]), b = turnWeight(s.t[1]), c = turnWeight(s.t[2]);
+    for (int k = 0; k < 3; ++k) at[k] = numbers_.placeOf(s.t[k], 0);
+    numbers_.valueAt(at[0]) += b - c;
+    numbers_.valueAt(at[1]) += c - a;
+    numbers_.valueAt(at[2]) += a - b;
+    at += 3;
   }
 }
 
@@ -34,15 +30,16 @@ void LinkBorder::sumEdges(const Star& star) {
 void LinkBorder::listOpen(const Star& star) {
   edges_.resize(3 * star.size());
   size_t count = 0;
-  const uint32_t* n = corner_numbers_.data();
+  const uint32_t* at = corner_places_.data();
   for (const StarCell& s : star) {
-    const bool open[3] = {sums_[n[0]] != 0, sums_[n[1]] != 0, sums_[n[2]] != 0};
+    const bool open[3] = {numbers_.valueAt(at[0]) != 0, numbers_.valueAt(at[1]) != 0,
+                          numbers_.valueAt(at[2]) != 0};
     for (int k = 0; k < 3; ++k) {
       const uint64_t a = s.t[k], b = s.t[(k + 1) % 3];
       edges_[count] = a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1;
       count += open[k] & open[(k + 1) % 3];
     }
-    n += 3;
+    at += 3;
   }
   edges_.resize(count);
   std::sort(edges_.begin(), edges_.end());

@@ -12,8 +12,7 @@ namespace tetstream {
 // An edge of the link stands for a face, as its ends: the lower one in the high half.
 class LinkBorder {
  public:
-  explicit LinkBorder(Account& account)
-      : numbers_(account), corner_numbers_(account), sums_(account) {}
+  explicit LinkBorder(Account& account) : numbers_(account), corner_places_(account) {}
 
   // Finds the edges that one cell has; sorted. True if all others are between two cells on both
   // sides of them; false if that is not so, or not certain: then they are not to be used.
@@ -29,8 +28,7 @@ class LinkBorder {
   bool keepSingle();
 
   StarNumbers numbers_;
-  Array<uint32_t> corner_numbers_;  // of the star's cells, but for the centre
-  Array<uint64_t> sums_;            // by these numbers
+  Array<uint32_t> corner_places_;  // of the star's cells, but for the centre
   std::vector<uint64_t> edges_;
   std::vector<uint32_t> ends_;
 };

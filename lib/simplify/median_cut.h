@@ -42,6 +42,25 @@ class MedianCut {
     cut(middle, end, leaf);
   }
 
+  // The same in slices across the longest side of the whole: `count` of one size, or by half of it
+  // farther on, one more of which the first and the last have half.
+  template <class Leaf>
+  void slice(size_t begin, size_t end, size_t count, bool half_on, const Leaf& leaf) {
+    const Side side = longestSide(begin, end);
+    const double first = static_cast<double>(begin), size = static_cast<double>(end - begin);
+    for (size_t i = 0; i < count; ++i) {
+      const double share =
+          (static_cast<double>(i) + (half_on ? 0.5 : 1)) / static_cast<double>(count);
+      const auto middle = static_cast<size_t>(first + share * size);
+      if (middle == begin) continue;
+      if (middle == end) break;
+      partition(begin, end, side.axis, placeAt(begin, middle, end, side));
+      leaf(begin, middle);
+      begin = middle;
+    }
+    leaf(begin, end);
+  }
+
  private:
   using Number = decltype(std::declval<At>()(0u, 0));
   struct Side {

@@ -58,18 +58,23 @@ double Reshaper<S>::meanOf(double error) const {
   return core_.volume > 0 ? kMostChange * error / core_.volume : 0;
 }
 
+// No flip was found there before, and none will be now.
+template <class S>
+bool Reshaper<S>::isAsBefore(uint32_t c) const {
+  return !(marksOf(c) & (kNearMoved | kFlipped)) &&
+         core_.window.mesh.cellFlags(patch_.cellSlotOf(c)) & kShaped;
+}
+
 template <class S>
 bool Reshaper<S>::flipAll(int64_t least_cells, int64_t most_cells) {
   least_cells_ = least_cells;
   most_cells_ = most_cells;
   markNear();
+  reconnector_.measure([this](uint32_t c) { return !isAsBefore(c); });
   bool any = false;
   for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
-    if (!patch_.isLive(c)) continue;
-    const bool is_as_before = !(marksOf(c) & (kNearMoved | kFlipped)) &&
-                              core_.window.mesh.cellFlags(patch_.cellSlotOf(c)) & kShaped;
-    if (is_as_before || !(reconnector_.thinnessOfCell(c) > core_.poor)) continue;
-    any = flipAt(c) || any;
+    if (!patch_.isLive(c) || isAsBefore(c)) continue;
+    if (reconnector_.thinnessOfCell(c) > core_.poor) any = flipAt(c) || any;
   }
   rememberShaped();
   return any;

@@ -73,6 +73,7 @@ class Reshaper {
   double meanOf(double error) const;
   bool flipAll(int64_t least_cells, int64_t most_cells);
   void markNear();
+  bool isAsBefore(uint32_t c) const;
   uint8_t marksOf(uint32_t c) const;
   void rememberShaped();
   bool flipAt(uint32_t c);

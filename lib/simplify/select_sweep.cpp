@@ -21,7 +21,7 @@ constexpr size_t kTilesTogether = 64;  // then what they did is added, for progr
 // Of the cells of the tiles of a group, where each may take its share of what is left to the goal.
 // A pass takes half of the cells, or less; less to take is shared by fewer tiles, and in the end is
 // taken by one after the other.
-constexpr double kLeastShare = 0.6;
+constexpr double kLeastShare = 0.6, kLeastShareOfSlices = 0.5;
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
@@ -90,6 +90,10 @@ class SweepSelector final : public Selector {
   void shareOut(size_t pieces, Work work);
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
+  int64_t room() const {
+    return core_.window.liveCells() - (goal_.last ? goal_.cells : goal_.least_cells);
+  }
+  bool takesShares() const;
   size_t groupEnd(size_t first);
   Goal goalOf(const TilePiece& tile) const;
   void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
@@ -140,7 +144,7 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   double bound = bounds_.start(goal_, unit_);
   for (bool first = true;; first = false) {
     constexpr float kAll = std::numeric_limits<float>::infinity();
-    tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll);
+    tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll, takesShares());
     if (!(bound > 0)) bound = firstBound();
     const int64_t before = core_.window.liveCells();
     const bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
@@ -198,6 +202,16 @@ bool SweepSelector<S>::worksInOrder() const {
   return std::isfinite(core_.error_limit) || core_.tracer || core_.window.faces.anyPlaced();
 }
 
+// Whether all tiles of a pass of the last goal may be swept at the same time, each taking a share
+// of its cells.
+template <class S>
+bool SweepSelector<S>::takesShares() const {
+  const auto live = static_cast<double>(core_.window.liveCells());
+  return core_.shapesFirst() && goal_.last && core_.options.memory_bytes == 0 &&
+         !std::isfinite(core_.error_limit) &&
+         static_cast<double>(room()) > kLeastShareOfSlices * live;
+}
+
 // As many tiles as can be swept before the goal may be met: with all of their cells, or where
 // shapes come first with a share of them.
 template <class S>
@@ -207,14 +221,15 @@ size_t SweepSelector<S>::groupEnd(size_t first) {
   if (worksInOrder()) return first + 1;
   const size_t most = std::min(tiles.size(), first + kTilesTogether);
   const int64_t live = core_.window.liveCells();
-  const auto room = static_cast<double>(live - (goal_.last ? goal_.cells : goal_.least_cells));
+  const auto left = static_cast<double>(room());
+  const double least_share = tiling_.areSlices() ? kLeastShareOfSlices : kLeastShare;
   auto cells = static_cast<int64_t>(tiles[first].cell_count);
   size_t end = first + 1;
   for (; end < most; ++end) {
     cells += static_cast<int64_t>(tiles[end].cell_count);
     if (!goal_.isMet(live - cells)) continue;
-    const double share = room / static_cast<double>(cells);
-    if (!core_.shapesFirst() || share < kLeastShare) break;
+    const double share = left / static_cast<double>(cells);
+    if (!core_.shapesFirst() || share < least_share) break;
     share_ = std::min(share, 1.0);
   }
   return end;

@@ -27,22 +27,29 @@ class StarNumbers {
     count_ = 0;
   }
   uint32_t numberOf(uint32_t vertex) {
+    return static_cast<uint32_t>(valueAt(placeOf(vertex, count_)));
+  }
+  uint32_t count() const { return count_; }
+
+  // Instead of its number a vertex may have a value of another meaning: `first` when it is met.
+  uint32_t placeOf(uint32_t vertex, uint64_t first) {
     const uint64_t wanted = uint64_t{round_} << 32 | vertex;
     for (size_t at = (vertex * uint64_t{0x9e3779b97f4a7c15} >> 32) & mask_;;
          at = (at + 1) & mask_) {
       Place& place = places_[at];
-      if (place.key == wanted) return place.number;
+      if (place.key == wanted) return static_cast<uint32_t>(at);
       if (place.key >> 32 == round_) continue;
-      place = {wanted, count_};
-      return count_++;
+      place = {wanted, first};
+      ++count_;
+      return static_cast<uint32_t>(at);
     }
   }
-  uint32_t count() const { return count_; }
+  uint64_t& valueAt(uint32_t place) { return places_[place].value; }
 
  private:
   struct Place {
     uint64_t key;  // the round and the vertex
-    uint32_t number;
+    uint64_t value;
   };
   Array<Place> places_;
   size_t mask_ = 0;

@@ -79,18 +79,39 @@ size_t Tiling<S>::listVertices() {
   return count;
 }
 
+// Every other slice is worked on at the same time: of four two, by two threads. Of fewer vertices
+// than a quarter of a tile the seams between them would weigh more than that. Windows of more than
+// eight tiles have enough that lie apart, at first; slices later on would cost them more in errors
+// than they save.
+constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastPart = 4;
+
+// 0: none. `tile`: the most vertices of one.
 template <class S>
-void Tiling<S>::cut(size_t count, unsigned round) {
+size_t Tiling<S>::slicesOf(size_t vertices, size_t tile) const {
+  const bool is_large = core_.window.mesh.vertexEnd() > kMostSlices * tile;
+  if (is_large || vertices < tile / kLeastPart) return 0;
+  return vertices > kFewSlices * tile ? kMostSlices : kFewSlices;
+}
+
+template <class S>
+void Tiling<S>::cut(size_t count, unsigned round, bool together) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
-  const int64_t vertices = tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan));
-  const CutRule rule{kShare[round % 3], static_cast<size_t>(vertices)};
+  const auto most =
+      static_cast<size_t>(tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan)));
+  const CutRule rule{kShare[round % 3], most};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), rule, at);
-  pieces.cut(0, count, [this](size_t begin, size_t end) {
+  const auto add = [this](size_t begin, size_t end) {
     const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
     for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = tile;
     tiles_.push_back({begin, end, 0, tile - 1, 0});
-  });
+  };
+  const size_t slices = together ? slicesOf(count, most) : 0;
+  are_slices_ = slices > 0;
+  if (are_slices_)
+    pieces.slice(0, count, slices, round % 2 == 1, add);
+  else
+    pieces.cut(0, count, add);
 }
 
 // The tiles that own a vertex of the cell, each once.
@@ -198,12 +219,13 @@ void Tiling<S>::lookAhead() {
 }
 
 template <class S>
-void Tiling<S>::build(unsigned round, float bound) {
+void Tiling<S>::build(unsigned round, float bound, bool together) {
   tiles_.clear();
+  are_slices_ = false;
   markVertices(bound);
   const size_t count = listVertices();
   if (count == 0) return;
-  cut(count, round);
+  cut(count, round, together);
   addCells();
   colour();
   sortByColour();

@@ -45,14 +45,17 @@ class Tiling {
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
   // the cache. `round` shifts the cuts: what lies on a seam of one round is inside a tile of
-  // another. Tiles come ordered by colour.
-  void build(unsigned round, float bound);
+  // another. Tiles come ordered by colour. Where there are few, `together` asks for such that may
+  // be worked on at the same time, though they have more seams.
+  void build(unsigned round, float bound, bool together = false);
 
   // Of the vertices listed, those whose edges may have errors up to the bound.
   int64_t looking() const { return looking_; }
   // Whether edges of free vertices that were not listed have errors above the bound.
   bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
+  // Whether they are such as may be worked on together.
+  bool areSlices() const { return are_slices_; }
   // Of each tile: those before it that it shares cells with.
   const std::vector<std::vector<uint32_t>>& earlier() const { return earlier_; }
   // Of each tile: its cells, and of those that wait for it the most that one has ahead.
@@ -64,7 +67,8 @@ class Tiling {
  private:
   void markVertices(float bound);
   size_t listVertices();
-  void cut(size_t count, unsigned round);
+  size_t slicesOf(size_t vertices, size_t tile) const;
+  void cut(size_t count, unsigned round, bool together);
   using Earlier = std::vector<std::vector<uint32_t>>;
   // What was found in a part of the window's cells.
   struct Part {
@@ -87,7 +91,7 @@ class Tiling {
   Part parts_[2];  // the second is empty where one thread works
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
-  bool others_wait_ = false;
+  bool others_wait_ = false, are_slices_ = false;
   Earlier earlier_;
   std::vector<size_t> ahead_;
 };

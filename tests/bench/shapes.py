@@ -5,9 +5,10 @@ For each row (a mesh and a scalar field of it): the default mode and the solver'
 the cells the share in percent with a dihedral angle below 1, 5 and 10 degrees, in brackets the
 input's, the least angle, the mean of the cells' least angles; RMS and maximum of the field's error
 in percent of its range, in brackets in those of the default mode; Hausdorff distance in percent of
-the diagonal, in brackets VTK's as compare.py takes it. Time: processor seconds of the whole process
-in those of the default mode, and of `Update()` alone of VTK's filter in them; medians of --rounds
-rounds in which both run in turn.
+the diagonal, in brackets VTK's as compare.py takes it. Time: processor seconds of the whole process,
+file to file, in those of the default mode; those of `Update()` alone of VTK's filter in them, and in
+brackets the same of the wall's; medians of --rounds rounds in which a mode and VTK run in turn. With
+--threads N as many threads, else one; 0: as many as the command takes by itself.
 
 With --check it fails unless, in the solver's mode,
   - of an input with at most 1 % of cells below 10 degrees no more than 1 % are, at no more than 1.5
@@ -32,13 +33,14 @@ MODES = {"default": [], "solver": ["--shape", "solver"]}
 PROMISES = ((0.1, 0.1, 2.0), (1.0, 1.0, 1.5))
 HEAD = ("mesh", "field", "ratio", "shape", "got / asked", "below 1 degree %", "below 5 %",
         "below 10 %", "least angle", "mean", "RMS %", "max %", "Hausdorff % (VTK)", "topology",
-        "time / default", "speed / VTK")
+        "time / default", "speed / VTK (wall)")
 
 
 def arguments():
     parser = compare.judged_parser(__doc__)
     parser.add_argument("--check", action="store_true", help="fail where the promises do not hold")
     parser.add_argument("--rounds", type=int, default=1, help="runs for the time; 5 is fair")
+    parser.add_argument("--threads", type=int, default=1, metavar="N")
     parser.add_argument("--vtk-here", action="store_true", help="run and judge VTK's filter here")
     parser.add_argument("--no-vtk-time", action="store_true", help="do not run VTK for its time")
     parser.add_argument("--work", default="build/bench", help="where VTK's verdicts are kept")
@@ -53,6 +55,7 @@ class Shapes:
     def __init__(self, args):
         self.args = args
         self.tetstream, vtk = harness.bench_programs(args.build)
+        self.tetstream.threads = args.threads
         self.judge = harness.Judge(args.samples)
         self.vtk = compare.Vtk(args, vtk, self.judge)
         self.failures = []
@@ -89,7 +92,9 @@ class Shapes:
         hausdorff = min((run["hausdorff"] for run in runs), default=None)
         speed = "-"
         if result["vtk_times"]:
-            speed = f"{result['vtk_times']['cpu_seconds'] / result['times']['cpu_seconds']:.1f}"
+            processor, wall = (result["vtk_times"][kind] / result["times"][kind]
+                               for kind in ("cpu_seconds", "seconds"))
+            speed = f"{processor:.1f} ({wall:.1f})"
         return [f"{report['cells_out'] / report['target_cells']:.4f}",
                 *(f"{share(after, d):.3g} ({share(before, d):.3g})" for d in BELOW),
                 f"{after['min_dihedral_deg']:.3g}",

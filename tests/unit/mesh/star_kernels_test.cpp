@@ -110,6 +110,12 @@ struct Fan {
     return starShape(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
                      cells.size(), angle);
   }
+  StarShape shapeOfTwo(double degrees, double inner) const {
+    ThinAngle angle(degrees);
+    angle.inner_cos2 = ThinAngle(inner).cos2;
+    return starShape(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
+                     cells.size(), angle);
+  }
   StarShape plainShape(double degrees = 10) const {
     return starShapeOf(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
                        cells.size(), ThinAngle(degrees));
@@ -142,6 +148,15 @@ void expectTruthWhereBarred(const Fan<S>& fan, double degrees) {
   EXPECT_TRUE(!alone.shape(degrees).positive || alone.shape(degrees).thin == 1) << degrees;
 }
 
+// Below a smaller angle are as many as where it is the only one.
+template <class S>
+void expectTruthOfTwo(const Fan<S>& fan, double degrees) {
+  EXPECT_EQ(fan.shape(degrees).inner, 0u);
+  const StarShape two = fan.shapeOfTwo(degrees, degrees / 3), inner = fan.shape(degrees / 3);
+  EXPECT_EQ(two.thin, fan.shape(degrees).thin);
+  EXPECT_EQ(two.inner, inner.thin) << degrees;
+}
+
 // A cell within a hair of the angle may count or not.
 template <class S>
 void expectTruth(const Fan<S>& fan) {
@@ -159,6 +174,7 @@ void expectTruth(const Fan<S>& fan) {
     EXPECT_LE(got.thin, thin + hair) << degrees;
     EXPECT_GE(got.thin + hair, thin) << degrees;
     expectTruthWhereBarred(fan, degrees);
+    if (degrees == 40) expectTruthOfTwo(fan, degrees);
   }
 }
 

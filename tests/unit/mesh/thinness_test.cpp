@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace tetstream::test {
 namespace {
@@ -71,6 +73,54 @@ TEST(Thinness, OfATurnedOrFlatCellIsWorseThanAny) {
   EXPECT_EQ(of(cell), kTurned);
   EXPECT_EQ(of(sliver(0)), kTurned);
   EXPECT_LE(of(sliver(1e-12)), 1);
+}
+
+// Rows of four numbers, the last of no meaning; of each kind of cell some among others.
+template <class S>
+void expectFourAreAsEach(const std::vector<Cell>& cells) {
+  std::vector<S> values;
+  std::vector<std::array<uint32_t, 4>> corners;
+  for (const Cell& cell : cells) {
+    auto& of = corners.emplace_back();
+    for (size_t k = 0; k < 4; ++k) {
+      of[k] = static_cast<uint32_t>(values.size() / 4);
+      for (double x : cell[k]) values.push_back(static_cast<S>(x));
+      values.push_back(std::numeric_limits<S>::quiet_NaN());
+    }
+  }
+  for (size_t first = 0; first + kThinLanes <= cells.size(); ++first) {
+    uint32_t four[kThinLanes][4];
+    double found[kThinLanes];
+    for (size_t i = 0; i < kThinLanes; ++i) std::copy_n(corners[first + i].begin(), 4, four[i]);
+    thinnessOfFour(values.data(), 4, four, found);
+    for (size_t i = 0; i < kThinLanes; ++i) {
+      double p[4][3];
+      for (size_t k = 0; k < 4; ++k)
+        for (size_t j = 0; j < 3; ++j) p[k][j] = static_cast<double>(values[4 * four[i][k] + j]);
+      EXPECT_EQ(found[i], thinness(p)) << first << " " << i;
+    }
+  }
+}
+
+TEST(Thinness, OfFourCellsIsToTheLastBitThatOfEach) {
+  std::vector<Cell> cells;
+  uint32_t state = 1;
+  const auto number = [&state] { return ((state = state * 1664525 + 1013904223) >> 8) * 0x1p-24; };
+  for (int i = 0; i < 400; ++i) {
+    Cell& cell = cells.emplace_back();
+    for (auto& corner : cell)
+      for (double& x : corner) x = number();
+    if (i % 5 == 1)  // in a plane of an axis, and in an oblique one
+      for (auto& corner : cell) corner[i % 3] = i % 2 ? 0.25 : corner[(i + 1) % 3];
+    if (i % 5 == 2) cell[3] = cell[0];
+    if (i % 5 == 3)  // flat but for the rounding
+      for (size_t k = 0; k < 3; ++k) cell[3][k] = (cell[0][k] + cell[1][k] + cell[2][k]) / 3;
+    if (i % 7 == 4)
+      for (auto& corner : cell)
+        for (double& x : corner) x *= i % 2 ? 1e-30 : 1e30;
+  }
+  expectFourAreAsEach<double>(cells);
+  expectFourAreAsEach<float>(cells);
 }
 
 }  // namespace

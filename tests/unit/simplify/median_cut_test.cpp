@@ -2,6 +2,7 @@
 #include "median_cut.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <vector>
@@ -43,6 +44,35 @@ TEST(MedianCut, CutsAcrossTheLongestSide) {
 TEST(MedianCut, LeavesTheShareBeforeTheCut) {
   const std::vector<Ids> leaves = leavesOf(line(1, 10), {0, 1, 2, 3, 4, 5, 6, 7, 8, 9}, {0.36, 4});
   EXPECT_EQ(leaves, (std::vector<Ids>{{0, 1, 2}, {3, 4}, {5}, {6, 7, 8, 9}}));
+}
+
+std::vector<Ids> slicesOf(const Points& points, size_t count, bool half_on) {
+  Ids ids(points.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  std::vector<Ids> slices;
+  const auto at = [&](uint32_t id, int axis) { return points[id][static_cast<size_t>(axis)]; };
+  MedianCut(ids.data(), {0.5, 1}, at)
+      .slice(0, ids.size(), count, half_on, [&](size_t begin, size_t end) {
+        slices.push_back({ids.begin() + static_cast<ptrdiff_t>(begin),
+                          ids.begin() + static_cast<ptrdiff_t>(end)});
+      });
+  return slices;
+}
+
+// Along one axis, also where a slice is longer across it than along it.
+TEST(MedianCut, SlicesAreOfOneSizeOrBeginAndEndWithHalves) {
+  Points points = line(2, 8);
+  for (size_t i = 0; i < 8; ++i) points[i][0] = i % 2 ? 6 : 0;
+  EXPECT_EQ(slicesOf(points, 4, false), (std::vector<Ids>{{0, 1}, {2, 3}, {4, 5}, {6, 7}}));
+  EXPECT_EQ(slicesOf(points, 4, true), (std::vector<Ids>{{0}, {1, 2}, {3, 4}, {5, 6}, {7}}));
+  std::reverse(points.begin(), points.end());
+  EXPECT_EQ(slicesOf(points, 2, false), (std::vector<Ids>{{4, 5, 6, 7}, {0, 1, 2, 3}}));
+}
+
+// Never one of no points.
+TEST(MedianCut, OfFewPointsThereAreFewerSlices) {
+  EXPECT_EQ(slicesOf(line(0, 2), 8, true), (std::vector<Ids>{{0}, {1}}));
+  EXPECT_EQ(slicesOf(line(0, 1), 4, false), (std::vector<Ids>{{0}}));
 }
 
 // Sides of equal length: the first is cut. Points of equal place: the lower id comes first.

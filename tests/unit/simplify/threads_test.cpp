@@ -106,6 +106,15 @@ TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
   }
 }
 
+// Of fewer cells than eight tiles, which are cut into slices while the goal is far.
+TEST(SweepThreads, GiveTheSameBytesWhereTilesAreSlices) {
+  for (double ratio : {0.05, 0.2}) {
+    SimplifyOptions options = toRatio(ratio);
+    options.shape = Shape::kSolver;
+    for (int n : {4, 6}) expectSame(wavyGrid(n, ScalarType::kFloat64), options);
+  }
+}
+
 // Of stretched meshes, whose flips no tile waits for.
 TEST(SweepThreads, GiveTheSameBytesWhereThinCellsAre) {
   const TestMesh grid = fullGrid(side(), side(), side(), 0.2);

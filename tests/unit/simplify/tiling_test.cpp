@@ -119,6 +119,21 @@ TEST(Tiling, CutsElsewhereInEachRound) {
   EXPECT_LT(all, one / 4);
 }
 
+// As slices, every other of which is of one colour.
+TEST(Tiling, OfFewVerticesHasTilesThatLieApartWhereTheyAreToBeWorkedOnTogether) {
+  WholeWindow<double> w(fullGrid(24, 8, 8));
+  Tiling<double> tiling(w.core, w.account);
+  const float all = std::numeric_limits<float>::infinity();
+  tiling.build(0, all);
+  EXPECT_EQ(tiling.tiles().size(), 1u);
+  for (unsigned round : {0u, 1u, 2u}) {
+    tiling.build(round, all, true);
+    EXPECT_EQ(tiling.tiles().size(), round % 2 ? 5u : 4u);
+    EXPECT_EQ(tiling.tiles().back().colour, 1u);
+    expectTiling(w.core, tiling);
+  }
+}
+
 TEST(Tiling, OfNoFreeVerticesIsEmpty) {
   TestMesh mesh = fullGrid(2, 2, 2);
   mesh.locked.assign(mesh.vertexCount(), 1);
