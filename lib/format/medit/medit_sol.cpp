@@ -75,7 +75,8 @@ void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& 
   scan.expectRows(count, {{{true, width}}});
   for (uint64_t i = 0; i < count; ++i) {
     scan.reals(values.data(), width, "a value of a solution");
-    for (const ReadSolution& s : solutions) intake.putData(s.data, first + i, values.data() + s.start);
+    for (const ReadSolution& s : solutions)
+      intake.putData(s.data, first + i, values.data() + s.start);
   }
 }
 
