@@ -41,6 +41,7 @@ struct MshMesh {
   // What labels faces: physical groups, unless the first face has none.
   enum class FaceLabels { kUndecided, kGroups, kEntities } face_labels = FaceLabels::kUndecided;
 
+  void checkTag(int64_t tag) const;  // of a node or an element
   // A cell or a face, by its nodes' tags.
   void addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group, int64_t entity);
   void beginNodes();

@@ -410,11 +410,9 @@ TEST(PlacedRows, TellTheByteOfWhatIsWrong) {
     file.elements();
     const bool is_4 = version[0] == '4';
     const std::string place = "mesh: byte " + std::to_string(file.last_row) + ": ";
-    const size_t corner = file.last_row + (is_4 ? 16 : 16);
+    const size_t corner = file.last_row + 16;
     for (int64_t none : {int64_t{99}, int64_t{520}, int64_t{-5}, int64_t{INT32_MAX}}) {
       MshFile broken = file;
-      broken.integer(0, 4);
-      broken.bytes.resize(file.bytes.size());
       is_4 ? broken.putAt(corner, none) : broken.putAt(corner, static_cast<int32_t>(none));
       EXPECT_EQ(problemIn(openMsh, broken.bytes),
                 place + "element 339 uses node " + std::to_string(none) + ", which is not there");
@@ -423,6 +421,27 @@ TEST(PlacedRows, TellTheByteOfWhatIsWrong) {
     EXPECT_EQ(
         problemIn(openMsh, file.bytes),
         place + (is_4 ? std::to_string(INT64_MIN) : std::to_string(INT32_MIN)) + " is no tag");
+  }
+}
+
+std::string problemOfAPipe(Open open, const Bytes& file) {
+  try {
+    readWhole(open, std::make_unique<PipeSource>(file, 1000, "mesh"), 7);
+  } catch (const Error& error) {
+    return error.text();
+  }
+  return "";
+}
+
+TEST(PlacedRows, OfElementsWithoutATagAreRefusedInAPipeToo) {
+  for (const char* version : {"4.1", "2.2"}) {
+    MshFile file(version, false);
+    file.nodes();
+    file.elements();
+    version[0] == '4' ? file.putAt(file.last_row, int64_t{-1})
+                      : file.putAt(file.last_row, int32_t{-1});
+    EXPECT_NE(problemIn(openMsh, file.bytes).find("-1 is no tag"), std::string::npos);
+    EXPECT_NE(problemOfAPipe(openMsh, file.bytes).find("-1 is no tag"), std::string::npos);
   }
 }
 
