@@ -28,6 +28,12 @@ void MshMesh::endNodes() {
   if (!points->finish(&twice)) file.failBad("node " + std::to_string(twice) + " is there twice");
 }
 
+void MshMesh::finishCells() {
+  addPlacedTags();
+  int64_t twice;
+  if (!cells.finish(&twice)) file.failBad("element " + std::to_string(twice) + " is there twice");
+}
+
 void MshMesh::checkTag(int64_t tag) const {
   if (tag < 0 || tag > kMostTag) file.failBad(std::to_string(tag) + " is no tag");
 }

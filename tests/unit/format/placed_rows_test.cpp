@@ -379,6 +379,27 @@ TEST(PlacedRows, OfManyRunsOfNodesAreCopied) {
   EXPECT_EQ(r.mesh.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 99, 199}}));
 }
 
+// Elements that come after data of others have their tags, too.
+TEST(PlacedRows, OfElementsAfterDataHaveTheirValues) {
+  MshFile file("4.1", false);
+  file.nodes();
+  file.elements();
+  file.data({"ElementData", "early", kCells, 1}, [](int i) { return 300 + i; });
+  file.text("$Elements\n");
+  for (int64_t count : {1, 2, 1, 999}) file.put(count);
+  for (int32_t value : {3, 1, 4}) file.put(value);
+  file.put<int64_t>(2);
+  for (int64_t value : {290, 500, 501, 502, 503, 291, 504, 505, 506, 507}) file.put(value);
+  file.text("\n$EndElements\n");
+  file.data({"ElementData", "late", 3, 1}, [](int i) { return i < 2 ? 290 + i : 300; });
+  const Reading r = expectSameAsOfAPipe(openMsh, file.bytes);
+  ASSERT_EQ(r.mesh.cell_data.size(), 3u);
+  EXPECT_EQ(r.mesh.cell_data[1][kCells - 1], 1.5 * (kCells - 1));
+  EXPECT_EQ(r.mesh.cell_data[2][kCells], 0.0);
+  EXPECT_EQ(r.mesh.cell_data[2][kCells + 1], 1.5);
+  EXPECT_EQ(r.mesh.cell_data[2][0], 3.0);
+}
+
 std::string problemIn(Open open, const Bytes& file) {
   return errorOf(open, file).text();
 }
