@@ -320,12 +320,13 @@ TETSTREAM_API tetstream_status tetstream_reader_create(const tetstream_reader_ca
                                                        tetstream_reader **reader);
 /* A file. `format` is a name such as "vtu", or NULL: by the path's extension, before which .gz or
  * .zst is taken off. What is compressed by gzip or zstd is decompressed, whatever it is called. The
- * header is read at once; of text formats of indexed meshes everything, into temporary files. Since
- * 0.1. */
+ * header is read at once; of text formats of indexed meshes everything, into temporary files. The
+ * file must stay as it is until the reader is destroyed. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file(const char *path, const char *format,
                                                           tetstream_reader **reader);
-/* A file descriptor, which stays the caller's to close; for formats that must seek, a pipe is
- * spooled to a temporary file in $TMPDIR or /tmp. `format` must be given. Since 0.1. */
+/* A file descriptor, which stays the caller's to close, after the reader is destroyed; for formats
+ * that must seek, a pipe is spooled to a temporary file in $TMPDIR or /tmp. `format` must be given.
+ * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *format,
                                                         tetstream_reader **reader);
 /* The bytes of a file in memory, which must stay as they are until the reader is destroyed.
@@ -339,9 +340,9 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
  * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none
  * of them), `tmpdir`, and `threads`, `memory` and the pool: several threads read long runs of rows
- * of MSH, MEDIT, TetGen and SU2 text, and look for references in binary MEDIT, in this function,
- * and, where the mesh is read on the thread that called it, text of VTU, VTK and XDMF, and
- * decompress VTU; those of the pool or, without options, the library's own, which end with the
+ * of MSH, MEDIT, TetGen and SU2 text, and look for labels in binary MEDIT and MSH 2, in this
+ * function, and, where the mesh is read on the thread that called it, text of VTU, VTK and XDMF,
+ * and decompress VTU; those of the pool or, without options, the library's own, which end with the
  * reader. With `memory` there is none. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
                                                                const tetstream_options *options,

@@ -23,6 +23,7 @@ void TagTable::addRun(int64_t tag, int64_t first, int64_t tags) {
 }
 
 void TagTable::addRun(const Run& more) {
+  if (is_finished_) reopen();
   if (!runs_.empty()) {
     Run& run = runs_.back();
     if (more.tag == run.tag + run.tags && more.first == run.first + run.tags * run.step &&
@@ -39,7 +40,26 @@ void TagTable::spill() {
   if (!chunks_) chunks_ = std::make_unique<SpoolFile>(temp_dir_);
   std::sort(runs_.begin(), runs_.end(), [](const Run& a, const Run& b) { return a.tag < b.tag; });
   chunks_->append(runs_.data(), runs_.size() * sizeof(Run));
+  chunk_ends_.push_back(chunks_->size());
   runs_.clear();
+}
+
+// Tags come after looks: those that were sorted in a file are one chunk of it.
+void TagTable::reopen() {
+  is_finished_ = false;
+  at_ = 0;
+  last_ = {};
+  if (!spool_) return;
+  chunks_ = std::make_unique<SpoolFile>(temp_dir_);
+  std::vector<Run> some(4096);
+  for (uint64_t at = 0; at < spool_->rows(); at += some.size()) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(some.size(), spool_->rows() - at));
+    spool_->read(at, n, some.data());
+    chunks_->append(some.data(), n * sizeof(Run));
+  }
+  chunk_ends_.push_back(chunks_->size());
+  samples_.clear();
+  spool_.reset();
 }
 
 void TagTable::merge() {
@@ -48,10 +68,11 @@ void TagTable::merge() {
     std::vector<Run> held;
     size_t at = 0;
   };
-  const uint64_t chunk_bytes = kHeldRuns * sizeof(Run);
   std::vector<Chunk> chunks;
-  for (uint64_t begin = 0; begin < chunks_->size(); begin += chunk_bytes)
-    chunks.push_back({begin, std::min(begin + chunk_bytes, chunks_->size()), {}, 0});
+  for (uint64_t begin = 0; uint64_t end : chunk_ends_) {
+    chunks.push_back({begin, end, {}, 0});
+    begin = end;
+  }
   const size_t rows = std::clamp<size_t>(kMergeRuns / chunks.size(), 64, 4096);
   const auto fill = [&](Chunk& chunk) {
     const uint64_t left = (chunk.end - chunk.next) / sizeof(Run);
@@ -78,6 +99,7 @@ void TagTable::merge() {
   }
   spool_->finish();
   chunks_.reset();
+  chunk_ends_.clear();
 }
 
 TagTable::Run TagTable::runAt(uint64_t index) {
@@ -85,6 +107,7 @@ TagTable::Run TagTable::runAt(uint64_t index) {
 }
 
 bool TagTable::finish(int64_t* twice) {
+  if (is_finished_) return true;
   if (chunks_) {
     spill();
     merge();
@@ -97,6 +120,7 @@ bool TagTable::finish(int64_t* twice) {
     *twice = runAt(i).tag;
     if (*twice < before.tag + before.tags) return false;
   }
+  is_finished_ = true;
   return true;
 }
 

@@ -22,7 +22,8 @@ class TagTable {
   void add(int64_t tag, int64_t first, int64_t count = 1);
   // As many tags that follow each other, with a rank each.
   void addRun(int64_t tag, int64_t first, int64_t tags);
-  // Before the first look. Returns a tag that was added twice in *twice, or true.
+  // Before the first look, and before the next one if more tags came. Returns a tag that was added
+  // twice in *twice, or true.
   bool finish(int64_t* twice);
   // Of tags that follow each other, with ranks that do. After finish.
   uint64_t runs() const { return spool_ ? spool_->rows() : runs_.size(); }
@@ -48,12 +49,15 @@ class TagTable {
   void addRun(const Run& more);
   void spill();
   void merge();
+  void reopen();
   Run runAt(uint64_t index);
   uint64_t lastNotAbove(int64_t tag);
 
   std::string temp_dir_;
   std::vector<Run> runs_;
-  std::unique_ptr<SpoolFile> chunks_;  // sorted, each of kHeldRuns
+  bool is_finished_ = false;
+  std::unique_ptr<SpoolFile> chunks_;  // sorted, each up to one of
+  std::vector<uint64_t> chunk_ends_;   // in bytes
   std::unique_ptr<RowSpool> spool_;    // all runs, sorted
   std::vector<int64_t> samples_;       // the tag of every kSampledRuns-th run in it
   uint64_t at_ = 0;                    // of the run last found

@@ -65,6 +65,7 @@ void readBlocks(MshMesh& mesh, uint64_t count) {
       mesh.numbers.integers(rows.data(), n * width, kMshInt, "an element");
       for (size_t i = 0; i < n; ++i) {
         const int64_t* row = &rows[i * width];
+        mesh.checkTag(row[0]);
         addElement(mesh, kind, row[0], row + 1, tags, row + 1 + tags);
       }
       left -= n;
@@ -85,8 +86,7 @@ void readNodes2(MshMesh& mesh) {
   for (uint64_t i = 0; i < count; ++i) {
     double position[3];
     const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");
-    if (tag < 0 || tag > kMostTag)
-      mesh.file.failBad(textOf("node %lld", static_cast<long long>(tag)));
+    mesh.checkTag(tag);
     mesh.numbers.reals(position, 3, kMshDouble, "the position of a node");
     mesh.points->add(tag, static_cast<int64_t>(i));
     mesh.intake->addPoint(position);

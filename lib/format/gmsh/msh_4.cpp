@@ -71,11 +71,6 @@ void checkRead(MshMesh& mesh, uint64_t left, const char* what) {
                            static_cast<unsigned long long>(left), what));
 }
 
-void checkTag(MshMesh& mesh, int64_t tag) {
-  if (tag < 0 || tag > kMostTag)
-    mesh.file.failBad(textOf("%lld is no tag", static_cast<long long>(tag)));
-}
-
 void readNodeTags(MshMesh& mesh, uint64_t first, uint64_t count) {
   if (mesh.passTags4(count, first)) return;
   int64_t tags[kRowsAtOnce];
@@ -84,7 +79,7 @@ void readNodeTags(MshMesh& mesh, uint64_t first, uint64_t count) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - done));
     mesh.numbers.integers(tags, n, mesh.size_bytes, "the tag of a node");
     for (size_t i = 0; i < n; ++i) {
-      checkTag(mesh, tags[i]);
+      mesh.checkTag(tags[i]);
       mesh.points->add(tags[i], static_cast<int64_t>(first + done + i));
     }
     done += n;
@@ -161,7 +156,7 @@ void readElements4(MshMesh& mesh) {
       mesh.numbers.integers(elements.data(), n * width, mesh.size_bytes, "an element");
       for (size_t i = 0; i < n; ++i) {
         const int64_t* row = &elements[i * width];
-        checkTag(mesh, row[0]);
+        mesh.checkTag(row[0]);
         mesh.addCell(*kind, row + 1, row[0], group, head[1]);
       }
       done += n;

@@ -55,13 +55,7 @@ ScalarType typeOf(const std::map<std::string, ScalarType>& hints, const std::str
 void MshData::read(MshMesh& mesh, bool of_cells) {
   if (!mesh.intake) mesh.file.failBad("data before the nodes that it belongs to");
   DataHead head = readHead(mesh, of_cells);
-  if (of_cells && !cells_finished_) {
-    mesh.addPlacedTags();
-    int64_t twice;
-    if (!mesh.cells.finish(&twice))
-      mesh.file.failBad("element " + std::to_string(twice) + " is there twice");
-    cells_finished_ = true;
-  }
+  if (of_cells) mesh.finishCells();
   const bool kept = head.components <= kMaxComponents;
   if (!kept)
     mesh.intake->leaveOut("components of \"" + head.name + "\"",

@@ -28,6 +28,16 @@ void MshMesh::endNodes() {
   if (!points->finish(&twice)) file.failBad("node " + std::to_string(twice) + " is there twice");
 }
 
+void MshMesh::finishCells() {
+  addPlacedTags();
+  int64_t twice;
+  if (!cells.finish(&twice)) file.failBad("element " + std::to_string(twice) + " is there twice");
+}
+
+void MshMesh::checkTag(int64_t tag) const {
+  if (tag < 0 || tag > kMostTag) file.failBad(std::to_string(tag) + " is no tag");
+}
+
 void MshMesh::addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity) {
   if (face_labels == FaceLabels::kUndecided)
     face_labels = group != 0 ? FaceLabels::kGroups : FaceLabels::kEntities;

@@ -34,17 +34,20 @@ struct MshMesh {
   MshHints hints;
   std::unique_ptr<MeshIntake> intake;                    // from the nodes on
   std::shared_ptr<TagTable> points;                      // by Gmsh's tags, as ranks
-  TagTable cells;                                        // the same; see addPlacedTags
+  TagTable cells;                                        // the same; see finishCells
   std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
   std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
   uint64_t further_groups = 0;                           // that entities are in beside their first
   // What labels faces: physical groups, unless the first face has none.
   enum class FaceLabels { kUndecided, kGroups, kEntities } face_labels = FaceLabels::kUndecided;
 
+  void checkTag(int64_t tag) const;  // of a node or an element
   // A cell or a face, by its nodes' tags.
   void addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group, int64_t entity);
   void beginNodes();
   void endNodes();
+  // The tags of the elements that came so far can be looked for.
+  void finishCells();
 
   // msh_placed.cpp: what is read where it lies. Each passes over rows that can be, or returns false
   // with nothing taken: they are to be added.
@@ -60,8 +63,6 @@ struct MshMesh {
     int64_t group, entity;
   };
   bool placeElements(const Elements& elements);
-  // The tags of elements that were placed, which only data ask for.
-  void addPlacedTags();
   // Values of all nodes, or of all cells, in their order.
   bool placeData(size_t data, bool of_cells, uint64_t rows, size_t components);
 
@@ -74,6 +75,7 @@ struct MshMesh {
   void addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity);
   void addTags(TagTable& table, const RowsPlace& rows, size_t width, uint64_t first);
   void placeLabels(const Elements& elements, const RowsPlace& rows);
+  void addPlacedTags();  // which only data ask for
 
   std::vector<PlacedElements> placed_;
 };
@@ -104,7 +106,6 @@ class MshData {
                  int components);
 
   std::vector<Block> blocks_;
-  bool cells_finished_ = false;
 };
 
 }  // namespace tetstream

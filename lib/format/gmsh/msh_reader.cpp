@@ -36,7 +36,10 @@ class MshReader {
     file_.expect("$MeshFormat");
     const double version = file_.real("the version of the format");
     const int64_t binary = file_.integer("the kind of the file", 0, 1);
-    const int64_t size = file_.integer("the size of numbers", 4, 8);
+    const int64_t size = file_.integer("the size of numbers");
+    if (size != 4 && size != 8)
+      file_.failBad(
+          textOf("the size of numbers is %lld, not 4 or 8", static_cast<long long>(size)));
     mesh_.version_4 = std::fabs(version - 4.1) < 1e-9;
     if (!mesh_.version_4 && !(version >= 2 && version < 3))
       file_.failHere(Status::kUnsupported,

@@ -1,5 +1,4 @@
-// Bytes of a file by range: whoever reads ahead, they are the file's, and an end that comes too
-// early is told.
+// Bytes of a file by range: they are the file's, and an end that comes too early is told.
 #include "file_window.h"
 
 #include <gtest/gtest.h>

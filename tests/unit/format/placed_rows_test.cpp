@@ -379,6 +379,27 @@ TEST(PlacedRows, OfManyRunsOfNodesAreCopied) {
   EXPECT_EQ(r.mesh.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 99, 199}}));
 }
 
+// Elements that come after data of others have their tags, too.
+TEST(PlacedRows, OfElementsAfterDataHaveTheirValues) {
+  MshFile file("4.1", false);
+  file.nodes();
+  file.elements();
+  file.data({"ElementData", "early", kCells, 1}, [](int i) { return 300 + i; });
+  file.text("$Elements\n");
+  for (int64_t count : {1, 2, 1, 999}) file.put(count);
+  for (int32_t value : {3, 1, 4}) file.put(value);
+  file.put<int64_t>(2);
+  for (int64_t value : {290, 500, 501, 502, 503, 291, 504, 505, 506, 507}) file.put(value);
+  file.text("\n$EndElements\n");
+  file.data({"ElementData", "late", 3, 1}, [](int i) { return i < 2 ? 290 + i : 300; });
+  const Reading r = expectSameAsOfAPipe(openMsh, file.bytes);
+  ASSERT_EQ(r.mesh.cell_data.size(), 3u);
+  EXPECT_EQ(r.mesh.cell_data[1][kCells - 1], 1.5 * (kCells - 1));
+  EXPECT_EQ(r.mesh.cell_data[2][kCells], 0.0);
+  EXPECT_EQ(r.mesh.cell_data[2][kCells + 1], 1.5);
+  EXPECT_EQ(r.mesh.cell_data[2][0], 3.0);
+}
+
 std::string problemIn(Open open, const Bytes& file) {
   return errorOf(open, file).text();
 }
@@ -410,11 +431,9 @@ TEST(PlacedRows, TellTheByteOfWhatIsWrong) {
     file.elements();
     const bool is_4 = version[0] == '4';
     const std::string place = "mesh: byte " + std::to_string(file.last_row) + ": ";
-    const size_t corner = file.last_row + (is_4 ? 16 : 16);
+    const size_t corner = file.last_row + 16;
     for (int64_t none : {int64_t{99}, int64_t{520}, int64_t{-5}, int64_t{INT32_MAX}}) {
       MshFile broken = file;
-      broken.integer(0, 4);
-      broken.bytes.resize(file.bytes.size());
       is_4 ? broken.putAt(corner, none) : broken.putAt(corner, static_cast<int32_t>(none));
       EXPECT_EQ(problemIn(openMsh, broken.bytes),
                 place + "element 339 uses node " + std::to_string(none) + ", which is not there");
@@ -423,6 +442,27 @@ TEST(PlacedRows, TellTheByteOfWhatIsWrong) {
     EXPECT_EQ(
         problemIn(openMsh, file.bytes),
         place + (is_4 ? std::to_string(INT64_MIN) : std::to_string(INT32_MIN)) + " is no tag");
+  }
+}
+
+std::string problemOfAPipe(Open open, const Bytes& file) {
+  try {
+    readWhole(open, std::make_unique<PipeSource>(file, 1000, "mesh"), 7);
+  } catch (const Error& error) {
+    return error.text();
+  }
+  return "";
+}
+
+TEST(PlacedRows, OfElementsWithoutATagAreRefusedInAPipeToo) {
+  for (const char* version : {"4.1", "2.2"}) {
+    MshFile file(version, false);
+    file.nodes();
+    file.elements();
+    version[0] == '4' ? file.putAt(file.last_row, int64_t{-1})
+                      : file.putAt(file.last_row, int32_t{-1});
+    EXPECT_NE(problemIn(openMsh, file.bytes).find("-1 is no tag"), std::string::npos);
+    EXPECT_NE(problemOfAPipe(openMsh, file.bytes).find("-1 is no tag"), std::string::npos);
   }
 }
 

@@ -49,6 +49,28 @@ TEST(TagTable, FindsEveryTagOfManyThatComeInAnyOrder) {
   }
 }
 
+TEST(TagTable, TakesMoreTagsAfterItsFirstLook) {
+  for (int64_t size : {int64_t{10}, int64_t{300000}}) {  // the latter above what is held in memory
+    TagTable table("");
+    int64_t twice = 0, rank = 0;
+    for (int64_t i = 0; i < size; ++i) table.add(4 * (size - i), i);
+    ASSERT_TRUE(table.finish(&twice));
+    ASSERT_TRUE(table.find(4, &rank));
+    for (int64_t i = 0; i < 10; ++i) table.add(4 * i + 2, size + i);
+    ASSERT_TRUE(table.finish(&twice));
+    for (int64_t tag : {int64_t{4}, int64_t{36}, 4 * size}) {
+      ASSERT_TRUE(table.find(tag, &rank)) << tag;
+      EXPECT_EQ(rank, size - tag / 4);
+    }
+    ASSERT_TRUE(table.find(38, &rank));
+    EXPECT_EQ(rank, size + 9);
+    EXPECT_FALSE(table.find(3, &rank));
+    table.add(8, 0);
+    EXPECT_FALSE(table.finish(&twice));
+    EXPECT_EQ(twice, 8);
+  }
+}
+
 TEST(TagTable, TellsATagThatIsThereTwice) {
   for (size_t runs : {size_t{10}, size_t{600000}}) {
     TagTable table("");
