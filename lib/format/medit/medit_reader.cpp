@@ -105,7 +105,10 @@ class MeditReader {
     scan_.expectRows(count, {{{false, nodes + 1}}});
     for (uint64_t i = 0; i < count; ++i) {
       scan_.integers(row, nodes + 1, section.name.c_str());
-      for (size_t k = 0; k < corners; ++k) checkVertex(row[k]--, last);
+      for (size_t k = 0; k < corners; ++k) {
+        checkVertex(row[k], last);
+        --row[k];  // only now: the least integer has none before it
+      }
       if (is_cell)
         intake_.addCell(kind, row, row + nodes, static_cast<int64_t>(i + 1));
       else

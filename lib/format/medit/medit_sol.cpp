@@ -29,17 +29,17 @@ std::vector<int> readTypes(MeditScan& scan) {
   return components;
 }
 
-struct Solution {
+struct ReadSolution {
   size_t data, start, components;  // start: in a row
 };
 
 // Whether the rows can be read where they lie.
-bool place(MeditScan& scan, MeshIntake& intake, const std::vector<Solution>& solutions,
+bool place(MeditScan& scan, MeshIntake& intake, const std::vector<ReadSolution>& solutions,
            uint64_t count, size_t width) {
   const auto rows = scan.rowsHere(count, 0, width);
   if (!rows) return false;
   const auto window = std::make_shared<FileWindow>(rows->file);
-  for (const Solution& s : solutions) {
+  for (const ReadSolution& s : solutions) {
     NumbersOfRow reals = scan.realsOfRow(0, s.components);
     reals.at_byte = s.start * reals.width;
     intake.placeData(s.data, *rows, reals, window);
@@ -61,7 +61,7 @@ void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& 
   const ScalarType type = scan.version() == 1 ? ScalarType::kFloat32 : ScalarType::kFloat64;
   size_t& number = of_cells ? cell_data_ : fields_;
   size_t width = 0;
-  std::vector<Solution> solutions;
+  std::vector<ReadSolution> solutions;
   for (int components : readTypes(scan)) {
     const std::string name = "sol" + (number == 0 ? "" : std::to_string(number));
     solutions.push_back({intake.addData({name, components, type}, of_cells), width,
@@ -75,7 +75,8 @@ void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& 
   scan.expectRows(count, {{{true, width}}});
   for (uint64_t i = 0; i < count; ++i) {
     scan.reals(values.data(), width, "a value of a solution");
-    for (const Solution& s : solutions) intake.putData(s.data, first + i, values.data() + s.start);
+    for (const ReadSolution& s : solutions)
+      intake.putData(s.data, first + i, values.data() + s.start);
   }
 }
 

@@ -149,6 +149,8 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
       {head + "Vertices 1152921504606846976\n", "vertices cannot be in the"},
       {head + "Vertices 4\n0 0 0 0\n", "line 3: 4 vertices cannot be in the 9 bytes"},
       {vertices + "Tetrahedra 1\n1 2 3 5 0\nEnd\n", "line 9: vertex 5, where there are 1 to 4"},
+      {vertices + "Triangles 1\n1 2 -9223372036854775808 0\nEnd\n",
+       "line 9: vertex -9223372036854775808, where there are 1 to 4"},
       {vertices + "Tetrahedra 1\n1 2 3 0 0\nEnd\n", "vertex 0"},
       {vertices + "Tetrahedra 1\n1 2 3 4 0\n", "without the word End"},
       {vertices + "Prisms 1\n1 2 3 4 1 2 0\nEnd\n", "cell 1 is a prism"},
