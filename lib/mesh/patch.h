@@ -39,6 +39,9 @@ class Patch {
   uint32_t cellEnd() const { return cells_; }
   bool isLive(uint32_t c) const { return corner_[4 * size_t{c}] != kGoneCorner; }
   uint32_t vertexOf(uint32_t c, uint32_t j) const { return corner_[4 * size_t{c} + j]; }
+  void cornersOf(uint32_t c, uint32_t corners[4]) const {
+    for (uint32_t j = 0; j < 4; ++j) corners[j] = vertexOf(c, j);
+  }
   // Whether it lives and all its vertices are owned.
   bool isInside(uint32_t c) const {
     typedef uint16_t Corners __attribute__((vector_size(8)));

@@ -20,15 +20,10 @@ void Reconnector<S>::replace(const Reconnection& r, uint32_t* slots) {
 }
 
 template <class S>
-void Reconnector<S>::cornersOf(uint32_t c, uint32_t corners[4]) const {
-  for (uint32_t j = 0; j < 4; ++j) corners[j] = patch_.vertexOf(c, j);
-}
-
-template <class S>
 void Reconnector<S>::measureFour(const uint32_t* cells) {
   uint32_t corners[kThinLanes][4];
   double found[kThinLanes];
-  for (size_t i = 0; i < kThinLanes; ++i) cornersOf(cells[i], corners[i]);
+  for (size_t i = 0; i < kThinLanes; ++i) patch_.cornersOf(cells[i], corners[i]);
   thinnessAt(corners, found);
   for (size_t i = 0; i < kThinLanes; ++i) thinness_[cells[i]] = found[i];
 }

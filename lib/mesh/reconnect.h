@@ -59,7 +59,6 @@ class Reconnector {
   double thinnessOfCell(uint32_t c);
 
  private:
-  void cornersOf(uint32_t c, uint32_t corners[4]) const;
   void thinnessAt(const uint32_t (*corners)[4], double* out) const {
     thinnessOfFour(patch_.allValues(), patch_.valueStride(), corners, out);
   }

@@ -194,11 +194,6 @@ void Reshaper<S>::positionsOf(const uint32_t corners[4], double p[4][3]) const {
     for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(patch_.values(corners[k])[i]);
 }
 
-template <class S>
-void Reshaper<S>::cornersOf(uint32_t c, uint32_t corners[4]) const {
-  for (uint32_t j = 0; j < 4; ++j) corners[j] = patch_.vertexOf(c, j);
-}
-
 // Taken at the centroids of the new cells.
 template <class S>
 auto Reshaper<S>::change(const Reconnection& r) const -> Change {
@@ -207,7 +202,7 @@ auto Reshaper<S>::change(const Reconnection& r) const -> Change {
   CellFrame frames[Reconnection::kMostRing];
   uint32_t corners[Reconnection::kMostRing][4];
   for (uint32_t g = 0; g < r.gone_count; ++g) {
-    cornersOf(r.gone[g], corners[g]);
+    patch_.cornersOf(r.gone[g], corners[g]);
     positionsOf(corners[g], p);
     frames[g].set(p[0]);
   }

@@ -84,7 +84,6 @@ class Reshaper {
   bool isLegal(const Reconnection& r) const;
   Change change(const Reconnection& r) const;
   void positionsOf(const uint32_t corners[4], double p[4][3]) const;
-  void cornersOf(uint32_t c, uint32_t corners[4]) const;
   void apply(const Reconnection& r);
   void handOverCellData(const Reconnection& r, const uint32_t* slots);
   void tell(const Reconnection& r, const uint32_t* slots);

@@ -195,11 +195,10 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
 }
 
 // Whether what a tile does may hang on the one before, whatever lies between them: on the error
-// made so far, where it has a limit; on the order in which a log or a map is told; the hash of
-// labelled faces, common to all.
+// made so far, where it has a limit; the hash of labelled faces, common to all.
 template <class S>
 bool SweepSelector<S>::worksInOrder() const {
-  return std::isfinite(core_.error_limit) || core_.tracer || core_.window.faces.anyPlaced();
+  return std::isfinite(core_.error_limit) || core_.window.faces.anyPlaced();
 }
 
 // Whether all tiles of a pass of the last goal may be swept at the same time, each taking a share
@@ -207,8 +206,7 @@ bool SweepSelector<S>::worksInOrder() const {
 template <class S>
 bool SweepSelector<S>::takesShares() const {
   const auto live = static_cast<double>(core_.window.liveCells());
-  return core_.shapesFirst() && goal_.last && core_.options.memory_bytes == 0 &&
-         !std::isfinite(core_.error_limit) &&
+  return core_.shapesFirst() && goal_.last && core_.options.memory_bytes == 0 && !worksInOrder() &&
          static_cast<double>(room()) > kLeastShareOfSlices * live;
 }
 
@@ -265,13 +263,18 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
   swept_.assign(end - first, {});
   TileQueue queue(tiling_.earlier(), tiling_.ahead(), first, end);
   const std::thread::id caller = std::this_thread::get_id();
+  const auto work = [&](size_t tile, Lane& lane) {
+    swept_[tile - first] = sweepTile(tile, bound, lane, queue);
+    queue.finish(tile);
+    if (std::this_thread::get_id() == caller) tick();  // the user's callbacks know one thread
+  };
+  if (core_.tracer) {  // a map and a log are told of them in their order
+    for (size_t tile = first; tile < end; ++tile) work(tile, lane());
+    return;
+  }
   shareOut(end - first, [&](Lane& lane) {
     try {
-      while (const std::optional<size_t> tile = queue.take()) {
-        swept_[*tile - first] = sweepTile(*tile, bound, lane, queue);
-        queue.finish(*tile);
-        if (std::this_thread::get_id() == caller) tick();  // the user's callbacks know one thread
-      }
+      while (const std::optional<size_t> tile = queue.take()) work(*tile, lane);
     } catch (...) {
       queue.giveUp();
       throw;

@@ -12,6 +12,13 @@ only_files mesh.tets mesh.vtu small.vtu other.vtu small.tetmap small.tetlog smal
 # Without them the mesh is the same, with a budget of memory both hold.
 tetstream simplify mesh.vtu other.vtu --ratio 0.2 --quiet
 [[ $(bytes_of small.vtu) == "$(bytes_of other.vtu)" ]] || fail "a map changes the mesh"
+tetstream generate fluid --cells 12000 many.tets --quiet
+tetstream simplify many.tets sliced.tets --ratio 0.1 --quiet --shape solver
+for trace in --map --collapse-log; do
+  tetstream simplify many.tets traced.tets --ratio 0.1 --quiet --shape solver "$trace" many.csv
+  [[ $(bytes_of traced.tets) == "$(bytes_of sliced.tets)" ]] || fail "$trace changes the mesh"
+done
+rm many.tets many.csv sliced.tets traced.tets
 tetstream simplify mesh.tets other.tets --ratio 0.2 --quiet --memory 2M --map budget.tetmap
 # Of streams and of points that are put into another order, that before counts.
 mkdir orders

@@ -1,5 +1,7 @@
 // Any number of threads gives what one gives, whatever a run is asked for.
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <thread>
 
 #include "faces.h"
@@ -21,6 +23,15 @@ TestMesh withWaves(TestMesh mesh, ScalarType type) {
 
 TestMesh wavyGrid(int n, ScalarType type) {
   return withWaves(fullGrid(n, n, n, 0.1), type);
+}
+
+// Of a field that is flat at one side, where tiles would take more than their shares of a goal.
+TestMesh wavyAtOneSide(int n) {
+  TestMesh mesh = fullGrid(n, n, n, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [n](double x, double y, double z) {
+    return std::max(x - 0.4 * n, 0.0) * std::sin(y * z);
+  });
+  return mesh;
 }
 
 // With flat cells at one side, between two layers that lie on each other.
@@ -103,6 +114,7 @@ TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
     const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
     EXPECT_GT(ran(mesh, options, 1).report.flips, 0);
     expectSame(mesh, options);
+    expectSame(wavyAtOneSide(side()), options);
   }
 }
 
@@ -199,24 +211,44 @@ struct Rows final : MapSink, LogSink {
   std::vector<int64_t> ids;
 };
 
+struct Traced {
+  Rows rows;
+  Recorder out;
+};
+
+std::unique_ptr<Traced> traced(const TestMesh& mesh, SimplifyOptions options, size_t threads) {
+  const Tasks tasks(threads);
+  options.tasks = &tasks;
+  options.tile_vertices = kFewVertices;
+  auto run = std::make_unique<Traced>();
+  Simplifier simplifier(options, run->out, {});
+  simplifier.trace({&run->rows, &run->rows});
+  MeshStream stream(mesh, Cut{});
+  copyStream(stream, simplifier);
+  return run;
+}
+
 TEST(SweepThreads, TellTheSameMapAndLog) {
   const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
-  const auto traced = [&](size_t threads) {
-    const Tasks tasks(threads);
-    SimplifyOptions options = toRatio(0.2);
-    options.tasks = &tasks;
-    options.tile_vertices = kFewVertices;
-    Rows rows;
-    Recorder out;
-    Simplifier simplifier(options, out, {});
-    simplifier.trace({&rows, &rows});
-    MeshStream stream(mesh, Cut{});
-    copyStream(stream, simplifier);
-    return rows.ids;
-  };
-  const std::vector<int64_t> one = traced(1);
-  EXPECT_GT(one.size(), mesh.vertexCount());
-  EXPECT_TRUE(traced(3) == one);
+  const auto one = traced(mesh, toRatio(0.2), 1);
+  EXPECT_GT(one->rows.ids.size(), mesh.vertexCount());
+  EXPECT_TRUE(traced(mesh, toRatio(0.2), 3)->rows.ids == one->rows.ids);
+}
+
+// Tiles stop at the shares at which they stop where nobody is told.
+TEST(SweepThreads, GiveTheSameBytesWhereAMapAndALogAreTold) {
+  for (int n : {6, side()})
+    for (double ratio : {0.1, 0.2}) {
+      SCOPED_TRACE(textOf("%d cubes a side, ratio %g", n, ratio));
+      const TestMesh mesh = wavyAtOneSide(n);
+      SimplifyOptions options = toRatio(ratio);
+      options.shape = Shape::kSolver;
+      const auto one = traced(mesh, options, 1);
+      EXPECT_TRUE(one->out.allBytes() == ran(mesh, options, 2).out.allBytes());
+      const auto many = traced(mesh, options, 3);
+      EXPECT_TRUE(many->rows.ids == one->rows.ids);
+      EXPECT_TRUE(many->out.allBytes() == one->out.allBytes());
+    }
 }
 
 // Callbacks come on the caller's thread; one that fails ends the run, and nobody waits for ever.
