@@ -1,5 +1,4 @@
-// file: numbers of a file that may be text or binary. Depends on file_scan.h,
-// file_window.h.
+// file: numbers of a file that may be text or binary. Depends on file_scan.h, file_window.h.
 #pragma once
 
 #include <optional>

@@ -30,6 +30,4 @@ struct PlacedCellsPlan {
 // may have changed since.
 std::shared_ptr<RowReader> placeCells(std::shared_ptr<FileWindow> window, PlacedCellsPlan plan);
 
-constexpr int64_t kMostTag = INT64_MAX / 2;  // of a cell or a point
-
 }  // namespace tetstream

@@ -11,6 +11,8 @@
 
 namespace tetstream {
 
+constexpr int64_t kMostTag = INT64_MAX / 2;  // of a cell or a point
+
 // Ranks of tags. Most files count on, so what is kept are runs of tags whose ranks follow each
 // other; when they are many, they are sorted in a temporary file. Memory does not grow with them,
 // but for a number per 256 runs.

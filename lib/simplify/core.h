@@ -182,7 +182,7 @@ struct Core {
   // are of the first half.
   template <class Work>
   void forHalves(Work work) const {
-    constexpr int64_t kLeastTiles = 8;  // or as many cells as these have vertices
+    constexpr int64_t kLeastTiles = 8;  // fewer cells than these have vertices are few
     const uint32_t end = window.mesh.cellEnd();
     const int64_t tile = options.tile_vertices > 0 ? options.tile_vertices : kTileVertices;
     const Tasks* const both = end < kLeastTiles * tile ? nullptr : tasks();
