@@ -1,5 +1,5 @@
 // file: rows of one width that lie one after the other in a file, read by range. Depends on
-// bytes.h, tasks.h.
+// bytes.h.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "bytes.h"
-#include "tasks.h"
 
 namespace tetstream {
 
@@ -54,9 +53,5 @@ void forPlacedRows(FileWindow& window, const RowsPlace& place, uint64_t first, u
     first += n;
   }
 }
-
-// Whether any of the integers at that byte of each row, of four or eight bytes, is not 0. Looks up
-// to the first such, at long parts with all who help.
-bool anyNonZero(const RowsPlace& place, size_t at_byte, size_t width, const Tasks* tasks);
 
 }  // namespace tetstream

@@ -1,6 +1,7 @@
 #include "placed_numbers.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -133,11 +134,51 @@ class ConstantRows final : public RowReader {
   ScalarType type_;
 };
 
+constexpr uint64_t kFirstRows = 1 << 14;  // that one thread looks at before it asks others
+
+// In either byte order: 0 is the same in both.
+template <class Integer>
+bool anyIn(const unsigned char* rows, size_t row_bytes, size_t count) {
+  Integer any = 0;
+  for (size_t i = 0; i < count; ++i) any |= storedNumber<Integer, false>(rows + i * row_bytes);
+  return any != 0;
+}
+
+bool anyInRange(const RowsPlace& place, const NumbersOfRow& integer, uint64_t first, uint64_t count,
+                const std::atomic<bool>& found) {
+  FileWindow window(place.file);
+  bool any = false;
+  forPlacedRows(window, place, first, count, [&](const unsigned char* rows, size_t n, uint64_t) {
+    any = integer.width == 4 ? anyIn<uint32_t>(rows + integer.at_byte, place.row_bytes, n)
+                             : anyIn<uint64_t>(rows + integer.at_byte, place.row_bytes, n);
+    return !any && !found;
+  });
+  return any;
+}
+
 }  // namespace
 
 std::shared_ptr<RowReader> placeNumbers(std::shared_ptr<FileWindow> window, const RowsPlace& place,
                                         const NumbersOfRow& numbers, ScalarType type) {
   return std::make_shared<PlacedNumbers>(std::move(window), place, numbers, type);
+}
+
+bool anyNonZero(const RowsPlace& place, const NumbersOfRow& integer, const Tasks* tasks) {
+  std::atomic<bool> found = false;
+  const uint64_t alone = std::min(place.rows, kFirstRows);
+  if (anyInRange(place, integer, 0, alone, found)) return true;
+  const uint64_t rest = place.rows - alone;
+  const size_t parts = tasks && rest > kFirstRows ? tasks->threads() : 1;
+  const auto look = [&](size_t part) {
+    const uint64_t begin = rest / parts * part,
+                   end = part + 1 == parts ? rest : begin + rest / parts;
+    if (anyInRange(place, integer, alone + begin, end - begin, found)) found = true;
+  };
+  if (parts > 1)
+    tasks->forParts(parts, look);
+  else
+    look(0);
+  return found;
 }
 
 std::shared_ptr<RowReader> placeConstant(int64_t value, ScalarType type) {

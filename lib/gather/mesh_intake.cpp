@@ -92,8 +92,7 @@ void MeshIntake::placeLabels(Labels& labels, uint64_t count, std::shared_ptr<Row
 }
 
 void MeshIntake::placeLabels(Labels& labels, const RowsPlace& rows, const NumbersOfRow& label) {
-  const bool any =
-      labels.any || anyNonZero(rows, label.at_byte, label.width, options_.threads.tasks);
+  const bool any = labels.any || anyNonZero(rows, label, options_.threads.tasks);
   if (takeZeros(labels, rows.rows, any)) return;
   const auto& window = labels.of_points ? points_window_ : cells_window_;
   placeLabels(labels, rows.rows, placeNumbers(window, rows, label, typeOf(labels)));

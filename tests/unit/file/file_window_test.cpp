@@ -85,25 +85,5 @@ TEST(FileWindow, TellsWhereTheFileEndsOrCannotBeRead) {
   EXPECT_EQ(std::memcmp(window.bytes(100000, 100000), bytes.data() + 100000, 100000), 0);
 }
 
-TEST(FileWindow, FindsAnIntegerThatIsNotZeroWhereverItIs) {
-  constexpr size_t kRows = 100000, kRowBytes = 20;
-  Bytes bytes(kRows * kRowBytes + 4, 0);
-  const Tasks three(3);
-  const RowsPlace place = {sourceOf(bytes), 4, kRows, kRowBytes, false};
-  for (const Tasks* tasks : {static_cast<const Tasks*>(nullptr), &three})
-    for (size_t width : {size_t{4}, size_t{8}}) {
-      EXPECT_FALSE(anyNonZero(place, 12, width, tasks));
-      for (size_t row : {size_t{0}, size_t{16383}, size_t{16384}, size_t{44444}, kRows - 1}) {
-        unsigned char& byte = bytes[4 + row * kRowBytes + 12 + width - 1];
-        byte = 0x80;
-        EXPECT_TRUE(anyNonZero(place, 12, width, tasks)) << row;
-        byte = 0;
-        bytes[4 + row * kRowBytes + 11] = 1;  // beside it
-        EXPECT_FALSE(anyNonZero(place, 12, width, tasks)) << row;
-        bytes[4 + row * kRowBytes + 11] = 0;
-      }
-    }
-}
-
 }  // namespace
 }  // namespace tetstream
