@@ -197,7 +197,7 @@ bool Collapser<Mesh>::keepCurveArea(uint32_t u, uint32_t v, const Embedded& embe
 }
 
 // Moves the place, by as much as it takes, to where no region of the stars grows or shrinks, or
-// side of a sheet; returns the error there.
+// side of a sheet; returns the error there, infinity where regions would take it too far.
 template <class Mesh>
 auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels,
                                   const SheetSides* sides) -> S {
@@ -207,7 +207,7 @@ auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labe
   volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
                    labels, sides);
   double step[3];
-  volumes_.step(step);
+  if (!volumes_.step(step) && labels.count > 0) return std::numeric_limits<S>::infinity();
   for (size_t i = 0; i < 3; ++i) z_[i] += static_cast<S>(step[i]) * core_.scale[i];
   placeAt(u, v, z_.data());
   return errorHere(u, v);
@@ -318,6 +318,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     gather(!u_first);
     if (core_.inner_sheets) listLabelled(u, v);
     const S moved = adjust(strata);
+    if (!std::isfinite(moved)) return Outcome::kTooFar;
     if (moved > kDearGrowth * *error) price_ = kThinPrice;
     if (price_ > most_price) return Outcome::kDear;
     *error = std::max(*error, moved);

@@ -31,6 +31,9 @@ void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S*
   const auto relative = [&](uint32_t v, double* out) {
     for (size_t i = 0; i < 3; ++i) out[i] = static_cast<double>(values[v * stride + i]) - x[i];
   };
+  double tip[2][3];
+  for (size_t k = 0; k < 2; ++k) relative(ends[k], tip[k]);
+  for (size_t i = 0; i < 3; ++i) edge_[i] = tip[1][i] - tip[0][i];
   for (const Star* star : {&stars.u, &stars.ring, &stars.v}) {
     double centre[3];
     relative(ends[star == &stars.v], centre);
@@ -53,7 +56,7 @@ void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S*
 }
 
 // Least squares: sum of g g^T times the step is minus the sum of g times the change.
-void RegionVolumes::step(double out[3]) const {
+bool RegionVolumes::step(double out[3]) const {
   double m[3][3] = {}, right[3] = {}, largest = 0;
   for (const Change& c : changes_)
     for (int i = 0; i < 3; ++i) {
@@ -66,13 +69,14 @@ void RegionVolumes::step(double out[3]) const {
     m[i][i] += kRegular * largest;
   }
   const double whole = determinant(m[0], m[1], m[2]);
-  if (!(std::fabs(whole) > 0)) return;
+  if (!(std::fabs(whole) > 0)) return true;
   for (int k = 0; k < 3; ++k) {
     double swapped[3][3];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) swapped[j][i] = j == k ? right[i] : m[i][j];
     out[k] = determinant(swapped[0], swapped[1], swapped[2]) / whole;
   }
+  return dot(out, out) <= dot(edge_, edge_);
 }
 
 template void RegionVolumes::measure<float>(const Stars&, const uint32_t[2], const float*, size_t,

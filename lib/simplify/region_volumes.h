@@ -26,14 +26,17 @@ class RegionVolumes {
   template <class S>
   void measure(const Stars& stars, const uint32_t ends[2], const S* values, size_t stride,
                const double x[3], const CellLabels& labels, const SheetSides* sides);
-  // From x to where the volumes are as they were.
-  void step(double out[3]) const;
+  // From x to where the volumes are as they were. False if that is farther than the edge is long:
+  // a region that has but small faces at the vertex, such as one cell, would become a spike. Its
+  // error is no help against it, as small faces weigh little.
+  bool step(double out[3]) const;
 
  private:
   Change& of(uint32_t cell, const CellLabels& labels);
   Change& ofPart(size_t part, uint32_t cell);
 
   std::vector<Change> changes_;
+  double edge_[3] = {0, 0, 0};  // from one end to the other
 };
 
 }  // namespace tetstream
