@@ -29,6 +29,8 @@ BRUTE_FORCE = 2e8  # points times cells that are compared one by one
 # More than 0.2 % of the cells are below 10 degrees.
 THIN = ("spx", "vampy_artery_cfd", "fluidity_seamount", "bluntfin", "cylflow", "colin27_brain",
         "su2_pipe")
+# In so small a first window a single one is more, of every sixteenth that is looked at.
+THIN_AT_FIRST = {"kiefer_fea": "5000"}
 TOUCHING = ("su2_pipe",)  # bodies that touch: what is outside of one may lie in another
 
 
@@ -95,7 +97,8 @@ class Traces:
                     "the mesh is the same with a map")
         self.expect(filecmp.cmp(out, path("logged.vtu"), shallow=False),
                     "the mesh of a log is the same with a map")
-        if self.name not in THIN or "paper" in words:
+        is_thin = self.name in THIN or THIN_AT_FIRST.get(self.name) in words
+        if not is_thin or "paper" in words:
             self.expect(filecmp.cmp(out, path("plain.vtu"), shallow=False), "the mesh is the same")
 
     def check_map(self, out, after, rows):
