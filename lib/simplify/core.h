@@ -152,7 +152,8 @@ struct Core {
     bytes += 1;  // what is tiled is marked by halves: two bytes of a vertex
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
-      bytes += sizeof(uint32_t) + static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
+      bytes += Tracer<S>::kCellBytes + Tracer<S>::kVertexBytes / kCellsPerVertex +
+               static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
     return bytes;
   }
 
