@@ -144,8 +144,8 @@ struct Core {
   }
 
   // The same with curves and labelled faces, and with what is traced: a vertex's origin; of a map
-  // each cell's first point, the way between cells (cell_walk.h), a point for every vertex that is merged, and those of the cells that
-  // stay. The cache does not hold them.
+  // each cell's first point, the way between cells (cell_walk.h), a point for every vertex that is
+  // merged, and those of the cells that stay. The cache does not hold them.
   static size_t budgetPerCell(const Plan& plan, const SimplifyOptions& options) {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options.feature_angle);
