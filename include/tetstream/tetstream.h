@@ -560,7 +560,7 @@ typedef struct tetstream_map_rows {
  * vertex; of one that is linear in space, exactly so up to rounding. A vertex that was neither moved
  * nor merged has a 1 at its own corner. One outside of the output, whose boundary has moved, has a
  * weight below 0, of a cell near it; where none is below 0 the vertex lies in the cell. A row may
- * come before its cell and its vertices do. Memory: 8 bytes for each vertex in the window, 4 for
+ * come before its cell and its vertices do. Memory: 12 bytes for each vertex in the window, 20 for
  * each cell, and 24 (float32 throughout) or 40 for each vertex that was moved or merged and whose
  * cell has not been written: at most those that the window's cells stand for, so more where more
  * is taken away. The option `memory` counts them. */

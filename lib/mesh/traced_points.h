@@ -39,6 +39,10 @@ class TracedPoints {
   void reshaped(uint32_t* first, const uint32_t* before, size_t before_count,
                 const PlacedCell* after, size_t after_count);
 
+  // Each point of the cell goes to the cell to(x), which may be the same.
+  template <class To>
+  void move(uint32_t* first, uint32_t cell, To to);
+
   // visit(id, x) for each point of a cell, which has none then.
   template <class Visit>
   void take(uint32_t& first, Visit visit);
@@ -59,6 +63,23 @@ class TracedPoints {
   std::vector<uint32_t> lists_;    // of the cells before
   std::vector<CellFrame> frames_;  // of the cells after
 };
+
+template <class S>
+template <class To>
+void TracedPoints<S>::move(uint32_t* first, uint32_t cell, To to) {
+  for (uint32_t* at = first + cell; *at != kNone;) {
+    Point& point = points_[*at];
+    const uint32_t other = to(point.x);
+    if (other == cell) {
+      at = &point.next;
+      continue;
+    }
+    const uint32_t moved = *at;
+    *at = point.next;
+    point.next = first[other];
+    first[other] = moved;
+  }
+}
 
 template <class S>
 template <class Visit>

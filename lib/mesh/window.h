@@ -130,4 +130,12 @@ class Window {
   Array<uint32_t> remap_;
 };
 
+template <class S>
+inline void cornersIn(const Window<S>& window, uint32_t cell, double corners[4][3]) {
+  for (int j = 0; j < 4; ++j) {
+    const S* const x = window.values(window.mesh.corners(cell)[j]);
+    for (int i = 0; i < 3; ++i) corners[j][i] = static_cast<double>(x[i]);
+  }
+}
+
 }  // namespace tetstream

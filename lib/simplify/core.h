@@ -144,15 +144,16 @@ struct Core {
   }
 
   // The same with curves and labelled faces, and with what is traced: a vertex's origin; of a map
-  // each cell's first point, a point for every vertex that is merged, and those of the cells that
-  // stay. The cache does not hold them.
+  // each cell's first point, the way between cells (cell_walk.h), a point for every vertex that is
+  // merged, and those of the cells that stay. The cache does not hold them.
   static size_t budgetPerCell(const Plan& plan, const SimplifyOptions& options) {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options.feature_angle);
     bytes += 1;  // what is tiled is marked by halves: two bytes of a vertex
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
-      bytes += sizeof(uint32_t) + static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
+      bytes += Tracer<S>::kCellBytes + Tracer<S>::kVertexBytes / kCellsPerVertex +
+               static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
     return bytes;
   }
 

@@ -186,6 +186,7 @@ template <class S>
 void Release<S>::write(uint32_t keep) {
   const Topology& mesh = core_.window.mesh;
   countUses();
+  if (core_.tracer && mustGo(keep)) core_.tracer->bringHome(core_.window.scratch());
   if (core_.options.release == ReleaseOrder::kError) writeDearest(keep);
   for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(keep); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);

@@ -8,7 +8,7 @@ namespace tetstream {
 
 template <class S>
 Tracer<S>::Tracer(Window<S>& window, const Plan& plan, TraceSinks sinks, Account& account)
-    : window_(window), plan_(plan), sinks_(sinks), points_(account) {}
+    : window_(window), plan_(plan), sinks_(sinks), points_(account), walk_(account) {}
 
 static int64_t idOf(int64_t origin) {
   return origin < 0 ? ~origin : origin;
@@ -39,6 +39,29 @@ void Tracer<S>::flipped(const uint32_t* before, size_t before_count, const Place
 }
 
 template <class S>
+void Tracer<S>::bringHome(const uint32_t* uses) {
+  if (!sinks_.map || points_.count() == 0) return;
+  bool started = false;
+  for (uint32_t cell = 0; cell < window_.cellEnd(); ++cell) {
+    if (!window_.isLive(cell) || window_.firstPoints()[cell] == kNone) continue;
+    double corners[4][3];
+    CellFrame frame;
+    cornersIn(window_, cell, corners);
+    frame.set(corners[0]);
+    points_.move(window_.firstPoints(), cell, [&](const S* place) {
+      const double x[3] = {static_cast<double>(place[0]), static_cast<double>(place[1]),
+                           static_cast<double>(place[2])};
+      double w[4];
+      frame.weights(x, w);
+      if (!(*std::min_element(w, w + 4) < -kLeastOutside)) return cell;
+      if (!started) walk_.start(window_, uses);
+      started = true;
+      return walk_.from(cell, x);
+    });
+  }
+}
+
+template <class S>
 void Tracer<S>::writeVertex(uint32_t v, int corner, uint64_t rank) {
   const int64_t origin = window_.origin(v);
   if (!sinks_.map || origin < 0) return;
@@ -51,9 +74,7 @@ template <class S>
 void Tracer<S>::writeCell(uint32_t cell, uint64_t rank) {
   if (!sinks_.map || window_.firstPoints()[cell] == kNone) return;
   double corners[4][3];
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 3; ++i)
-      corners[j][i] = static_cast<double>(window_.values(window_.mesh.corners(cell)[j])[i]);
+  cornersIn(window_, cell, corners);
   points_.take(window_.firstPoints()[cell], [&](int64_t id, const S* place) {
     const double x[3] = {static_cast<double>(place[0]), static_cast<double>(place[1]),
                          static_cast<double>(place[2])};

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "cell_walk.h"
 #include "flip_observer.h"
 #include "plan.h"
 #include "traced_points.h"
@@ -38,6 +39,10 @@ class Tracer final : public FlipObserver {
   void collapsed(const TracedCollapse<S>& collapse);
   void flipped(const uint32_t* before, size_t before_count, const PlacedCell* after,
                size_t after_count) override;
+  // Before cells leave: of points that lie outside of their cells, since the boundary was moved
+  // away and perhaps back, those that lie in other cells of the window now go there, the others to
+  // where they are beside the boundary. uses[v]: how many live cells v has.
+  void bringHome(const uint32_t* uses);
   // A cell leaves, with that rank; at `corner`, with its vertex, which no cell has left with.
   void writeVertex(uint32_t v, int corner, uint64_t rank);
   void writeCell(uint32_t cell, uint64_t rank);
@@ -45,6 +50,9 @@ class Tracer final : public FlipObserver {
 
   size_t pointCount() const { return points_.count(); }
   static constexpr size_t pointBytes() { return sizeof(typename TracedPoints<S>::Point); }
+  // What a map takes for each cell and each vertex of the window, beside the points.
+  static constexpr size_t kCellBytes = sizeof(uint32_t) + CellWalk<S>::kCellBytes;
+  static constexpr size_t kVertexBytes = CellWalk<S>::kVertexBytes;
 
  private:
   // Rows of the two tables, column by column.
@@ -67,6 +75,7 @@ class Tracer final : public FlipObserver {
   const Plan& plan_;
   TraceSinks sinks_;
   TracedPoints<S> points_;
+  CellWalk<S> walk_;
   MapTable map_;
   LogTable log_;
 };

@@ -62,10 +62,11 @@ class Judge:
         self.samples = samples
         self.path, self.original = None, None
 
-    def __call__(self, original, simplified, field=None):
+    def __call__(self, original, simplified, field=None, seed=1):
         if self.path != original:
             self.path, self.original = original, self.module.load(original)
-        return self.module.judge(self.original, self.module.load(simplified), field, self.samples)
+        return self.module.judge(self.original, self.module.load(simplified), field, self.samples,
+                                 seed)
 
 
 def new_non_manifold(verdict):

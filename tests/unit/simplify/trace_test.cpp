@@ -215,6 +215,42 @@ TEST(Traces, PutNothingOutsideOfABoxThatStaysOne) {
   EXPECT_GT(*std::min_element(t.traces.weights.begin(), t.traces.weights.end()), -1e-4);
 }
 
+using Face = std::set<int64_t>;
+
+Face faceOf(const TestMesh& mesh, size_t cell, size_t opposite) {
+  Face face;
+  for (size_t k = 0; k < 4; ++k)
+    if (k != opposite) face.insert(mesh.cells[4 * cell + k]);
+  return face;
+}
+
+// A boundary that is moved away from a vertex may come back by collapses of other cells; what is
+// told of a vertex outside is told by a cell beside the boundary.
+TEST(Traces, PutVerticesBeyondFacesOfTheBoundaryOnly) {
+  const TestMesh grid = fullGrid(12, 12, 12, 0.1);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v) {
+    const double x = grid.position(v, 0), y = grid.position(v, 1), z = grid.position(v, 2);
+    const double hill = 3 * std::sin(0.6 * x) * std::sin(0.6 * y);
+    positions.insert(positions.end(), {x, y, (z + hill) / 20});
+  }
+  const TestMesh mesh = withField(makeMesh(ScalarType::kFloat64, positions, grid.cells));
+  for (Mode mode : kModes) {
+    const Traced t = traced(mesh, toRatio(0.05, 0, mode));
+    EXPECT_GT(expectMap(mesh, t), 100u);
+    std::map<Face, int> cells_at;
+    for (size_t c = 0; c < t.result.out.mesh.cellCount(); ++c)
+      for (size_t j = 0; j < 4; ++j) ++cells_at[faceOf(t.result.out.mesh, c, j)];
+    size_t beyond_others = 0;
+    for (size_t i = 0; i < t.traces.weights.size(); ++i) {
+      const auto cell = static_cast<size_t>(t.traces.cells[i / 4]);
+      if (t.traces.weights[i] < -1e-9)
+        beyond_others += cells_at[faceOf(t.result.out.mesh, cell, i % 4)] > 1;
+    }
+    EXPECT_EQ(beyond_others, 0u);
+  }
+}
+
 // A vertex that was not moved is not described by others.
 TEST(Traces, OfVerticesThatStandWhereTheyStoodAreOnes) {
   const TestMesh mesh = withField(fullGrid(6, 6, 8, 0.1));
