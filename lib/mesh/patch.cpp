@@ -38,7 +38,7 @@ void Patch<S>::sizeFor(size_t owned, size_t cells) {
   }
   ensure(global_cell_, cells);
   ensure(corner_, 4 * cells);
-  ensure(quadrics_, owned * quadric_stride_ + 3);  // rows are read four numbers at a time
+  ensure(quadrics_, (owned + 1) * quadric_stride_ + 3);  // rows are read four numbers at a time
   ensure(star_of_, owned + 1);
 }
 

@@ -61,7 +61,8 @@ class Patch {
   // Owned by another patch: on a seam.
   bool isFreeElsewhere(uint32_t v) const { return v >= owned_ && isFreeVertex(flags_[v]); }
 
-  // Values of all vertices, quadrics of the owned ones.
+  // Values of all vertices, quadrics of the owned ones. The row behind those, of ownedEnd(), is for
+  // what is not to be kept.
   S* values(uint32_t v) { return &values_[v * value_stride_]; }
   const S* values(uint32_t v) const { return &values_[v * value_stride_]; }
   S* quadric(uint32_t v) { return &quadrics_[v * quadric_stride_]; }

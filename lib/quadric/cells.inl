@@ -129,8 +129,8 @@ inline void loadCorner(const VertexTable<S>& table, const uint32_t* corners, int
 
 // One cell after the other, as it would be alone: they share vertices.
 template <class S, int N>
-inline void addToCorners(const Double4* a, const VertexTable<S>& table, const uint32_t* corners,
-                         int n, S* quadrics) {
+inline void addToCorners(const Double4* a, size_t stride, const uint32_t* rows_of, int n,
+                         S* quadrics) {
   using Four = typename Lanes<S>::Four;
   const int size = Fields::size(n) - 1, fours = (size + 3) / 4, whole = size / 4;
   Four rows[kQuadricRoom<Fields, N> / 4][4];
@@ -141,7 +141,7 @@ inline void addToCorners(const Double4* a, const VertexTable<S>& table, const ui
   }
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 4; ++j) {
-      S* q = quadrics + (table.quadric(corners[4 * k + j]) - table.quadrics);
+      S* q = quadrics + rows_of[4 * k + j] * stride;
       for (int b = 0; b < whole; ++b) {
         Four sum;
         __builtin_memcpy(&sum, q + 4 * b, sizeof sum);
@@ -154,7 +154,8 @@ inline void addToCorners(const Double4* a, const VertexTable<S>& table, const ui
 
 template <class S, int N>
 bool addCellFields(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
-                   const S* scale, int n_given, double shape, double* determinants) {
+                   const uint32_t* rows, const S* scale, int n_given, double shape,
+                   double* determinants) {
   using Four = typename Lanes<S>::Four;
   const int n = dimension<N>(n_given);
   CellField<Double4, N> cells;
@@ -172,7 +173,7 @@ bool addCellFields(const VertexTable<S>& table, S* quadrics, const uint32_t* cor
   const auto sure = det * det > kSureVolume * kSureVolume * (size * size * size);
   if (!(sure[0] & sure[1] & sure[2] & sure[3])) return false;
   cells.form(n, shape, det, det < 0 ? -det : det);
-  addToCorners<S, N>(cells.a, table, corners, n, quadrics);
+  addToCorners<S, N>(cells.a, static_cast<size_t>(table.quadric_stride), rows, n, quadrics);
   for (int k = 0; k < 4; ++k) determinants[k] = det[k];
   return true;
 }

@@ -55,7 +55,8 @@ void addFaceDistance(const S* const x[3], const S* scale, int n_given, double we
 
 // Distances are added cell by cell.
 template <class S>
-bool addNoCells(const VertexTable<S>&, S*, const uint32_t*, const S*, int, double, double*) {
+bool addNoCells(const VertexTable<S>&, S*, const uint32_t*, const uint32_t*, const S*, int, double,
+                double*) {
   return false;
 }
 

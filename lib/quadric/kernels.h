@@ -69,11 +69,11 @@ struct QuadricKernels {
   //     orthonormal basis of the cell in R^n (Garland and Zhou 2005).
   // `shape`: kShapeWeight, or another weight of the regulariser. Returns 6 V, with its sign.
   double (*addCell)(const S* const x[4], const S* scale, int n, double shape, S* const q[4]);
-  // The same numbers for kCellLanes cells, one after the other: their corners, four to a cell; 6 V
-  // of each. `quadrics` are those of the table. False, and nothing is done, where one is too flat
-  // for its sign to be sure, and for kFull.
+  // The same numbers for kCellLanes cells, one after the other: their corners, four to a cell, and
+  // for each the row of `quadrics` to add to; 6 V of each cell. False, and nothing is done, where
+  // one is too flat for its sign to be sure, and for kFull.
   bool (*addCells)(const VertexTable<S>& table, S* quadrics, const uint32_t* corners,
-                   const S* scale, int n, double shape, double* determinants);
+                   const uint32_t* rows, const S* scale, int n, double shape, double* determinants);
   // Adds a boundary face to its vertices: weight * area / 3 times the squared distance to
   // its plane in space (kFields), or to its 2-flat in R^n (kFull).
   void (*addFace)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);

@@ -122,6 +122,9 @@ struct Core {
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
         inverse_scale(scale),
+        shape_weight(the_options.shape_weight >= 0    ? the_options.shape_weight
+                     : followsPaper(the_options.mode) ? kShapeWeightPaper
+                                                      : kShapeWeight),
         thin(0),
         exact_curves(the_options.feature_angle > 0) {}
 
@@ -217,6 +220,8 @@ struct Core {
   Front front;
   std::vector<S> scale, inverse_scale;  // per dimension: normalised = scale * user's units
   double error_unit = 1;                // times a quadric error: the report's unit
+  double shape_weight;                  // of a cell's regulariser (kernels.h)
+  double face_weight = 0;               // of a face on the boundary
   ThinAngle thin;                       // no more cells below than the input has
   double poor = 1;                      // cells thinner than this are worth a flip (thinness.h)
   std::vector<ThinAngle> dear;          // falling, above: more cells below have their price

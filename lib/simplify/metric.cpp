@@ -6,7 +6,6 @@
 #include "orient.h"
 #include "settled.h"
 #include "thinness.h"
-#include "vector3.h"
 
 namespace tetstream {
 
@@ -25,12 +24,6 @@ constexpr double kPoor = 1.5;
 constexpr double kDear[] = {10, 1.01};
 constexpr double kShareToSpare = 0.002;
 constexpr int64_t kCellsPerSample = 16;
-
-// Of a boundary face, where fields are measured: they would pay with the shape of interfaces, at
-// which they have their kinks. Without fields there is only the boundary to pay for interfaces.
-// Sheets inside a region, antennas or cracks, are small beside the cells far from them, with whose
-// shapes they would pay: of a ring in a box 3000 times as wide as it is the distance is a fifth.
-constexpr double kInterfaceShare = 50;
 
 // Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
 constexpr double kRescaleStep = 1.25;
@@ -216,7 +209,7 @@ double Metric<S>::addCell(uint32_t cell, double volume) {
   }
   if (side < 0) window.mesh.flagCell(cell, kNegative);
   const double determinant =
-      core_.kernels.addCell(x, core_.scale.data(), core_.plan.dimension, shapeWeight(), q);
+      core_.kernels.addCell(x, core_.scale.data(), core_.plan.dimension, core_.shape_weight, q);
   return volume + volumeOf(cell, determinant);
 }
 
@@ -228,8 +221,8 @@ bool Metric<S>::addLanes(uint32_t first, double* volume) {
   const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
                                 window.shape().values};
   if (!core_.kernels.addCells(table, window.quadric(0), window.mesh.corners(first),
-                              core_.scale.data(), core_.plan.dimension, shapeWeight(),
-                              determinants))
+                              window.mesh.corners(first), core_.scale.data(), core_.plan.dimension,
+                              core_.shape_weight, determinants))
     return false;
   for (uint32_t k = 0; k < kCellLanes; ++k) {
     if (determinants[k] < 0) window.mesh.flagCell(first + k, kNegative);
@@ -238,19 +231,13 @@ bool Metric<S>::addLanes(uint32_t first, double* volume) {
   return true;
 }
 
-template <class S>
-double Metric<S>::shapeWeight() const {
-  if (core_.options.shape_weight >= 0) return core_.options.shape_weight;
-  return followsPaper(core_.options.mode) ? kShapeWeightPaper : kShapeWeight;
-}
-
 // Whether no angle is below the largest that is asked for, beyond what rounding may change: so it
 // is with most cells.
 template <class S>
 bool Metric<S>::isRegular(uint32_t cell) const {
   const double shape = std::max(floors_.front().shape, dear_.empty() ? 0 : dear_.front().shape);
   double p[4][3];
-  for (int j = 0; j < 4; ++j) positionOf(core_.window, core_.window.mesh.corners(cell)[j], p[j]);
+  cornersIn(core_.window, cell, p);
   return regularity(p, static_cast<double>(core_.scale[0])) > 1.01 * shape;
 }
 
@@ -305,6 +292,8 @@ void Metric<S>::prepare(uint32_t first, uint32_t end) {
   if (!box_known_) growBox(first, end);
   if (!unit_known_) chooseLengthUnit(first, end);
   updateScales();
+  // Errors of several fields are added up: the boundary counts as much beside them as beside one.
+  core_.face_weight = fields_together_ * core_.options.boundary_weight * extent() / length_unit_;
 }
 
 template <class S>
@@ -338,61 +327,6 @@ double Metric<S>::fieldsTogether() const {
     largest = std::max(largest, core_.plan.weights[i]);
   }
   return largest > 0 ? sum / largest : 1;
-}
-
-// Errors of several fields are added up: the boundary counts as much beside them as beside one.
-template <class S>
-double Metric<S>::faceWeight(SheetFace kind) const {
-  const bool is_dear =
-      kind == SheetFace::kInner || (kind == SheetFace::kInterface && core_.plan.dimension > 3);
-  const double share = is_dear ? kInterfaceShare : 1;
-  return share * fields_together_ * core_.options.boundary_weight * extent() / length_unit_;
-}
-
-template <class S>
-void Metric<S>::addFace(uint32_t a, uint32_t b, uint32_t c, SheetFace kind) {
-  Window<S>& window = core_.window;
-  const S* x[3] = {window.values(a), window.values(b), window.values(c)};
-  S* q[3] = {window.quadric(a), window.quadric(b), window.quadric(c)};
-  core_.kernels.addFace(x, core_.scale.data(), core_.plan.dimension, faceWeight(kind), q);
-}
-
-// The squared distance to the line of the edge, with the weight of two faces that are squares on
-// it: their planes meet there at a right angle.
-template <class S>
-void Metric<S>::addCurve(uint32_t a, uint32_t b, bool inner) {
-  Window<S>& window = core_.window;
-  double along[3], square = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    along[i] = static_cast<double>(window.values(b)[i]) - static_cast<double>(window.values(a)[i]);
-    square += along[i] * along[i];
-  }
-  if (!(square > 0)) return;
-  // Across the edge and the axis that it is farthest from.
-  size_t axis = 0;
-  for (size_t i = 1; i < 3; ++i)
-    if (std::fabs(along[i]) < std::fabs(along[axis])) axis = i;
-  const double length = std::sqrt(square);
-  double across[2][3];
-  double unit[3] = {0, 0, 0};
-  unit[axis] = 1;
-  cross(along, unit, across[0]);
-  cross(along, across[0], across[1]);
-  std::vector<S> tip(window.values(b), window.values(b) + core_.plan.dimension);
-  std::vector<S> nowhere(static_cast<size_t>(window.shape().quadric), S(0));
-  // note: of a full quadric the part in space comes first, too.
-  const auto& plane = quadricKernels<S>(QuadricLayout::kFields, core_.plan.dimension);
-  for (const double* direction : {across[0], across[1]}) {
-    const double norm = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] +
-                                  direction[2] * direction[2]);
-    for (size_t i = 0; i < 3; ++i)
-      tip[i] =
-          static_cast<S>(static_cast<double>(window.values(b)[i]) + direction[i] * (length / norm));
-    const S* x[3] = {window.values(a), window.values(b), tip.data()};
-    S* q[3] = {window.quadric(a), window.quadric(b), nowhere.data()};
-    plane.addFace(x, core_.scale.data(), core_.plan.dimension,
-                  faceWeight(inner ? SheetFace::kInner : SheetFace::kOuter), q);
-  }
 }
 
 template class Metric<float>;

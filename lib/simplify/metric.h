@@ -11,9 +11,6 @@
 
 namespace tetstream {
 
-// A face of a sheet: on the boundary, between regions, or labelled inside one.
-enum class SheetFace : uint8_t { kOuter, kInterface, kInner };
-
 template <class S>
 class Metric {
  public:
@@ -28,10 +25,6 @@ class Metric {
   void sampleAngles(uint32_t first, uint32_t end);
   // In the end the vertices of flat ones are locked, and the floor is chosen.
   void settle(uint32_t first, uint32_t end);
-  // A face of a sheet adds its quadric to its three vertices.
-  void addFace(uint32_t a, uint32_t b, uint32_t c, SheetFace kind);
-  // An edge of a curve adds one to its two ends; `inner`: one of a sheet inside a region.
-  void addCurve(uint32_t a, uint32_t b, bool inner);
 
  private:
   void growBox(uint32_t first, uint32_t end);
@@ -41,9 +34,7 @@ class Metric {
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
   void rescaleQuadrics(const std::vector<S>& factor);
-  double shapeWeight() const;
   double addCell(uint32_t cell, double volume);
-  double faceWeight(SheetFace kind) const;
   bool addLanes(uint32_t first, double* volume);
   double volumeOf(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);

@@ -47,6 +47,7 @@ struct SimplifyOptions {
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
   bool uniform_ratio = false;  // all along the stream, whatever the mode
   int64_t tile_vertices = 0;   // of a patch, at most; 0: what fits the cache and the memory budget
+  bool renews = true;          // mode sweep: quadrics, from the cells that are there (renewal.h)
   bool tries_again = true;     // mode queue: edges that were refused, once the window has changed
   // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
   bool last_resort = true;

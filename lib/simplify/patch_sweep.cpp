@@ -19,10 +19,12 @@ PatchSweep<S>::PatchSweep(Core<S>& core, Account& account)
       collapser_(core, patch_, tally_, account),
       choices_(account),
       solutions_(core, account),
+      renewal_(core, patch_, account),
       errors_(account),
       neighbours_(account),
       seen_(account),
       looks_(account),
+      changed_(account),
       spared_(account),
       seam_values_(account),
       seam_quadrics_(account),
@@ -210,7 +212,10 @@ void PatchSweep<S>::sweepSpared(float level) {
 
 template <class S>
 bool PatchSweep<S>::sweep(float bound) {
-  if (!evaluated_) evaluateAll(bound);
+  if (!evaluated_) {
+    if (core_.options.renews) renewal_.renewStale();
+    evaluateAll(bound);
+  }
   evaluated_ = false;
   float level = bound * kFirstLevel, least;
   for (;;) {
@@ -240,8 +245,7 @@ void PatchSweep<S>::copySeamRow(uint32_t slot, size_t row) {
   copyRow(window.quadric(slot), quadric, &seam_quadrics_[row * quadric]);
 }
 
-// The least error of v's edges to vertices of other patches. Those that had refused edges must
-// look at them again if v changed.
+// The least error of v's edges to vertices of other patches.
 template <class S>
 float PatchSweep<S>::leastAcrossSeam(uint32_t v) {
   listNeighbours(v);
@@ -249,7 +253,6 @@ float PatchSweep<S>::leastAcrossSeam(uint32_t v) {
   copySeamRow(patch_.slotOf(v), 0);
   for (size_t i = 0; i < count_; ++i) {
     const uint32_t slot = patch_.slotOf(neighbours_[i]);
-    if (solutions_.hasMoved(v)) unsettleRefused(window, slot);
     copySeamRow(slot, i + 1);
     neighbours_[i] = static_cast<uint32_t>(i + 1);
   }
@@ -278,16 +281,38 @@ void PatchSweep<S>::findSeams() {
   }
 }
 
+// Marks the vertices whose cells have changed; those of other patches in the window.
+template <class S>
+void PatchSweep<S>::findChanged() {
+  if (changed_.size() < patch_.vertexEnd()) changed_.resize(patch_.vertexEnd() + 1024);
+  std::fill_n(changed_.data(), patch_.vertexEnd(), uint8_t{0});
+  for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
+    if (!patch_.isLive(c)) continue;
+    uint32_t v[4];
+    patch_.cornersOf(c, v);
+    bool has_moved = false;
+    for (uint32_t x : v) has_moved |= x < patch_.ownedEnd() && solutions_.hasMoved(x);
+    if (!has_moved) continue;
+    for (uint32_t x : v) changed_[x] = 1;
+  }
+  for (uint32_t x = patch_.ownedEnd(); x < patch_.vertexEnd(); ++x)
+    if (changed_[x] && patch_.isFreeElsewhere(x)) outdate(core_.window, patch_.slotOf(x));
+}
+
 // What is known now is kept for the next sweep, in the window.
 template <class S>
 void PatchSweep<S>::settleAll() {
   choices_.reconsider();
   findSeams();
+  findChanged();
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
     if (!patch_.isFree(v)) continue;
+    if (changed_[v]) {
+      outdate(core_.window, patch_.slotOf(v));
+      continue;
+    }
     float least = choices_.least(v);
-    if (seen_[v] == kAtSeam && (looks_[v] || solutions_.hasMoved(v)))
-      least = std::min(least, leastAcrossSeam(v));
+    if (seen_[v] == kAtSeam && looks_[v]) least = std::min(least, leastAcrossSeam(v));
     const bool spared = spared_[v] < std::numeric_limits<float>::infinity();
     settle(core_.window, patch_.slotOf(v),
            {std::min(least, spared_[v]), choices_.hasRefused(v), spared});

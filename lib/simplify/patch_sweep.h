@@ -7,6 +7,7 @@
 #pragma once
 
 #include "choices.h"
+#include "renewal.h"
 #include "select.h"
 #include "solutions.h"
 
@@ -53,6 +54,7 @@ class PatchSweep {
   void copySeamRow(uint32_t slot, size_t row);
   float leastAcrossSeam(uint32_t v);
   void findSeams();
+  void findChanged();
   void addEdges(uint32_t v);
   float sweepLevel(float level, float most);
   void sweepSpared(float level);
@@ -78,9 +80,11 @@ class PatchSweep {
   Collapser<Patch<S>> collapser_;
   Choices choices_;
   Solutions<S> solutions_;
+  Renewal<S> renewal_;
   Array<S> errors_;
   Array<uint32_t> neighbours_, seen_;     // seen_: per vertex, the mark_ of its last listing
   Array<uint8_t> looks_;                  // of an owned vertex: at all its edges
+  Array<uint8_t> changed_;                // per vertex, when it is settled
   Array<float> spared_;                   // and the least price of those that were spared
   Array<S> seam_values_, seam_quadrics_;  // rows of the window: a vertex, its neighbours
   std::vector<S> z_;

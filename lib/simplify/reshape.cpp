@@ -95,7 +95,7 @@ template <class S>
 void Reshaper<S>::unsettleChanged() {
   for (uint32_t v = 0; v < patch_.vertexEnd(); ++v)
     if ((marks_[v] & kFlipped) && core_.window.isFree(patch_.slotOf(v)))
-      unsettle(core_.window, patch_.slotOf(v));
+      outdate(core_.window, patch_.slotOf(v));
 }
 
 // Of all flips that the cell takes part in, the one that is worth most. No more cells than before

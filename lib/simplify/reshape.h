@@ -47,7 +47,7 @@ class Reshaper {
 
  private:
   // At 0.01 of the bound the whole error is less, since cells are saved; at 0.1 it is much larger.
-  static constexpr double kBoundShare = 0.01;
+  static constexpr double kBoundShare = 0.02;
 
   // Of a vertex; the other marks are those of the vertices of its cells, too.
   enum Mark : uint8_t {

@@ -26,9 +26,10 @@ void Resolver<S>::addToLinks(uint32_t cell, const unsigned flags[4]) {
                 &core_.window.outRank(0));
 }
 
-// Whether cells of different regions meet at a corner.
+// Tells corners that are new of their first cell, and whether cells of different regions meet
+// there.
 template <class S>
-void Resolver<S>::addToRegions(uint32_t cell, const unsigned flags[4], const CellLabels& labels) {
+void Resolver<S>::tellCorners(uint32_t cell, const unsigned flags[4], const CellLabels& labels) {
   Topology& mesh = core_.window.mesh;
   for (int j = 0; j < 4; ++j) {
     if (!isNew(flags[j])) continue;
@@ -43,7 +44,7 @@ void Resolver<S>::addToRegions(uint32_t cell, const unsigned flags[4], const Cel
 
 // Returns how many of the cells are of the front.
 template <class S>
-int64_t Resolver<S>::sumLinks(uint32_t first, uint32_t end) {
+int64_t Resolver<S>::sumLinks(uint32_t first, uint32_t end, uint32_t first_new) {
   const Topology& mesh = core_.window.mesh;
   const CellLabels labels = core_.cellLabels();
   int64_t front = 0;
@@ -56,7 +57,7 @@ int64_t Resolver<S>::sumLinks(uint32_t first, uint32_t end) {
     front += !all_final;
     if ((isNew(f[0]) | isNew(f[1]) | isNew(f[2]) | isNew(f[3])) == 0) continue;
     addToLinks(c, f);
-    if (labels.count > 0) addToRegions(c, f, labels);
+    if (labels.count > 0 || c < first_new) tellCorners(c, f, labels);
   }
   return front;
 }
@@ -81,7 +82,7 @@ int64_t Resolver<S>::takeNew(uint32_t first) {
   const auto follow = [&] {
     for (uint32_t c = 0, next; c < end; c = next) {
       next = known.waitFor(c);
-      front += sumLinks(c, next);
+      front += sumLinks(c, next, first);
       metric_.sampleAngles(std::clamp(c, first, next), std::max(first, next));
     }
   };
@@ -155,7 +156,7 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
       open_[open++] = v;
     else
       mesh.flagVertex(v, kResolved);
-    unsettle(window, v);
+    startUnsettled(window, v, window.scratch()[v] < first_new);
   }
   std::fill_n(window.scratch(), mesh.vertexEnd(), 0u);
   for (size_t done = 0; done < open;) {
@@ -274,7 +275,11 @@ void Resolver<S>::addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind,
   core_.inner_sheets |= kind == SheetFace::kInner;
   sheets_.add(a, b, kind, label);
   const bool counted = (mesh.vertexFlags(a) | mesh.vertexFlags(b)) & kResolved;
-  if (!counted) metric_.addFace(v, a, b, kind);
+  if (counted) return;
+  Window<S>& window = core_.window;
+  const S* x[3] = {window.values(v), window.values(a), window.values(b)};
+  S* q[3] = {window.quadric(v), window.quadric(a), window.quadric(b)};
+  addFaceQuadric(core_, x, kind, q);
 }
 
 // The corner of a cell that is opposite its face vab.

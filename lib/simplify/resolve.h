@@ -22,7 +22,7 @@ class Resolver {
   Resolver(Core<S>& core, Metric<S>& metric, Account& account)
       : core_(core),
         metric_(metric),
-        sheets_(core, metric),
+        sheets_(core),
         first_(account),
         corners_(account, 256),
         open_(account),
@@ -31,15 +31,16 @@ class Resolver {
     if (core_.tasks()) second_.emplace(account);
   }
 
-  // The window's cells from `first_new` on are new: they add their quadrics. All cells of these
-  // vertices are there. Returns the cells of the front: those that touch a vertex not yet final.
+  // The window's cells from `first_new` on are new: they add their quadrics; older ones may have
+  // changed. All cells of these vertices are there. Returns the cells of the front: those that
+  // touch a vertex not yet final.
   int64_t resolve(uint32_t first_new, const uint32_t* vertices, size_t count);
 
  private:
   int64_t takeNew(uint32_t first);
-  int64_t sumLinks(uint32_t first, uint32_t end);
+  int64_t sumLinks(uint32_t first, uint32_t end, uint32_t first_new);
   void addToLinks(uint32_t cell, const unsigned flags[4]);
-  void addToRegions(uint32_t cell, const unsigned flags[4], const CellLabels& labels);
+  void tellCorners(uint32_t cell, const unsigned flags[4], const CellLabels& labels);
   template <class Visit>
   void forPlaced(uint32_t first, uint32_t end, Visit visit) const;
   size_t listStars(size_t count);

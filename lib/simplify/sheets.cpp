@@ -14,9 +14,8 @@ const typename Sheets<S>::Use* Sheets<S>::usesOf(uint32_t vertex) const {
 
 // In a plane sheet the faces at an edge lead in opposite directions.
 template <class S>
-Sheets<S>::Sheets(Core<S>& core, Metric<S>& metric)
+Sheets<S>::Sheets(Core<S>& core)
     : core_(core),
-      metric_(metric),
       least_cosine_(core.options.feature_angle > 0
                         ? -std::cos(core.options.feature_angle * std::numbers::pi / 180)
                         : 2) {}
@@ -115,7 +114,10 @@ bool Sheets<S>::classify(uint32_t v) {
     core_.window.curves.add(v, a);
     const bool inner = std::any_of(&uses_[i], &uses_[i] + (j - i),
                                    [this](const Use& use) { return faces_[use.face].inner; });
-    metric_.addCurve(v, a, inner);
+    Window<S>& window = core_.window;
+    const S* x[2] = {window.values(v), window.values(a)};
+    S* q[2] = {window.quadric(v), window.quadric(a)};
+    addCurveQuadric(core_, x, inner, q);
   }
   return simple && (nodes_.empty() || nodes_.size() == 2) && isWhole(nodes_);
 }

@@ -1,8 +1,8 @@
 // simplify: what of the interfaces of regions and of the curves in them meets at a vertex. Depends
-// on metric.h.
+// on sheet_quadrics.h.
 #pragma once
 
-#include "metric.h"
+#include "sheet_quadrics.h"
 
 namespace tetstream {
 
@@ -11,7 +11,7 @@ namespace tetstream {
 template <class S>
 class Sheets {
  public:
-  Sheets(Core<S>& core, Metric<S>& metric);
+  explicit Sheets(Core<S>& core);
 
   void clear() { faces_.clear(); }
   // `label`: of a labelled face, or null.
@@ -45,7 +45,6 @@ class Sheets {
   bool isWhole(const std::vector<uint32_t>& nodes) const;
 
   Core<S>& core_;
-  Metric<S>& metric_;
   double least_cosine_;  // of a ridge: between the directions from the edge into its two faces
   std::vector<Face> faces_;
   std::vector<Use> uses_;        // sorted by vertex

@@ -1,5 +1,5 @@
 // switched IN OUT --ratio R --field NAME --window N --mode NAME --seed N --shape-weight W
-// --uniform-ratio --no-retries --no-last-resort: simplifies a stream as the command does, without a
+// --uniform-ratio --no-renewal --no-retries --no-last-resort: simplifies a stream as the command does, without a
 // pilot, with what no option of the command reaches: another weight of the shape regulariser, the
 // same ratio all along the stream in mode sweep, too, edges of a queue tried once only, and nothing
 // tried once no edge is legal. Prints the report as JSON.
@@ -25,6 +25,7 @@ Mode modeOf(const std::string& name) {
 int take(char** words, int left, SimplifyOptions& options) {
   const std::string name = words[0];
   if (name == "--uniform-ratio") return options.uniform_ratio = true, 1;
+  if (name == "--no-renewal") return options.renews = false, 1;
   if (name == "--no-retries") return options.tries_again = false, 1;
   if (name == "--no-last-resort") return options.last_resort = false, 1;
   if (left < 2) fail(Status::kBadArgument, "%s needs a value", words[0]);

@@ -113,7 +113,7 @@ struct FourCells {
     return {quadrics.data(), values.data(), quadricSize(kLayout, dimension), dimension};
   }
   bool addAtOnce(const QuadricKernels<S>& k) {
-    return k.addCells(table(), quadrics.data(), corners, scale.data(), dimension, kShape,
+    return k.addCells(table(), quadrics.data(), corners, corners, scale.data(), dimension, kShape,
                       determinants);
   }
   void addInTurn(const QuadricKernels<S>& k) {

@@ -132,7 +132,7 @@ TEST(SweepThreads, GiveTheSameBytesWhereThinCellsAre) {
   const TestMesh grid = fullGrid(side(), side(), side(), 0.2);
   std::vector<double> positions;
   for (size_t v = 0; v < grid.vertexCount(); ++v)
-    for (int i = 0; i < 3; ++i) positions.push_back(grid.position(v, i) / (i < 2 ? 1 : 50));
+    for (int i = 0; i < 3; ++i) positions.push_back(grid.position(v, i) / (i < 2 ? 1 : 12));
   const TestMesh mesh =
       withWaves(makeMesh(ScalarType::kFloat64, positions, grid.cells), ScalarType::kFloat64);
   EXPECT_GT(ran(mesh, toRatio(0.05), 1).report.flips, 0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collapse.h"
+#include "faces.h"
 #include "intake.h"
 #include "regions.h"
 #include "resolve.h"
@@ -19,7 +20,8 @@ inline Plan tracedPlan(Plan plan) {
 // The window of the paper's mode has links: cells can be merged in it without a patch.
 template <class S>
 struct WholeWindow {
-  explicit WholeWindow(TestMesh the_mesh, const SimplifyOptions& the_options = inMode(Mode::kPaper))
+  explicit WholeWindow(TestMesh the_mesh, const SimplifyOptions& the_options = inMode(Mode::kPaper),
+                       const FaceLabels& labels = {})
       : mesh(std::move(the_mesh)),
         options(the_options),
         plan(tracedPlan(makePlan(mesh.schema, options))),
@@ -28,7 +30,7 @@ struct WholeWindow {
         regions(core),
         metric(core),
         resolver(core, metric, account) {
-    MeshStream stream(mesh, {});
+    FacedStream stream(mesh, {}, labels);
     BatchView batch;
     while (stream.next(batch)) {
       intake.startBatch(batch);
@@ -67,8 +69,10 @@ struct WholeWindow {
 // The whole mesh in a patch: all free vertices are owned.
 template <class S>
 struct WholePatch : WholeWindow<S> {
-  explicit WholePatch(TestMesh the_mesh, const SimplifyOptions& the_options = {})
-      : WholeWindow<S>(std::move(the_mesh), the_options), patch(this->account, this->core.window) {
+  explicit WholePatch(TestMesh the_mesh, const SimplifyOptions& the_options = {},
+                      const FaceLabels& labels = {})
+      : WholeWindow<S>(std::move(the_mesh), the_options, labels),
+        patch(this->account, this->core.window) {
     load();
   }
   void load() {

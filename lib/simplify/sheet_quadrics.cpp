@@ -1,0 +1,71 @@
+#include "sheet_quadrics.h"
+
+#include <cmath>
+
+#include "vector3.h"
+
+namespace tetstream {
+
+// Of a boundary face, where fields are measured: they would pay with the shape of interfaces, at
+// which they have their kinks. Without fields there is only the boundary to pay for interfaces.
+// Sheets inside a region, antennas or cracks, are small beside the cells far from them, with whose
+// shapes they would pay: of a ring in a box 3000 times as wide as it is the distance is a fifth.
+constexpr double kInterfaceShare = 50;
+
+template <class S>
+static double weightOf(const Core<S>& core, SheetFace kind) {
+  const bool is_dear =
+      kind == SheetFace::kInner || (kind == SheetFace::kInterface && core.plan.dimension > 3);
+  return (is_dear ? kInterfaceShare : 1) * core.face_weight;
+}
+
+template <class S>
+void addFaceQuadric(const Core<S>& core, const S* const x[3], SheetFace kind, S* const q[3]) {
+  core.kernels.addFace(x, core.scale.data(), core.plan.dimension, weightOf(core, kind), q);
+}
+
+// The squared distance to the line of the edge, with the weight of two faces that are squares on
+// it: their planes meet there at a right angle.
+template <class S>
+void addCurveQuadric(const Core<S>& core, const S* const x[2], bool inner, S* const q[2]) {
+  const S *const a = x[0], *const b = x[1];
+  double along[3], square = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>(b[i]) - static_cast<double>(a[i]);
+    square += along[i] * along[i];
+  }
+  if (!(square > 0)) return;
+  // Across the edge and the axis that it is farthest from.
+  size_t axis = 0;
+  for (size_t i = 1; i < 3; ++i)
+    if (std::fabs(along[i]) < std::fabs(along[axis])) axis = i;
+  const double length = std::sqrt(square);
+  double across[2][3];
+  double unit[3] = {0, 0, 0};
+  unit[axis] = 1;
+  cross(along, unit, across[0]);
+  cross(along, across[0], across[1]);
+  S tip[kMaxDimension];
+  S nowhere[quadricSize(QuadricLayout::kFields, kMaxDimension)] = {};
+  std::copy_n(b, core.plan.dimension, tip);
+  // note: of a full quadric the part in space comes first, too.
+  const auto& plane = quadricKernels<S>(QuadricLayout::kFields, core.plan.dimension);
+  for (const double* direction : {across[0], across[1]}) {
+    const double norm = std::sqrt(direction[0] * direction[0] + direction[1] * direction[1] +
+                                  direction[2] * direction[2]);
+    for (size_t i = 0; i < 3; ++i)
+      tip[i] = static_cast<S>(static_cast<double>(b[i]) + direction[i] * (length / norm));
+    const S* face[3] = {a, b, tip};
+    S* rows[3] = {q[0], q[1], nowhere};
+    plane.addFace(face, core.scale.data(), core.plan.dimension,
+                  weightOf(core, inner ? SheetFace::kInner : SheetFace::kOuter), rows);
+  }
+}
+
+template void addFaceQuadric(const Core<float>&, const float* const[3], SheetFace, float* const[3]);
+template void addFaceQuadric(const Core<double>&, const double* const[3], SheetFace,
+                             double* const[3]);
+template void addCurveQuadric(const Core<float>&, const float* const[2], bool, float* const[2]);
+template void addCurveQuadric(const Core<double>&, const double* const[2], bool, double* const[2]);
+
+}  // namespace tetstream
