@@ -32,6 +32,12 @@ row() {
     "$(find "$1" -type f | wc -l)" "$used" "$2"
 }
 
+# is_theirs LOG: whether what failed, or took the memory, is libhdf5, itself or with what it called.
+is_theirs() {
+  grep -E '^ *#[0-9]+ ' "$1" | grep -vE '__interceptor| string/| in (malloc|calloc|realloc) |__sanitizer|fuzzer::|__asan' |
+    head -n 1 | grep -q libhdf5
+}
+
 printf '%-8s %12s %8s %9s %6s %9s  %s\n' target executions edges features files seconds result
 for target in "${targets[@]}"; do
   options=()
@@ -39,6 +45,8 @@ for target in "${targets[@]}"; do
   [[ $target == *vtu || $target == pvd ]] && options=(-dict="$here/xml.dict")
   # libhdf5 believes some sizes that a file claims: they are denied.
   limit=80 of_hdf5=
+  # libzstd takes the window that a frame asks for, up to 128 MB.
+  [[ $target == wrapped ]] && limit=140
   [[ $target =~ ^(vtkhdf|exodus|xdmf)$ ]] &&
     limit=500 of_hdf5=:max_allocation_size_mb=400:suppressions=$here/libhdf5.supp
   export ASAN_OPTIONS=allocator_may_return_null=1$of_hdf5
@@ -48,7 +56,7 @@ for target in "${targets[@]}"; do
   used=0 executions=0 theirs=0 result='nothing found'
   while ((used + 10 < minutes * 60)); do
     fuzz $((minutes * 60 - used)) "$target" "${options[@]}" && continue
-    grep -m 1 '^ *#0 ' "$target.log" | grep -q libhdf5 && ((++theirs)) && continue
+    is_theirs "$target.log" && ((++theirs)) && continue
     result=$(grep -m 1 -oE 'not so.*|runtime error.*|ERROR: .*' "$target.log")
     break
   done
