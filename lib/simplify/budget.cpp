@@ -11,7 +11,7 @@ constexpr double kFirstRatio = 0.25;
 constexpr double kTrust = 0.2;
 // Share of the cells to come that the bound leaves for the end: what is simplified too far cannot
 // be brought back.
-constexpr double kReserve = 0.02;
+constexpr double kReserve = 0.04;
 // Cells that are not written when they are due, for the end: where few are asked for, the last ones
 // hang on the shape of what is left.
 constexpr double kHeldBack = 10;

@@ -241,7 +241,7 @@ struct Core {
 
 // The quadrics measure errors at the vertices, where they are larger than between them, and those
 // of the boundary and of shapes beside the fields': on real meshes reduced to 0.5, 0.1 and 0.02 the
-// square root of their sum was 1.8 to 4.7 times the RMS error. This share of it is still above.
+// square root of their sum was 1.5 to 4.5 times the RMS error. This share of it is still above.
 constexpr double kErrorShare = 0.8;
 
 // The RMS error in percent of the range that an error over a volume stands for, and back.

@@ -1,8 +1,9 @@
 // switched IN OUT --ratio R --field NAME --window N --mode NAME --seed N --shape-weight W
-// --uniform-ratio --no-renewal --no-retries --no-last-resort: simplifies a stream as the command does, without a
-// pilot, with what no option of the command reaches: another weight of the shape regulariser, the
-// same ratio all along the stream in mode sweep, too, edges of a queue tried once only, and nothing
-// tried once no edge is legal. Prints the report as JSON.
+// --uniform-ratio --no-renewal --no-retries --no-last-resort: simplifies a stream as the command
+// does, without a pilot, with what no option of the command reaches: another weight of the shape
+// regulariser, the same ratio all along the stream in mode sweep, too, quadrics that are only added
+// to, edges of a queue tried once only, and nothing tried once no edge is legal. Prints the report
+// as JSON.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
