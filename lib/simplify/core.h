@@ -174,6 +174,12 @@ struct Core {
             static_cast<int>(region_picks.size()), nullptr};
   }
 
+  // Of the window, or of a patch.
+  template <class Mesh>
+  VertexTable<S> tableOf(const Mesh& mesh) const {
+    return {mesh.allQuadrics(), mesh.allValues(), window.shape().quadric, mesh.valueStride()};
+  }
+
   // For what is done to the window; null: by one thread. A memory budget is for one, for a single
   // patch.
   const Tasks* tasks() const {
@@ -241,7 +247,7 @@ struct Core {
 
 // The quadrics measure errors at the vertices, where they are larger than between them, and those
 // of the boundary and of shapes beside the fields': on real meshes reduced to 0.5, 0.1 and 0.02 the
-// square root of their sum was 1.5 to 4.5 times the RMS error. This share of it is still above.
+// square root of their sum was 1.5 to 4.2 times the RMS error. This share of it is still above.
 constexpr double kErrorShare = 0.8;
 
 // The RMS error in percent of the range that an error over a volume stands for, and back.

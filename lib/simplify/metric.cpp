@@ -218,9 +218,7 @@ template <class S>
 bool Metric<S>::addLanes(uint32_t first, double* volume) {
   Window<S>& window = core_.window;
   double determinants[kCellLanes];
-  const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
-                                window.shape().values};
-  if (!core_.kernels.addCells(table, window.quadric(0), window.mesh.corners(first),
+  if (!core_.kernels.addCells(core_.tableOf(window), window.quadric(0), window.mesh.corners(first),
                               window.mesh.corners(first), core_.scale.data(), core_.plan.dimension,
                               core_.shape_weight, determinants))
     return false;

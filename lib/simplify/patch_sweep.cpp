@@ -63,13 +63,8 @@ void PatchSweep<S>::listNeighboursOfMerged(uint32_t u) {
 }
 
 template <class S>
-VertexTable<S> PatchSweep<S>::vertices() const {
-  return {patch_.allQuadrics(), patch_.allValues(), core_.window.shape().quadric,
-          patch_.valueStride()};
-}
-template <class S>
 void PatchSweep<S>::measureNeighbours(uint32_t u) {
-  measureIn(vertices(), u);
+  measureIn(core_.tableOf(patch_), u);
 }
 template <class S>
 void PatchSweep<S>::measureIn(const VertexTable<S>& table, uint32_t u) {
@@ -137,7 +132,7 @@ void PatchSweep<S>::solveFrom(uint32_t v, float level) {
   const uint32_t count = choices_.listUpTo(level, v, kEdgeLanes, found);
   for (uint32_t i = 0; i < count && !solutions_.full(); ++i)
     if (!choices_.mustLookAgain(found[i])) solutions_.add(found[i], choices_.target(found[i]));
-  solutions_.solve(vertices());
+  solutions_.solve(core_.tableOf(patch_));
 }
 
 // The error of the edge; z_ becomes its minimizer.

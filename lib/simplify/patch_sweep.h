@@ -58,7 +58,6 @@ class PatchSweep {
   void addEdges(uint32_t v);
   float sweepLevel(float level, float most);
   void sweepSpared(float level);
-  VertexTable<S> vertices() const;
   void solveFrom(uint32_t v, float level);
   S solve(uint32_t v, uint32_t w, float level);
   void collapseFrom(uint32_t v, float level, float most);

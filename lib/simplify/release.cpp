@@ -151,8 +151,7 @@ void Release<S>::flush() {
 template <class S>
 float Release<S>::errorOf(uint32_t cell) const {
   const Window<S>& window = core_.window;
-  const VertexTable<S> table = {window.allQuadrics(), window.allValues(), window.shape().quadric,
-                                window.shape().values};
+  const VertexTable<S> table = core_.tableOf(window);
   const uint32_t* v = window.mesh.corners(cell);
   uint32_t free[4];
   int count = 0;

@@ -19,13 +19,11 @@ void Renewal<S>::addCell(const uint32_t* corners) {
 
 template <class S>
 void Renewal<S>::addTaken() {
-  const VertexTable<S> table = {patch_.allQuadrics(), patch_.allValues(),
-                                core_.window.shape().quadric, patch_.valueStride()};
   double determinants[kCellLanes];
-  const bool at_once =
-      taken_ == kCellLanes &&
-      core_.kernels.addCells(table, patch_.quadric(0), corners_, rows_, core_.scale.data(),
-                             core_.plan.dimension, core_.shape_weight, determinants);
+  const bool at_once = taken_ == kCellLanes &&
+                       core_.kernels.addCells(core_.tableOf(patch_), patch_.quadric(0), corners_,
+                                              rows_, core_.scale.data(), core_.plan.dimension,
+                                              core_.shape_weight, determinants);
   for (int k = 0; !at_once && k < taken_; ++k) addCell(&corners_[4 * k]);
   taken_ = 0;
 }

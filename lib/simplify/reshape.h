@@ -46,7 +46,8 @@ class Reshaper {
   void unsettleChanged();
 
  private:
-  // At 0.01 of the bound the whole error is less, since cells are saved; at 0.1 it is much larger.
+  // At 0.02 of the bound the whole error is hardly larger, since cells are saved; at 0.1 it is
+  // much.
   static constexpr double kBoundShare = 0.02;
 
   // Of a vertex; the other marks are those of the vertices of its cells, too.

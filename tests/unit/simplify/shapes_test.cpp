@@ -125,6 +125,21 @@ TEST(Shapes, AreFlippedWhereManyAreFlat) {
   EXPECT_LT(flat, 0.85 * flat_without);
 }
 
+// Quadrics that are made anew give the field more of the flat cells that it asks for.
+TEST(Shapes, HaveFewerFlatCellsThanTheInput) {
+  for (double flatness : {12.0, 70.0})
+    for (bool renews : {false, true}) {
+      if (renews && slowRun()) continue;  // of a hundred cells
+      const TestMesh mesh = layered(side(), 6, flatness);
+      SimplifyOptions options = toRatio(0.1, fourFronts());
+      options.renews = renews;
+      const Result result = simplified(mesh, options);
+      EXPECT_GT(result.report.flips, 0) << flatness;
+      EXPECT_LT(shareBelow(result.out.mesh, 10), (renews ? 0.6 : 0.4) * shareBelow(mesh, 10))
+          << flatness << ", made anew: " << renews;
+    }
+}
+
 SimplifyOptions forSolvers(double ratio, int64_t window = 0) {
   SimplifyOptions options = toRatio(ratio, window);
   options.shape = Shape::kSolver;
