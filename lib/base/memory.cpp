@@ -31,7 +31,9 @@ void Account::charge(size_t bytes) {
   size_t before = used(), after;
   do {
     after = checkedAdd(before, bytes);
-    if (limit_ != 0 && after > limit_)
+    const bool refused = limit_ != 0 && after > limit_;
+    refused_.store(refused, std::memory_order_relaxed);
+    if (refused)
       fail(Status::kNoMemory,
            "the memory budget of %zu bytes is too small: at least %zu are needed", limit_, after);
   } while (!used_.compare_exchange_weak(before, after, std::memory_order_relaxed));

@@ -30,10 +30,13 @@ class Account {
   size_t used() const noexcept { return used_.load(std::memory_order_relaxed); }
   size_t peak() const noexcept { return peak_.load(std::memory_order_relaxed); }
   size_t limit() const noexcept { return limit_; }
+  // Whether the last charge would have passed the limit.
+  bool refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
  private:
   const size_t limit_;
   std::atomic<size_t> used_ = 0, peak_ = 0;
+  std::atomic<bool> refused_ = false;
 };
 
 void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_bytes);

@@ -80,7 +80,9 @@ constexpr double kLeastFloor = 0.05;
 // fields, fewer seams are worth more than the cache: on 10^5 cells smaller patches took 1 to 16 %
 // longer with 7, 20 and 125 components. A memory budget may want less.
 constexpr int64_t kTileVertices = 4096;
-constexpr int64_t kTileVertexBytes = 530;  // with all that a patch and its sweep hold, of one field
+// With all that a patch and its sweep hold, of one field. Where all faces are of the boundary, as
+// in a wall, the lists of them take a quarter of it.
+constexpr int64_t kTileVertexBytes = 700;
 constexpr int64_t kOneFieldValues = 4, kOneFieldQuadric = 11;  // numbers, of these
 
 inline int64_t tileVertices(const SimplifyOptions& options, int64_t vertex_bytes) {

@@ -11,39 +11,14 @@
 #include "resolve.h"
 #include "select.h"
 #include "status.h"
+#include "window_size.h"
 
 namespace tetstream {
 namespace {
 
-// A window holds at least this many cells, some tiles: smaller ones save no memory worth having.
-constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
-// A mesh of so many cells is held whole: finding out about it beforehand would take as much.
-constexpr int64_t kSmallMesh = 1 << 18;
-// Without knowledge of the front: it grows as the front is met.
-constexpr int64_t kFirstWindow = 32768;
-constexpr int64_t kFrontsPerWindow = 4;
-// Of such a front, as streams of 2e8 cells have: its window takes some 70 MB. What stays in it is
-// looked at again at every turn, which is less beside what is new where there are two fronts more:
-// 14 % of the time of two threads at a ratio of 0.01. Errors are those of four, as no more stays.
-constexpr int64_t kWideFront = 1 << 18, kFrontsOfWide = 6;
+constexpr int64_t kTurnsPerWindow = 8;                        // at most, where its vertices are few
 constexpr int64_t kLongStream = 10;                           // windows
 constexpr int64_t kMildReduction = 12, kStrongReduction = 4;  // cells in over cells out
-// A header that claims more is not believed: the window grows when such a front comes.
-constexpr int64_t kWidestFront = 1 << 23;
-// Of a memory budget, not for cells and vertices: stars, lists; a patch beside.
-constexpr int64_t kFixedBytes = 376 << 10;
-constexpr int64_t kMapBytes = 16;  // a rank of the span: the next power of two of 8 bytes
-
-// What the map from ranks to slots should expect: the span, unless few of its vertices are active.
-uint64_t expectedSpan(const Schema& schema) {
-  if (schema.front_span < 0) return 0;
-  const int64_t most = 1 << 20;  // a header that claims more is not believed: the map grows
-  const int64_t wide = schema.front_width < 0
-                           ? schema.front_span
-                           : std::min(schema.front_span / 8, schema.front_width) * 8;
-  return static_cast<uint64_t>(std::min(wide, most));
-}
-
 Target targetOf(const Schema& schema, const SimplifyOptions& options) {
   Target target{options.ratio, options.error, options.cells};
   if (!(target.ratio > 0 || target.error > 0 || target.cells > 0)) target.ratio = 0.1;
@@ -57,52 +32,6 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
   if (options.shape == Shape::kSolver && followsPaper(options.mode))
     fail(Status::kUnsupported, "mode \"%s\" knows no shapes for solvers", mode);
   return target;
-}
-
-// What a run takes for a cell of its window, and for a vertex of a patch.
-struct RowCosts {
-  int64_t cell, patch_vertex;
-};
-template <class S>
-RowCosts costsOf(const Plan& plan, const SimplifyOptions& options) {
-  return {static_cast<int64_t>(Core<S>::budgetPerCell(plan, options)),
-          Core<S>::tileVertexBytes(plan)};
-}
-
-// The window that a memory budget allows. A sixth is left for meshes with more vertices to a
-// cell than usual. Where much of the window is front, which no patch owns, patches have as much of
-// it around them again as they own.
-int64_t fittingCells(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
-  if (options.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
-  const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema));
-  const int64_t patch = followsPaper(options.mode)
-                            ? 0
-                            : tileVertices(options, bytes.patch_vertex) * bytes.patch_vertex;
-  const auto beside = [&](int64_t patches) {
-    const int64_t left = options.memory_bytes - kFixedBytes - patches - map;
-    return std::max<int64_t>(left * 5 / 6 / bytes.cell, 64);
-  };
-  const int64_t cells = beside(patch);
-  return 2 * cells < 5 * std::min(schema.front_cells, kWidestFront) ? beside(2 * patch) : cells;
-}
-
-int64_t frontsOf(int64_t front) {
-  return front * (front < kWideFront ? kFrontsPerWindow : kFrontsOfWide);
-}
-
-// A budget that is smaller than four fronts gets what fits; whether that is enough shows later.
-int64_t windowFor(const Schema& schema, const SimplifyOptions& options, const RowCosts& bytes) {
-  const int64_t front = std::min(schema.front_cells, kWidestFront);
-  const bool is_small = schema.cell_count >= 0 && schema.cell_count <= kSmallMesh;
-  const int64_t least = followsPaper(options.mode) ? kLeastPaperWindow
-                        : is_small                 ? kSmallMesh
-                                                   : kLeastWindow;
-  int64_t cells = options.window_cells > 0 ? std::max<int64_t>(options.window_cells, 64)
-                  : front >= 0             ? std::max(frontsOf(front), least)
-                                           : kFirstWindow;
-  if (schema.cell_count >= 0) cells = std::min(cells, std::max<int64_t>(schema.cell_count, 64));
-  if (options.window_cells > 0) return cells;
-  return std::min(cells, fittingCells(schema, options, bytes));
 }
 
 std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
@@ -130,9 +59,10 @@ class WindowedEngine final : public Simplifier::Engine {
         options_(options),
         progress_(progress),
         account_(static_cast<size_t>(options.memory_bytes)),
-        capacity_(windowFor(plan_.schema, options, costsOf<S>(plan_, options))),
-        core_(plan_, options_, account_, static_cast<size_t>(capacity_),
-              static_cast<size_t>(capacity_) / kCellsPerVertex + 64, expectedSpan(plan_.schema)),
+        size_(windowSize<S>(plan_, options_)),
+        capacity_(size_.first()),
+        core_(plan_, options_, account_, static_cast<size_t>(capacity_), verticesOf(capacity_),
+              expectedSpan(plan_.schema)),
         knows_pilot_(pilot.known()),
         budget_(makeBudget(plan_.schema, options, pilot)),
         intake_(core_, account_),
@@ -148,15 +78,28 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   void put(const BatchView& batch) override {
+    explainingBudget([&] { take(batch); });
+  }
+  void finish() override {
+    explainingBudget([&] { end(); });
+  }
+
+  const Report& report() const override { return core_.report; }
+  Pilot pilot() const override { return pilot_; }
+
+ private:
+  Topology& mesh() { return core_.window.mesh; }
+
+  void take(const BatchView& batch) {
     intake_.startBatch(batch);
     for (size_t row = 0; row < batch.cell_count; ++row) {
-      if (mesh().cellEnd() == turn_at_) turn();
+      if (mesh().cellEnd() == turn_at_ || lacksVertices()) turn();
       intake_.takeCell(row);
     }
     intake_.finishBatch();
   }
 
-  void finish() override {
+  void end() {
     checkCount("cells", plan_.schema.cell_count, intake_.cellsRead());
     checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
     checkCount("labelled faces", plan_.schema.face_count, intake_.facesRead());
@@ -174,11 +117,18 @@ class WindowedEngine final : public Simplifier::Engine {
     closeReport();
   }
 
-  const Report& report() const override { return core_.report; }
-  Pilot pilot() const override { return pilot_; }
-
- private:
-  Topology& mesh() { return core_.window.mesh; }
+  // An array that does not fit knows only of itself, and the next one would not fit either.
+  template <class Work>
+  void explainingBudget(Work work) {
+    try {
+      work();
+    } catch (const Error& error) {
+      if (error.status() != Status::kNoMemory || !(account_.refused() || too_wide_)) throw;
+      const int64_t front = std::max({plan_.schema.front_cells, front_cells_, int64_t{64}});
+      fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", error.what(),
+           static_cast<long long>(front), static_cast<long long>(size_.budgetFor(front)));
+    }
+  }
 
   std::unique_ptr<Selector> makeSelector() {
     switch (options_.mode) {
@@ -214,6 +164,15 @@ class WindowedEngine final : public Simplifier::Engine {
         options_.error > 0 || !is_strong)
       return capacity_;
     return std::min(capacity_, std::max(capacity_ / 4, 5 * std::min(front, capacity_) / 2));
+  }
+
+  // Under a memory budget a mesh with more vertices to a cell than usual, as thin as a wall, fills
+  // the vertices of the window before its cells; more of them would take what patches need. Where
+  // a turn has just been made in vain they do, as long as there is memory.
+  bool lacksVertices() {
+    return options_.memory_bytes > 0 &&
+           mesh().vertexEnd() + 4 > verticesOf(capacity_) + intake_.waiting() &&
+           mesh().cellEnd() - resolved_cells_ >= capacity_ / kTurnsPerWindow;
   }
 
   // The window is full: simplify it and make room.
@@ -289,7 +248,7 @@ class WindowedEngine final : public Simplifier::Engine {
   void makeRoom(int64_t front) {
     const int64_t live = mesh().cellEnd();
     int64_t wanted = capacity_;
-    if (options_.window_cells == 0) wanted = std::max(wanted, frontsOf(front));
+    if (options_.window_cells == 0) wanted = std::max(wanted, size_.forFront(front));
     const bool stuck = live > capacity_ - capacity_ / 8;
     if (stuck) wanted = std::max(wanted, live + live / 2);
     if (wanted <= capacity_) return;
@@ -299,6 +258,7 @@ class WindowedEngine final : public Simplifier::Engine {
       capacity_ = wanted;
       core_.report.window_cells = capacity_;
     } else if (capacity_ - live < std::max<int64_t>(capacity_ / 64, 1)) {
+      too_wide_ = true;
       fail(Status::kNoMemory,
            "the front of the stream, %lld cells, does not fit a window of %lld, and the memory "
            "budget of %lld bytes allows no more",
@@ -310,9 +270,8 @@ class WindowedEngine final : public Simplifier::Engine {
   // The largest window that the budget allows; a stuck one may take half of what is left beyond.
   int64_t affordable(bool stuck) const {
     if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
-    const RowCosts bytes = costsOf<S>(plan_, options_);
-    const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2) / bytes.cell;
-    return std::max(fittingCells(plan_.schema, options_, bytes), stuck ? capacity_ + left : 0);
+    const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2);
+    return std::max(size_.fitting(), stuck ? capacity_ + left / size_.cellBytes() : 0);
   }
 
   // All cells are in the window, in the order in which they came: a pilot for a second reading.
@@ -407,9 +366,11 @@ class WindowedEngine final : public Simplifier::Engine {
   const SimplifyOptions options_;
   const ProgressFunction& progress_;
   Account account_;
+  const WindowSize size_;
   int64_t capacity_, turn_at_;  // cells
   uint32_t resolved_cells_ = 0;
   int64_t front_cells_ = 0;  // when resolved
+  bool too_wide_ = false;    // the front, for the budget
   Pilot pilot_;
   double told_ = 0;  // the last fraction of the progress
   Core<S> core_;
@@ -466,9 +427,9 @@ void Simplifier::finish() {
 
 int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
   const Plan plan = makePlan(schema, options);
-  return windowFor(
-      schema, options,
-      plan.double_window ? costsOf<double>(plan, options) : costsOf<float>(plan, options));
+  const WindowSize size =
+      plan.double_window ? windowSize<double>(plan, options) : windowSize<float>(plan, options);
+  return size.first();
 }
 
 int64_t Simplifier::targetCells(const Schema& schema, const SimplifyOptions& options) {

@@ -224,6 +224,49 @@ TEST(SimplifierMemory, SufficesIfLessDid) {
   for (Mode mode : kModes) expectMoreSuffices(mesh, mode);
 }
 
+// As thin as a wall, with three cells to a vertex: a window has its vertices before its cells. What
+// is said to do does. Returns how often it was said.
+int expectWallFits(const TestMesh& wall, Mode mode, const Cut& cut) {
+  int held = 0, told = 0;
+  for (int64_t limit = 300000; limit < 3000000; limit += limit / (slowRun() ? 2 : 8)) {
+    const auto run = [&](int64_t bytes) {
+      SimplifyOptions options = toRatio(0.2, 0, mode);
+      options.memory_bytes = bytes;
+      Recorder out;
+      Simplifier simplifier(options, out, {});
+      MeshStream stream(wall, cut);
+      return thrownBy([&] { copyStream(stream, simplifier); });
+    };
+    const auto [status, text] = run(limit);
+    if (status == Status::kOk) {
+      ++held;
+      continue;
+    }
+    EXPECT_EQ(held, 0) << limit << ": " << text;
+    const std::string before = " cells ";
+    const size_t at = text.rfind(before);
+    EXPECT_NE(at, std::string::npos) << text;
+    if (at == std::string::npos) continue;
+    const int64_t enough = std::atoll(text.c_str() + at + before.size());
+    EXPECT_GT(enough, limit) << text;
+    EXPECT_EQ(run(enough).first, Status::kOk) << text;
+    ++told;
+  }
+  EXPECT_GT(held, 0);
+  return told;
+}
+TEST(SimplifierMemory, SufficesForWallsOrSaysHowMuchDoes) {
+  const TestMesh wall = fullGrid(12, slowRun() ? 40 : 400, 1);
+  int told = 0;
+  for (Mode mode : kModes)
+    for (size_t batch : {64, 4096}) {
+      Cut cut;
+      cut.batch_cells = batch;
+      told += expectWallFits(wall, mode, cut);
+    }
+  EXPECT_GT(told, 0);
+}
+
 void expectProgress(Mode mode) {
   const TestMesh mesh = fullGrid(4, 4, 16);
   Recorder out;

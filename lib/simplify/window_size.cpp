@@ -1,0 +1,85 @@
+#include "window_size.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace tetstream {
+
+// A window holds at least this many cells, some tiles: smaller ones save no memory worth having.
+constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
+// A mesh of so many cells is held whole: finding out about it beforehand would take as much.
+constexpr int64_t kSmallMesh = 1 << 18;
+// Without knowledge of the front: it grows as the front is met.
+constexpr int64_t kFirstWindow = 32768;
+// A header that claims more is not believed: the window grows when such a front comes.
+constexpr int64_t kWidestFront = 1 << 23;
+// Of a memory budget, not for cells and vertices: stars, lists; a patch beside. Thin meshes of
+// 10,000 to 60,000 cells take up to 0.1 MB more, of budgets of 1 to 2 MB; with that off them all,
+// windows of little more than a front, as of a ball of 1e5 cells in 1.2 MB, would miss targets.
+constexpr int64_t kFixedBytes = 400 << 10;
+constexpr int64_t kSpareBytes = 256 << 10;  // of a budget that is told to users
+constexpr int64_t kMapBytes = 16;           // a rank of the span: the next power of two of 8 bytes
+constexpr int64_t kLeastCells = 64;
+constexpr int64_t kRoomyHalfFronts = 5;  // of a window that is not mostly front
+
+uint64_t expectedSpan(const Schema& schema) {
+  if (schema.front_span < 0) return 0;
+  const int64_t most = 1 << 20;  // a header that claims more is not believed: the map grows
+  const int64_t wide = schema.front_width < 0
+                           ? schema.front_span
+                           : std::min(schema.front_span / 8, schema.front_width) * 8;
+  return static_cast<uint64_t>(std::min(wide, most));
+}
+
+size_t verticesOf(int64_t cells) {
+  return static_cast<size_t>(cells) / kCellsPerVertex + 64;
+}
+
+int64_t WindowSize::knownFront() const {
+  return std::min(schema_.front_cells, kWidestFront);
+}
+
+int64_t WindowSize::forFront(int64_t front) const {
+  return front * (front < kWideFront ? kFrontsPerWindow : kFrontsOfWide);
+}
+
+int64_t WindowSize::first() const {
+  const int64_t front = knownFront(), count = schema_.cell_count;
+  const bool is_small = count >= 0 && count <= kSmallMesh;
+  const int64_t least = followsPaper(options_.mode) ? kLeastPaperWindow
+                        : is_small                  ? kSmallMesh
+                                                    : kLeastWindow;
+  int64_t cells = options_.window_cells > 0 ? std::max(options_.window_cells, kLeastCells)
+                  : front >= 0              ? std::max(forFront(front), least)
+                                            : kFirstWindow;
+  if (count >= 0) cells = std::min(cells, std::max(count, kLeastCells));
+  if (options_.window_cells > 0) return cells;
+  return std::min(cells, fitting());
+}
+
+// A sixth is left for meshes with more vertices to a cell than usual. Where much of the window is
+// front, which no patch owns, patches have as much of it around them again as they own.
+int64_t WindowSize::fitting() const {
+  if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
+  const int64_t map = kMapBytes * static_cast<int64_t>(expectedSpan(schema_));
+  const int64_t patch = followsPaper(options_.mode)
+                            ? 0
+                            : tileVertices(options_, patch_vertex_bytes_) * patch_vertex_bytes_;
+  const auto beside = [&](int64_t patches) {
+    const int64_t left = options_.memory_bytes - kFixedBytes - patches - map;
+    return std::max(left * 5 / 6 / cell_bytes_, kLeastCells);
+  };
+  const int64_t cells = beside(patch);
+  return 2 * cells < kRoomyHalfFronts * knownFront() ? beside(2 * patch) : cells;
+}
+
+int64_t WindowSize::budgetFor(int64_t front) const {
+  SimplifyOptions larger = options_;
+  const WindowSize size(schema_, larger, cell_bytes_, patch_vertex_bytes_);
+  front = std::min(front, kWidestFront);
+  do larger.memory_bytes += larger.memory_bytes / 8 + 1;
+  while (2 * size.fitting() < kRoomyHalfFronts * front);
+  return larger.memory_bytes + kSpareBytes;
+}
+
+}  // namespace tetstream
