@@ -36,6 +36,11 @@ constexpr double kLongStep = 3;
 constexpr double kGivenUp = 0.1;
 // With less the target is missed more often than without.
 constexpr double kLeastFronts = 1.5;
+// Of its share, what such a window may keep where memory is bounded. Where it keeps what its bound
+// leaves, detail at the beginning may leave next to nothing for the end: of bluntfin in 7 MB the
+// RMS error was 4.8 %, and the target was missed, for 0.12 %. Where it keeps its share alone those
+// of streams with an end that needs little are up to twice as large.
+constexpr double kTightShare = 2;
 
 double CommonBound::wanted(const Ledger& ledger) const {
   return std::max({static_cast<double>(target_.cells), target_.ratio * total(ledger), 1.0});
@@ -99,13 +104,14 @@ void CommonBound::changeUnits(double rescaled) {
 
 // A window that is little more than its front has too few cells to simplify for a ratio.
 bool CommonBound::spreads(const Ledger& ledger) const {
-  return countsCells() && !pilot_.known() && !is_tight_ &&
+  return countsCells() && !pilot_.known() &&
          static_cast<double>(ledger.live) >= kLeastFronts * static_cast<double>(ledger.front);
 }
 
 void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
+  if (is_tight_) return;
   const bool is_strong = total(ledger) > kStrong * wanted(ledger);
-  if (!spreads(ledger) && (!countsCells() || is_tight_ || !is_strong)) return;
+  if (!spreads(ledger) && (!countsCells() || !is_strong)) return;
   const bool is_long = !pilot_.known() && !ledger.flips;
   goal.approaches = is_long ? kLongApproaches : kApproaches;
   if (is_long) goal.step = kLongStep;
@@ -117,7 +123,7 @@ void CommonBound::spread(double due, const Ledger& ledger, Goal& goal) const {
     const double may_stay = share * due - kHeldBack - static_cast<double>(ledger.written);
     return ledger.front + static_cast<int64_t>(std::max(may_stay, 0.0));
   };
-  goal.cells = std::min(goal.cells, left(1));
+  goal.cells = std::min(goal.cells, left(is_tight_ ? kTightShare : 1));
   goal.enough_cells = left(1 - kGivenUp);
 }
 

@@ -267,6 +267,21 @@ TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {
   EXPECT_EQ(known.step, 2);
 }
 
+// Of three windows the first one keeps no more than its share, or than twice that where memory is
+// bounded, however many may stay in it.
+TEST(CommonBound, LeavesCellsForOtherWindows) {
+  for (bool is_tight : {false, true}) {
+    CommonBound budget({0.1, 0, 0}, 300000, {}, is_tight);
+    const Ledger first = {100000, 0, 10000, 100000, 50000};
+    budget.goalOf(first);
+    budget.learn(1e-6, first, first, 0);
+    const int64_t share = (first.read - first.front) / 10;
+    const int64_t kept = budget.goalOf(first).cells - first.front;
+    EXPECT_LE(kept, is_tight ? 2 * share : share);
+    EXPECT_GT(kept, is_tight ? 19 * share / 10 : 9 * share / 10);
+  }
+}
+
 // A window that had to pass its bound: the next one starts near where it ended.
 TEST(CommonBound, StartsAgainNearWhereAWindowWasForcedTo) {
   const auto next = [](double times) {
