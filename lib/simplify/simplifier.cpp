@@ -123,11 +123,14 @@ class WindowedEngine final : public Simplifier::Engine {
     try {
       work();
     } catch (const Error& error) {
-      if (error.status() != Status::kNoMemory || !(account_.refused() || too_wide_)) throw;
-      const int64_t front = std::max({plan_.schema.front_cells, front_cells_, int64_t{64}});
-      fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", error.what(),
-           static_cast<long long>(front), static_cast<long long>(size_.budgetFor(front)));
+      if (error.status() != Status::kNoMemory || !account_.refused()) throw;
+      failForBudget(error.what());
     }
+  }
+  [[noreturn]] void failForBudget(const char* why) const {
+    const int64_t front = std::max(plan_.schema.front_cells, front_cells_);
+    fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", why,
+         static_cast<long long>(front), static_cast<long long>(size_.budgetFor(front)));
   }
 
   std::unique_ptr<Selector> makeSelector() {
@@ -258,12 +261,11 @@ class WindowedEngine final : public Simplifier::Engine {
       capacity_ = wanted;
       core_.report.window_cells = capacity_;
     } else if (capacity_ - live < std::max<int64_t>(capacity_ / 64, 1)) {
-      too_wide_ = true;
-      fail(Status::kNoMemory,
-           "the front of the stream, %lld cells, does not fit a window of %lld, and the memory "
-           "budget of %lld bytes allows no more",
-           static_cast<long long>(front), static_cast<long long>(capacity_),
-           static_cast<long long>(options_.memory_bytes));
+      failForBudget(textOf("the front of the stream does not fit a window of %lld cells, and the "
+                           "memory budget of %lld bytes allows no more",
+                           static_cast<long long>(capacity_),
+                           static_cast<long long>(options_.memory_bytes))
+                        .c_str());
     }
   }
 
@@ -370,7 +372,6 @@ class WindowedEngine final : public Simplifier::Engine {
   int64_t capacity_, turn_at_;  // cells
   uint32_t resolved_cells_ = 0;
   int64_t front_cells_ = 0;  // when resolved
-  bool too_wide_ = false;    // the front, for the budget
   Pilot pilot_;
   double told_ = 0;  // the last fraction of the progress
   Core<S> core_;

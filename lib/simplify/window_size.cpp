@@ -76,9 +76,10 @@ int64_t WindowSize::fitting() const {
 int64_t WindowSize::budgetFor(int64_t front) const {
   SimplifyOptions larger = options_;
   const WindowSize size(schema_, larger, cell_bytes_, patch_vertex_bytes_);
-  front = std::min(front, kWidestFront);
+  const int64_t asked = options_.window_cells > 0 ? first() : 0;
+  const int64_t cells = std::max(kRoomyHalfFronts * std::min(front, kWidestFront) / 2, asked);
   do larger.memory_bytes += larger.memory_bytes / 8 + 1;
-  while (2 * size.fitting() < kRoomyHalfFronts * front);
+  while (size.fitting() < cells);
   return larger.memory_bytes + kSpareBytes;
 }
 

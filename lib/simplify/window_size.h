@@ -35,7 +35,8 @@ class WindowSize {
   int64_t forFront(int64_t front) const;
   // The cells that the memory budget allows.
   int64_t fitting() const;
-  // A larger budget, for a front of so many cells, where this one did not do.
+  // A larger budget, for a front of so many cells and a window that was asked for, where this one
+  // did not do.
   int64_t budgetFor(int64_t front) const;
 
  private:

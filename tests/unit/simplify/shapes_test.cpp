@@ -114,6 +114,7 @@ TEST(Shapes, AreFlippedWhereManyAreFlat) {
       expectSound(mesh, result);
       expectReached(result);
       EXPECT_EQ(stiff.report.flips, 0) << flatness;
+      EXPECT_TRUE(slowRun() || result.report.flips > 0) << flatness;
       flips += result.report.flips;
       EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
       flat += shareBelow(result.out.mesh, 10);
