@@ -30,7 +30,7 @@ double secondsSince(Clock::time_point start) {
 constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
 // Larger meshes are sampled, which takes this share.
-constexpr double kSampleShare = 0.05;
+constexpr double kSampleShare = 0.1;
 // A stream of so many cells, which most files hold in one piece, is not read ahead.
 constexpr int64_t kReadAtOnce = 1 << 14;
 
@@ -117,29 +117,35 @@ struct SimplifyRun::State {
   void simplify(Input& input) {
     Ordering stream(input, options, progress);
     order_share = stream.share();
-    if (std::unique_ptr<Source> first = pilotSource(stream.source())) {
-      const auto before = ahead(*first, stream);
-      Source& reading = before ? *before : *first;
-      if (reading.schema().cell_count <= kPilotCells)
-        fly(reading);
-      else
-        sample(reading);
-    }
+    readBefore(stream);
     const auto before = ahead(stream.source(), stream);
     copyStream(before ? *before : stream.source(), simplifier);
     close();
     report.unused_vertices += stream.unusedVertices();
     report.order = stream.chosen();
   }
-  // A first reading, where it is worth its time: a mesh larger than its window and small enough.
-  std::unique_ptr<Source> pilotSource(Source& source) const {
+  // Looks at the stream before it is simplified, where that is worth its time: at a mesh larger
+  // than its window.
+  void readBefore(Ordering& stream) {
     const SimplifyOptions& o = options.simplify;
-    const int64_t cells = source.schema().cell_count;
+    const Schema& schema = stream.source().schema();
     const bool wanted = !followsPaper(o.mode) && o.pilot == PilotUse::kAuto &&
-                        o.memory_bytes == 0 && cells > Simplifier::windowCells(source.schema(), o);
-    const bool is_small = cells <= kPilotCells;
-    const bool can_sample = o.error == 0 && Sampler::serves(source.schema());
-    return wanted && (is_small || can_sample) ? source.again() : nullptr;
+                        o.memory_bytes == 0 &&
+                        schema.cell_count > Simplifier::windowCells(schema, o);
+    if (!wanted) return;
+    if (schema.cell_count <= kPilotCells)
+      readAgain(stream, [&](Source& source) { fly(source); });
+    else if (o.error == 0 && Sampler::serves(schema))
+      sample(stream);
+  }
+  // False where the stream can be read but once.
+  template <class Use>
+  bool readAgain(Ordering& stream, Use use) {
+    const std::unique_ptr<Source> again = stream.source().again();
+    if (!again) return false;
+    const auto before = ahead(*again, stream);
+    use(before ? *before : *again);
+    return true;
   }
   void fly(Source& source) {
     SimplifyOptions whole = options.simplify;
@@ -155,27 +161,35 @@ struct SimplifyRun::State {
     simplifier.follow(pilot.pilot());
     pilot_share = kPilotShare;
   }
-  // A first reading of a long stream, for a sample of it.
-  void sample(Source& source) {
-    Sampler sampler(source.schema());
-    Progress p;
-    p.phase = "pilot";
-    p.cells_total = source.schema().cell_count;
-    BatchView batch;
-    while (source.next(batch)) {
-      sampler.put(batch);
-      p.cells_read += static_cast<int64_t>(batch.cell_count);
-      p.fraction =
-          kSampleShare *
-          std::min(static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total), 1.0);
-      tell(p);
-    }
+  // Of a long stream, which is read twice for it.
+  void sample(Ordering& stream) {
+    Sampler sampler(stream.source().schema());
+    const auto count = [&](const BatchView& batch) { sampler.count(batch); };
+    const auto take = [&](const BatchView& batch) { sampler.put(batch); };
+    const bool done =
+        readAgain(stream, [&](Source& source) { readSampling(source, 0, count); }) &&
+        readAgain(stream, [&](Source& source) { readSampling(source, kSampleShare / 2, take); });
+    if (!done) return;
     try {
       simplifier.follow(sampler.fly(options.simplify));
     } catch (const Error& error) {
       if (error.status() != Status::kBadData) throw;  // the run itself will say where
     }
     pilot_share = kSampleShare;
+  }
+  template <class Use>
+  void readSampling(Source& source, double share_before, Use use) {
+    Progress p;
+    p.phase = "pilot";
+    p.cells_total = source.schema().cell_count;
+    BatchView batch;
+    while (source.next(batch)) {
+      use(batch);
+      p.cells_read += static_cast<int64_t>(batch.cell_count);
+      const double part = static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total);
+      p.fraction = share_before + kSampleShare / 2 * std::min(part, 1.0);
+      tell(p);
+    }
   }
   void close() {
     report = simplifier.report();

@@ -5,18 +5,20 @@
 #include <cmath>
 #include <cstring>
 
-#include "mix.h"
 #include "simplifier.h"
 
 namespace tetstream {
 
-// As large a part of the stream as its time is worth, in as many bricks as leave each enough inside
-// its cuts: on generated meshes of 4e5 to 3e6 cells the error with these was 1 to 1.3 times that of
-// a run in core, and 1.1 to 2.5 without.
-constexpr double kPart = 1.0 / 30, kLeastSample = 60000, kLargestSample = 100000;
-constexpr double kBricks = 25;
+// As large a part of the stream as its memory is worth, in bricks that have enough inside their
+// cuts: a sample of 1e5 cells takes 1 to 2 % of the time of a million cells, and as much memory as
+// their window. With 1.5e5 for 1e5 errors of 1e7 and 1.4e7 cells were 18 % lower; with bricks of
+// 4000 cells for 2500, and so fewer of them, 7 to 20 % higher.
+constexpr double kPart = 1.0 / 60, kLeastSample = 1e5, kLargestSample = 1.5e5;
+constexpr double kBrick = 2500;
 constexpr int64_t kLargestSpan = 1 << 22;     // the table of rows: 32 MB at most
 constexpr uint64_t kDeclaredAhead = 1 << 15;  // vertices that a batch brings before their cells
+// A brick that has more than so many times the vertices that it should have is no longer filled.
+constexpr uint64_t kFullest = 4;
 constexpr double kCellsPerCollapse = 5.5;
 constexpr double kLeft = 0.25;  // of the free vertices: fewer cannot always be had between the cuts
 
@@ -42,42 +44,16 @@ static Schema withoutFront(Schema schema) {
   return schema;
 }
 
+static double sampleOf(double cells) {
+  return std::min(std::clamp(kPart * cells, kLeastSample, kLargestSample), cells);
+}
+
 Sampler::Sampler(const Schema& schema)
     : schema_(withoutFront(schema)),
       sample_(schema_),
-      row_of_(std::bit_ceil(static_cast<uint64_t>(schema.front_span) + kDeclaredAhead), kNone) {
-  const auto cells = static_cast<double>(schema.cell_count);
-  const double sampled = std::clamp(kPart * cells, kLeastSample, kLargestSample);
-  brick_size_ = std::cbrt(volumeOfBox(schema) * sampled / kBricks / cells);
-  for (size_t i = 0; i < 3; ++i) {
-    low_[i] = schema.box_min[i];
-    const double count = std::ceil((schema.box_max[i] - schema.box_min[i]) / brick_size_);
-    bricks_[i] = static_cast<uint64_t>(std::clamp(count, 1.0, 1e6));
-  }
-  one_in_ = static_cast<uint64_t>(std::max(cells / sampled, 1.0));
-}
-
-// The sampled brick that a place lies in, or kNone. Most places lie in the brick of the one before.
-uint32_t Sampler::brickAt(const double place[3]) {
-  uint64_t at = 0;
-  for (int i = 2; i >= 0; --i) {
-    const double cell = (place[i] - low_[i]) / brick_size_;
-    const double last = static_cast<double>(bricks_[i] - 1);
-    at = at * bricks_[i] + static_cast<uint64_t>(cell > 0 ? std::min(cell, last) : 0);
-  }
-  if (at != last_place_) {
-    last_place_ = at;
-    last_brick_ = sampledBrick(at);
-  }
-  return last_brick_;
-}
-
-uint32_t Sampler::sampledBrick(uint64_t at) {
-  if (mix(at + 1) % one_in_ != 0) return kNone;
-  const auto [found, is_new] = sampled_.try_emplace(at, static_cast<uint32_t>(brick_.size()));
-  if (is_new) brick_.emplace_back();
-  return found->second;
-}
+      wanted_(sampleOf(static_cast<double>(schema.cell_count))),
+      bricks_(schema),
+      row_of_(std::bit_ceil(static_cast<uint64_t>(schema.front_span) + kDeclaredAhead), kNone) {}
 
 void Sampler::placeOf(const void* positions, size_t row, double place[3]) const {
   for (size_t i = 0; i < 3; ++i)
@@ -93,10 +69,10 @@ static void copyBytes(const void* from, size_t row, size_t bytes, void* to) {
 void Sampler::addVertex(const BatchView& batch, size_t row) {
   double place[3];
   placeOf(batch.positions, row, place);
-  const uint32_t brick = brickAt(place);
+  const uint32_t brick = bricks_.at(place);
   uint32_t& row_of = row_of_[(batch.first_vertex + row) & (row_of_.size() - 1)];
   row_of = kNone;
-  if (brick == kNone) return;
+  if (brick == kNone || ++brick_[brick].vertices > kFullest * bricks_.usual()) return;
   const size_t to = sample_.addVertices(1);
   copyBytes(batch.positions, row, 3 * sizeOf(schema_.position_type), sample_.position(to));
   for (size_t f = 0; f < schema_.fields.size(); ++f)
@@ -137,7 +113,20 @@ void Sampler::addCell(const BatchView& batch, size_t row_in_batch) {
   ++brick_[brick_of_[rows[0]]].cells[std::min(number * kParts / all, uint64_t{kParts - 1})];
 }
 
+void Sampler::count(const BatchView& batch) {
+  double place[3];
+  for (size_t row = 0; row < batch.vertex_count; ++row) {
+    placeOf(batch.positions, row, place);
+    bricks_.count(place);
+  }
+}
+
 void Sampler::put(const BatchView& batch) {
+  if (brick_.empty()) {
+    const double share = wanted_ / static_cast<double>(schema_.cell_count);
+    bricks_.take(static_cast<size_t>(std::ceil(wanted_ / kBrick)), share);
+    brick_.resize(bricks_.size());
+  }
   for (size_t row = 0; row < batch.vertex_count; ++row) addVertex(batch, row);
   for (size_t row = 0; row < batch.cell_count; ++row) addCell(batch, row);
 }
@@ -150,6 +139,8 @@ Schema Sampler::schema() const {
 }
 
 BatchView Sampler::mesh() {
+  std::vector<uint32_t>().swap(row_of_);  // makes room for the window
+  std::vector<uint64_t>().swap(rank_of_);
   for (Brick& brick : brick_) brick.locked = brick.free = 0;
   for (size_t row = 0; row < brick_of_.size(); ++row) {
     if (cut_[row]) sample_.lock(row);
@@ -170,12 +161,12 @@ void Sampler::countSurvivors(const BatchView& simplified) {
   for (size_t row = 0; row < simplified.vertex_count; ++row) {
     double place[3];
     placeOf(simplified.positions, row, place);
-    const uint32_t brick = brickAt(place);
+    const uint32_t brick = bricks_.at(place);
     if (brick != kNone) ++brick_[brick].survivors;
   }
 }
 
-Pilot Sampler::pilot(double bound, double ratio) const {
+Pilot Sampler::pilot() const {
   double left[kParts] = {}, weight[kParts] = {}, free = 0, survivors = 0;
   for (const Brick& brick : brick_) {
     if (brick.free == 0) continue;
@@ -189,8 +180,8 @@ Pilot Sampler::pilot(double bound, double ratio) const {
       weight[k] += inside;
     }
   }
-  if (!(survivors > 0) || !(bound > 0)) return {};
-  Pilot pilot{bound * std::pow(survivors / free / ratio, 1 / kDecay), {0}};
+  if (!(survivors > 0)) return {};
+  Pilot pilot{0, {0}};
   const double mean = survivors / free;
   for (size_t k = 0; k < kParts; ++k)  // nothing was met in a part: as everywhere
     pilot.share.push_back(pilot.share.back() + (weight[k] > 0 ? left[k] / weight[k] : mean));
@@ -225,8 +216,7 @@ Pilot Sampler::fly(const SimplifyOptions& options) {
   simplifier.begin(schema());
   simplifier.put(all);
   simplifier.finish();
-  const auto left = static_cast<double>(Simplifier::targetCells(schema_, options));
-  return pilot(simplifier.pilot().bound, left / static_cast<double>(schema_.cell_count));
+  return pilot();
 }
 
 }  // namespace tetstream

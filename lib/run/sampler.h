@@ -1,14 +1,13 @@
 // run: a sample of a long stream, to learn from before it is simplified: how its cells should be
 // spread over it. Depends on stream, simplify.
 //
-// The mesh's box is cut into bricks of some thousand cells, and of these about as many are taken,
-// by a hash of their places, as a sample holds; their vertices on the cuts are locked. Simplified
-// with a common bound, each brick shows how much of what lies there should be left.
+// Some bricks with some thousand cells each are taken out of the mesh; their vertices on the cuts
+// are locked. Simplified with a common bound, each brick shows how much of what lies there should
+// be left. The stream is read twice: for the bricks, then for what they hold.
 #pragma once
 
-#include <unordered_map>
-
 #include "batch.h"
+#include "bricks.h"
 #include "options.h"
 #include "pilot.h"
 
@@ -21,14 +20,15 @@ class Sampler {
   static bool serves(const Schema& schema);
   explicit Sampler(const Schema& schema);
 
-  // The events of the whole stream, in order.
+  // The events of the whole stream, in order: first all to be counted, then all to be sampled.
+  void count(const BatchView& batch);
   void put(const BatchView& batch);
 
-  // Then simplifies the sample, and tells what comes of it for the whole stream: not known() where
-  // nothing was met, or nothing could be simplified.
+  // Then simplifies the sample, and tells how what is left of it is spread over the whole stream:
+  // not known() where nothing was met, or nothing could be simplified.
   Pilot fly(const SimplifyOptions& options);
 
-  // For fly, and to be looked at. The sample as a stream of one batch:
+  // For fly, and to be looked at, when all is put. The sample as a stream of one batch:
   Schema schema() const;
   BatchView mesh();
   // All vertices that are left of it.
@@ -39,11 +39,10 @@ class Sampler {
   struct Brick {
     int64_t cells[kParts] = {};  // that were sampled, by when they came
     int64_t locked = 0, free = 0, survivors = 0;
+    uint64_t vertices = 0;
   };
-  static constexpr uint32_t kNone = 0xffffffffu;
+  static constexpr uint32_t kNone = Bricks::kNone;
 
-  uint32_t brickAt(const double place[3]);
-  uint32_t sampledBrick(uint64_t at);
   void placeOf(const void* positions, size_t row, double place[3]) const;
   void addVertex(const BatchView& batch, size_t row);
   uint32_t tableRow(int64_t vertex) const {
@@ -52,20 +51,17 @@ class Sampler {
   uint32_t rowOf(int64_t vertex) const;
   void addCell(const BatchView& batch, size_t row);
   double ratioFor(double left) const;
-  Pilot pilot(double bound, double ratio) const;
+  Pilot pilot() const;
 
   Schema schema_;
   Batch sample_;
-  double low_[3], brick_size_;
-  uint64_t bricks_[3], one_in_;
+  double wanted_;  // cells
+  Bricks bricks_;
   std::vector<uint32_t> row_of_;   // of a rank, modulo the size, a power of two; or kNone
   std::vector<uint64_t> rank_of_;  // of a row
   std::vector<uint32_t> brick_of_;
-  std::vector<bool> used_, cut_;                    // in a cell of the sample, in one that is not
-  std::unordered_map<uint64_t, uint32_t> sampled_;  // bricks, by their place
-  std::vector<Brick> brick_;
-  uint64_t last_place_ = ~uint64_t{0};  // of a brick, and which it is; at first none
-  uint32_t last_brick_ = kNone;
+  std::vector<bool> used_, cut_;  // in a cell of the sample, in one that is not
+  std::vector<Brick> brick_;      // taken when all is counted
   uint64_t cells_seen_ = 0;
 };
 

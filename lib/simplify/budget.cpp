@@ -62,9 +62,9 @@ double CommonBound::boundForCells(const Ledger& ledger) const {
   const double so_far = kept_ + written_at_1_ * std::pow(bound_, -kDecay);
   // Cells out of the whole stream at the bound, as the pilot says; without one, as it seems.
   const double expected =
-      pilot_.known() ? all * std::pow(bound_ / pilot_bound_, -kDecay) : so_far / share;
+      pilot_bound_ > 0 ? all * std::pow(bound_ / pilot_bound_, -kDecay) : so_far / share;
   if (!(expected > 0)) return bound_;  // nothing is simplified yet
-  const double trust = pilot_.known() ? kTrust : 0;
+  const double trust = pilot_bound_ > 0 ? kTrust : 0;
   const double more = (so_far + trust * expected) / ((share + trust) * expected);
   const double to_come = (1 - share) * expected * more;
   // With x = (new bound / bound)^-kDecay: what is kept and what is to come shrink alike,
@@ -104,14 +104,15 @@ void CommonBound::changeUnits(double rescaled) {
 
 // A window that is little more than its front has too few cells to simplify for a ratio.
 bool CommonBound::spreads(const Ledger& ledger) const {
-  return countsCells() && !pilot_.known() &&
+  return countsCells() && !(pilot_.bound > 0) &&
          static_cast<double>(ledger.live) >= kLeastFronts * static_cast<double>(ledger.front);
 }
 
 void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
   if (is_tight_) return;
   const bool is_strong = total(ledger) > kStrong * wanted(ledger);
-  if (!spreads(ledger) && (!countsCells() || !is_strong)) return;
+  const bool is_blind = !pilot_.known() && spreads(ledger);
+  if (!is_blind && (!countsCells() || !is_strong)) return;
   const bool is_long = !pilot_.known() && !ledger.flips;
   goal.approaches = is_long ? kLongApproaches : kApproaches;
   if (is_long) goal.step = kLongStep;
@@ -142,7 +143,7 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
   if (bound_ > 0) {
     goal.first_bound = nextBound(ledger);
     if (forced_) goal.first_bound = std::max(goal.first_bound, kAgain * bound_);
-  } else if (pilot_.known()) {
+  } else if (pilot_.bound > 0) {
     goal.first_bound = pilot_bound_ = pilot_.bound / ledger.error_unit;
   } else {
     const double ratio = std::max(wanted(ledger) / std::max(total(ledger), 1.0), kFirstRatio);

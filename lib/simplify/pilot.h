@@ -10,13 +10,14 @@ namespace tetstream {
 // interpolation follows (squared error times volume ~ n^(-7/3) for n cells).
 constexpr double kDecay = 3.0 / 7;
 
-// Of a run with the whole mesh, or a sample of it, in its window: the error at which the target is
-// reached, and how the cells that are left are spread over the stream.
+// Of a run with the whole mesh in its window, or of a sample: how the cells that are left are
+// spread over the stream; and of the whole mesh the error at which the target is reached. What a
+// sample says of that may be wrong by orders of magnitude, as its cuts are held.
 struct Pilot {
-  double bound = 0;           // in the report's unit
+  double bound = 0;           // in the report's unit; 0: not known
   std::vector<double> share;  // share[k]: of all cells out, those of the first k / (size - 1) in
 
-  bool known() const { return bound > 0; }
+  bool known() const { return !share.empty(); }
   // The share of the cells out that the first `part` (0 to 1) of the cells in leaves.
   double shareOf(double part) const {
     const double place = part * static_cast<double>(share.size() - 1);

@@ -53,6 +53,13 @@ int64_t TestMesh::cellInteger(size_t column, size_t cell) const {
   return integerAt(cell_data[column], schema.cell_data[column].type, cell);
 }
 
+void TestMesh::setPosition(size_t vertex, int axis, double value) {
+  const ScalarType type = schema.position_type;
+  const size_t index = 3 * vertex + static_cast<size_t>(axis);
+  convertScalars(&value, ScalarType::kFloat64, positions.bytes.data() + index * sizeOf(type), type,
+                 1);
+}
+
 void TestMesh::setField(size_t column, size_t vertex, double value, int component) {
   const Column& c = schema.fields[column];
   convertScalars(&value, ScalarType::kFloat64,

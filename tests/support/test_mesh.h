@@ -38,6 +38,7 @@ struct TestMesh {
   double cellValue(size_t column, size_t cell, int component = 0) const;
   int64_t fieldInteger(size_t column, size_t vertex) const;
   int64_t cellInteger(size_t column, size_t cell) const;
+  void setPosition(size_t vertex, int axis, double value);
   void setField(size_t column, size_t vertex, double value, int component = 0);
 
   // Adds a column whose value at a row is function(row, component).

@@ -179,13 +179,14 @@ TEST(CommonBound, SteersAShortStream) {
   for (double ratio : {0.5, 0.1, 0.02}) expectSteered(model, ratio, {}, true, 2.5);
 }
 
-// The pilot gives the bound and the shares of a run in core; also one that is somewhat wrong.
+// The pilot gives the bound and the shares of a run in core; also one that is somewhat wrong, and
+// one that knows the shares alone.
 TEST(CommonBound, FollowsAPilot) {
   Model model;
   model.pieces = 50;
   model.detail = [](double place) { return place < 0.5 ? 20.0 : 60.0; };
   for (double ratio : {0.5, 0.1, 0.02})
-    for (double off : {1.0, 1.5, 0.67}) {
+    for (double off : {1.0, 1.5, 0.67, 0.0}) {
       SCOPED_TRACE(off);
       Pilot pilot;
       // The bound at which all pieces together have ratio * cells.
@@ -262,20 +263,24 @@ TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {
     EXPECT_EQ(second(ratio, {}, false, true).approaches, 4) << "flips come between";
   }
   EXPECT_EQ(second(0.5, pilot, false).approaches, 0);
+  EXPECT_EQ(second(0.5, {0, {0, 0.5, 1}}, false).approaches, 0);
   const Goal known = second(0.02, pilot, false);
   EXPECT_EQ(known.approaches, 4);
   EXPECT_EQ(known.step, 2);
 }
 
 // Of three windows the first one keeps no more than its share, or than twice that where memory is
-// bounded, however many may stay in it.
+// bounded, however many may stay in it. A sample tells how large the share is.
 TEST(CommonBound, LeavesCellsForOtherWindows) {
-  for (bool is_tight : {false, true}) {
-    CommonBound budget({0.1, 0, 0}, 300000, {}, is_tight);
+  const Pilot sampled{0, {0, 0.4, 0.7, 1}};
+  for (const auto& [pilot, is_tight] :
+       {std::pair(Pilot{}, false), {Pilot{}, true}, {sampled, false}}) {
+    CommonBound budget({0.1, 0, 0}, 300000, pilot, is_tight);
     const Ledger first = {100000, 0, 10000, 100000, 50000};
     budget.goalOf(first);
     budget.learn(1e-6, first, first, 0);
-    const int64_t share = (first.read - first.front) / 10;
+    const int64_t share = pilot.known() ? static_cast<int64_t>(30000 * pilot.shareOf(0.3))
+                                        : (first.read - first.front) / 10;
     const int64_t kept = budget.goalOf(first).cells - first.front;
     EXPECT_LE(kept, is_tight ? 2 * share : share);
     EXPECT_GT(kept, is_tight ? 19 * share / 10 : 9 * share / 10);

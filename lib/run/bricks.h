@@ -1,0 +1,70 @@
+// run: bricks cut out of a stream's box, each with about as many vertices, some of which are taken.
+// Depends on stream.
+//
+// Real meshes have cells of a millionth of others' volume, and most of their cells in little space:
+// bricks of one size would hold nothing there, or everything. So the vertices are counted first, in
+// the cells of a grid; halving the box as often as a brick's vertices want then gives bricks for
+// what was met. What is finer than the grid is cut as if it were even there, and met in one brick.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "schema.h"
+
+namespace tetstream {
+
+class Bricks {
+ public:
+  static constexpr uint32_t kNone = 0xffffffffu;
+
+  // Of the box of a stream.
+  explicit Bricks(const Schema& schema);
+
+  // First every vertex,
+  void count(const double place[3]) { ++cells_[codeOf(place) + 1]; }
+  // then bricks are taken, one for each of `wanted` equal parts of the vertices, but for a part
+  // that has its vertices in the brick before. Together they have about `share` of the vertices.
+  void take(size_t wanted, double share);
+
+  size_t size() const { return cuts_.size(); }
+  // Vertices of a brick of the usual size.
+  uint64_t usual() const { return usual_; }
+  // The brick that a place lies in, or kNone.
+  uint32_t at(const double place[3]) const {
+    const uint64_t brick = cells_[codeOf(place)];
+    return brick == kNone || cuts_[brick].holds(place) ? static_cast<uint32_t>(brick) : kNone;
+  }
+
+ private:
+  // What of its cells of the grid a brick is.
+  struct Cut {
+    double low[3], high[3];
+    bool holds(const double place[3]) const {
+      for (int i = 0; i < 3; ++i)
+        if (!(place[i] >= low[i] && place[i] < high[i])) return false;
+      return true;
+    }
+  };
+  // Where halving has come to: a run of cells of the grid, or what is cut out of one of them.
+  struct Piece {
+    uint64_t begin, end;
+    double low[3], side[3];
+    Cut cut;
+  };
+
+  uint64_t codeOf(const double place[3]) const;
+  uint64_t verticesIn(const Piece& piece) const { return cells_[piece.end] - cells_[piece.begin]; }
+  void halve(Piece& piece, uint64_t at) const;
+  Piece pieceAt(uint64_t vertex) const;
+
+  double low_[3], extent_[3], scale_[3];  // cells of the grid per length
+  std::vector<uint64_t> digits_[3];       // of an axis: what a row of cells adds to their code
+  // Vertices of cell k - 1, by code; then of all before cell k; then the brick that cell k is of.
+  std::vector<uint64_t> cells_;
+  std::vector<Cut> cuts_;  // of a brick
+  uint64_t usual_ = 0;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,88 @@
+// Bricks out of a box: of about as many vertices each, wherever those lie.
+#include "bricks.h"
+
+#include <gtest/gtest.h>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "random.h"
+
+namespace tetstream::test {
+namespace {
+
+Schema boxed(const std::vector<double>& low, const std::vector<double>& high) {
+  Schema schema;
+  schema.box_min = low;
+  schema.box_max = high;
+  return schema;
+}
+
+struct Point {
+  double place[3];
+};
+
+// In a box, the denser the higher `power` is towards its lowest corner.
+std::vector<Point> scattered(const Schema& schema, size_t count, double power) {
+  Random random(7);
+  std::vector<Point> points(count);
+  for (Point& p : points)
+    for (size_t i = 0; i < 3; ++i) {
+      const double part = std::pow(static_cast<double>(random.below(1 << 20)) * 0x1p-20, power);
+      p.place[i] = schema.box_min[i] + part * (schema.box_max[i] - schema.box_min[i]);
+    }
+  return points;
+}
+
+std::map<uint32_t, uint64_t> filled(const Bricks& bricks, const std::vector<Point>& points) {
+  std::map<uint32_t, uint64_t> counts;
+  for (const Point& p : points) ++counts[bricks.at(p.place)];
+  return counts;
+}
+
+TEST(Bricks, AreFilledAlikeWhereverVerticesLie) {
+  for (double power : {1.0, 2.0})
+    for (double thickness : {1.0, 1e-3}) {
+      SCOPED_TRACE(::testing::Message() << "power " << power << ", thickness " << thickness);
+      const Schema schema = boxed({-5, 1e3, 7}, {-4, 1e3 + 2, 7 + thickness});
+      const std::vector<Point> points = scattered(schema, 100000, power);
+      Bricks bricks(schema);
+      for (const Point& p : points) bricks.count(p.place);
+      bricks.take(20, 0.1);
+      EXPECT_EQ(bricks.usual(), 500u);
+      EXPECT_GT(bricks.size(), 15u);
+      EXPECT_LE(bricks.size(), 20u);
+      const auto counts = filled(bricks, points);
+      EXPECT_EQ(counts.size(), bricks.size() + 1);  // and none
+      for (const auto& [brick, count] : counts) {
+        if (brick == Bricks::kNone) continue;
+        EXPECT_GE(count, 125u) << brick;  // the smaller half of one that had too many
+        EXPECT_LE(count, 700u) << brick;
+      }
+    }
+}
+
+// In one cell of the grid nobody knows where the vertices lie: a part of it is taken.
+TEST(Bricks, AreCutWithinACell) {
+  const Schema schema = boxed({0, 0, 0}, {1, 1, 1});
+  const Schema corner = boxed({0, 0, 0}, {1.0 / 64, 1.0 / 64, 1.0 / 64});
+  const std::vector<Point> points = scattered(corner, 100000, 1);
+  Bricks bricks(schema);
+  for (const Point& p : points) bricks.count(p.place);
+  bricks.take(20, 0.1);
+  ASSERT_EQ(bricks.size(), 1u);
+  const auto counts = filled(bricks, points);
+  EXPECT_GE(counts.at(0), 300u);
+  EXPECT_LE(counts.at(0), 800u);
+}
+
+TEST(Bricks, OfNothingAreNone) {
+  Bricks bricks(boxed({0, 0, 0}, {1, 1, 1}));
+  bricks.take(20, 0.1);
+  EXPECT_EQ(bricks.size(), 0u);
+  const double place[3] = {0.5, 0.5, NAN};
+  EXPECT_EQ(bricks.at(place), Bricks::kNone);
+}
+
+}  // namespace
+}  // namespace tetstream::test
