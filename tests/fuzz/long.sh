@@ -45,8 +45,8 @@ for target in "${targets[@]}"; do
   [[ $target == *vtu || $target == pvd ]] && options=(-dict="$here/xml.dict")
   # libhdf5 believes some sizes that a file claims: they are denied.
   limit=80 of_hdf5=
-  # libzstd takes the window that a frame asks for, up to 128 MB.
-  [[ $target == wrapped ]] && limit=140
+  # libzstd takes the window that a frame asks for, up to 128 MB; a .tets may be such a frame.
+  [[ $target =~ ^(wrapped|tets)$ ]] && limit=140
   [[ $target =~ ^(vtkhdf|exodus|xdmf)$ ]] &&
     limit=500 of_hdf5=:max_allocation_size_mb=400:suppressions=$here/libhdf5.supp
   export ASAN_OPTIONS=allocator_may_return_null=1$of_hdf5
