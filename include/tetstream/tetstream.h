@@ -113,7 +113,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_SEED 131            /* int64, for the random choices of "paper" */
 #define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */
 #define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges "paper" draws for one collapse */
-#define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input twice; "none" */
+#define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input before; "none" */
 #define TETSTREAM_OPTION_RELEASE 136         /* text: what leaves the window first: "order", "error" */
 #define TETSTREAM_OPTION_SHAPE 140           /* text: "field", "solver": no thin cells */
 #define TETSTREAM_OPTION_SAMPLES 150         /* int64, points of a comparison; 0: exact integrals */
