@@ -164,12 +164,14 @@ struct SimplifyRun::State {
   // Of a long stream, which is read twice for it.
   void sample(Ordering& stream) {
     Sampler sampler(stream.source().schema());
-    const auto count = [&](const BatchView& batch) { sampler.count(batch); };
-    const auto take = [&](const BatchView& batch) { sampler.put(batch); };
-    const bool done =
-        readAgain(stream, [&](Source& source) { readSampling(source, 0, count); }) &&
-        readAgain(stream, [&](Source& source) { readSampling(source, kSampleShare / 2, take); });
-    if (!done) return;
+    const bool counted = readAgain(stream, [&](Source& source) {
+      readSampling(source, 0, [&](const BatchView& batch) { sampler.count(batch); });
+    });
+    if (!counted) return;
+    sampler.takeBricks();
+    readAgain(stream, [&](Source& source) {
+      readSampling(source, kSampleShare / 2, [&](const BatchView& batch) { sampler.put(batch); });
+    });
     try {
       simplifier.follow(sampler.fly(options.simplify));
     } catch (const Error& error) {

@@ -20,8 +20,10 @@ class Sampler {
   static bool serves(const Schema& schema);
   explicit Sampler(const Schema& schema);
 
-  // The events of the whole stream, in order: first all to be counted, then all to be sampled.
+  // The events of the whole stream, in order: first all to be counted; then, when the bricks are
+  // taken, all to be sampled.
   void count(const BatchView& batch);
+  void takeBricks();
   void put(const BatchView& batch);
 
   // Then simplifies the sample, and tells how what is left of it is spread over the whole stream:

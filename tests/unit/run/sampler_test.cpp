@@ -43,6 +43,7 @@ void read(Swept& swept, Sampler& sampler, Use use) {
   const std::unique_ptr<Source> first = swept.stream.again();
   BatchView batch;
   while (first->next(batch)) sampler.count(batch);
+  sampler.takeBricks();
   while (swept.stream.next(batch)) {
     sampler.put(batch);
     use(batch);
@@ -108,6 +109,7 @@ TEST(Sampler, TakesNoWrongCellsWhereTheSpanIsALie) {
   vertices.cell_count = cells.vertex_count = others.cell_count = 0;
   Sampler sampler(schema);
   sampler.count(vertices);
+  sampler.takeBricks();
   sampler.put(vertices);
   const size_t count = mesh.vertexCount(), end = (1 << 15) + count / 2;
   for (size_t rank = count; rank < end; rank += others.vertex_count) {
