@@ -1,7 +1,6 @@
 #include "bricks.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "mix.h"
@@ -10,7 +9,7 @@ namespace tetstream {
 
 // Of the box: 2^18 cells, of 8 bytes.
 constexpr int kHalvings = 18;
-// Pieces are halved until they have no more: they end with a half of it to all.
+// Pieces are halved until they have no more: most of them end with a half of it to all.
 constexpr double kLargest = 1.4;
 
 static int longestOf(const double extent[3]) {

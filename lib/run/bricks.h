@@ -1,5 +1,5 @@
-// run: bricks cut out of a stream's box, each with about as many vertices, some of which are taken.
-// Depends on stream.
+// run: a stream's box cut into bricks that are about equally full of vertices, and some bricks
+// taken. Depends on stream.
 //
 // Real meshes have cells of a millionth of others' volume, and most of their cells in little space:
 // bricks of one size would hold nothing there, or everything. So the vertices are counted first, in
@@ -25,7 +25,8 @@ class Bricks {
   // First every vertex,
   void count(const double place[3]) { ++cells_[codeOf(place) + 1]; }
   // then bricks are taken, one for each of `wanted` equal parts of the vertices, but for a part
-  // that has its vertices in the brick before. Together they have about `share` of the vertices.
+  // that has its vertices in the brick before. As many as wanted would have about `share` of the
+  // vertices together.
   void take(size_t wanted, double share);
 
   size_t size() const { return cuts_.size(); }
@@ -56,7 +57,7 @@ class Bricks {
 
   uint64_t codeOf(const double place[3]) const;
   uint64_t verticesIn(const Piece& piece) const { return cells_[piece.end] - cells_[piece.begin]; }
-  void halve(Piece& piece, uint64_t at) const;
+  void halve(Piece& piece, uint64_t vertex) const;
   Piece pieceAt(uint64_t vertex) const;
 
   double low_[3], extent_[3], scale_[3];  // cells of the grid per length

@@ -169,9 +169,10 @@ struct SimplifyRun::State {
     });
     if (!counted) return;
     sampler.takeBricks();
-    readAgain(stream, [&](Source& source) {
+    const bool sampled = readAgain(stream, [&](Source& source) {
       readSampling(source, kSampleShare / 2, [&](const BatchView& batch) { sampler.put(batch); });
     });
+    if (!sampled) return;
     try {
       simplifier.follow(sampler.fly(options.simplify));
     } catch (const Error& error) {

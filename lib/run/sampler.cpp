@@ -15,6 +15,9 @@ namespace tetstream {
 // to 20 % higher.
 constexpr double kPart = 1.0 / 60, kLeastSample = 8e4, kLargestSample = 1.5e5;
 constexpr double kBrick = 2500;
+constexpr size_t kLeastBricks = 8;  // with fewer that have vertices to spare nothing is known
+// Of the mean: a part of the stream for which bricks left nothing is not the same all along.
+constexpr double kLeastRate = 0.1;
 constexpr int64_t kLargestSpan = 1 << 22;     // the table of rows: 32 MB at most
 constexpr uint64_t kDeclaredAhead = 1 << 15;  // vertices that a batch brings before their cells
 // A brick that has more than so many times the vertices that it should have is no longer filled.
@@ -72,7 +75,7 @@ void Sampler::addVertex(const BatchView& batch, size_t row) {
   const uint32_t brick = bricks_.at(place);
   uint32_t& row_of = row_of_[(batch.first_vertex + row) & (row_of_.size() - 1)];
   row_of = kNone;
-  if (brick == kNone || ++brick_[brick].vertices > kFullest * bricks_.usual()) return;
+  if (brick == kNone || ++brick_[brick].vertices > most_) return;
   const size_t to = sample_.addVertices(1);
   copyBytes(batch.positions, row, 3 * sizeOf(schema_.position_type), sample_.position(to));
   for (size_t f = 0; f < schema_.fields.size(); ++f)
@@ -125,6 +128,7 @@ void Sampler::takeBricks() {
   const double share = wanted_ / static_cast<double>(schema_.cell_count);
   bricks_.take(static_cast<size_t>(std::ceil(wanted_ / kBrick)), share);
   brick_.resize(bricks_.size());
+  most_ = kFullest * std::min(bricks_.usual(), static_cast<uint64_t>(kBrick));
 }
 
 void Sampler::put(const BatchView& batch) {
@@ -167,12 +171,26 @@ void Sampler::countSurvivors(const BatchView& simplified) {
   }
 }
 
-Pilot Sampler::pilot() const {
+// Times `left`, and no more than all: so that the mean is `ratio`.
+static double scaleFor(const std::vector<double>& left, double ratio) {
+  const auto mean = [&](double scale) {
+    double sum = 0;
+    for (double part : left) sum += std::min(scale * part, 1.0);
+    return sum / static_cast<double>(left.size());
+  };
+  double low = 0, high = 1 / *std::min_element(left.begin(), left.end());
+  for (int k = 0; k < 50; ++k) (mean((low + high) / 2) < ratio ? low : high) = (low + high) / 2;
+  return high;
+}
+
+Pilot Sampler::pilot(double ratio) const {
   double left[kParts] = {}, weight[kParts] = {}, free = 0, survivors = 0;
+  size_t met = 0;
   for (const Brick& brick : brick_) {
     if (brick.free == 0) continue;
     const auto alive = static_cast<double>(std::max<int64_t>(brick.survivors - brick.locked, 0));
     const auto whole = static_cast<double>(brick.free);
+    ++met;
     free += whole;
     survivors += alive;
     for (size_t k = 0; k < kParts; ++k) {
@@ -181,11 +199,14 @@ Pilot Sampler::pilot() const {
       weight[k] += inside;
     }
   }
-  if (!(survivors > 0)) return {};
-  Pilot pilot{0, {0}};
+  if (met < kLeastBricks || !(survivors > 0)) return {};
   const double mean = survivors / free;
+  std::vector<double> rates;
   for (size_t k = 0; k < kParts; ++k)  // nothing was met in a part: as everywhere
-    pilot.share.push_back(pilot.share.back() + (weight[k] > 0 ? left[k] / weight[k] : mean));
+    rates.push_back(std::max(weight[k] > 0 ? left[k] / weight[k] : mean, kLeastRate * mean));
+  const double scale = scaleFor(rates, ratio);
+  Pilot pilot{0, {0}};
+  for (double rate : rates) pilot.share.push_back(pilot.share.back() + std::min(scale * rate, 1.0));
   for (double& share : pilot.share) share /= pilot.share.back();
   return pilot;
 }
@@ -217,7 +238,8 @@ Pilot Sampler::fly(const SimplifyOptions& options) {
   simplifier.begin(schema());
   simplifier.put(all);
   simplifier.finish();
-  return pilot();
+  const auto wanted = static_cast<double>(Simplifier::targetCells(schema_, options));
+  return pilot(wanted / static_cast<double>(schema_.cell_count));
 }
 
 }  // namespace tetstream

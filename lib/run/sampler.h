@@ -6,6 +6,8 @@
 // be left. The stream is read twice: for the bricks, then for what they hold.
 #pragma once
 
+#include <vector>
+
 #include "batch.h"
 #include "bricks.h"
 #include "options.h"
@@ -27,7 +29,7 @@ class Sampler {
   void put(const BatchView& batch);
 
   // Then simplifies the sample, and tells how what is left of it is spread over the whole stream:
-  // not known() where nothing was met, or nothing could be simplified.
+  // not known() where too little was met, or nothing could be simplified.
   Pilot fly(const SimplifyOptions& options);
 
   // For fly, and to be looked at, when all is put. The sample as a stream of one batch:
@@ -53,11 +55,12 @@ class Sampler {
   uint32_t rowOf(int64_t vertex) const;
   void addCell(const BatchView& batch, size_t row);
   double ratioFor(double left) const;
-  Pilot pilot() const;
+  Pilot pilot(double ratio) const;
 
   Schema schema_;
   Batch sample_;
-  double wanted_;  // cells
+  double wanted_;      // cells
+  uint64_t most_ = 0;  // vertices of a brick
   Bricks bricks_;
   std::vector<uint32_t> row_of_;   // of a rank, modulo the size, a power of two; or kNone
   std::vector<uint64_t> rank_of_;  // of a row

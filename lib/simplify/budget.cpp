@@ -54,13 +54,13 @@ double CommonBound::total(const Ledger& ledger) const {
 // Of all cells out, those of the first `seen` cells in.
 double CommonBound::shareOf(double seen, const Ledger& ledger) const {
   const double part = std::clamp(seen / std::max(total(ledger), 1.0), 1e-9, 1.0);
-  return pilot_.known() ? pilot_.shareOf(part) : part;
+  return pilot_.known() ? std::max(pilot_.shareOf(part), 1e-9) : part;
 }
 
 double CommonBound::boundForCells(const Ledger& ledger) const {
   const double all = wanted(ledger), share = shareOf(seen_, ledger);
   const double so_far = kept_ + written_at_1_ * std::pow(bound_, -kDecay);
-  // Cells out of the whole stream at the bound, as the pilot says; without one, as it seems.
+  // Cells out of the whole stream at the bound, as a pilot's bound says; without one, as it seems.
   const double expected =
       pilot_bound_ > 0 ? all * std::pow(bound_ / pilot_bound_, -kDecay) : so_far / share;
   if (!(expected > 0)) return bound_;  // nothing is simplified yet
@@ -118,7 +118,8 @@ void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
   if (is_long) goal.step = kLongStep;
 }
 
-// About the same ratio all along the stream. `due`: cells out that the cells seen should leave.
+// About the same ratio all along the stream, or what a sample says of it. `due`: cells out that the
+// cells seen should leave.
 void CommonBound::spread(double due, const Ledger& ledger, Goal& goal) const {
   const auto left = [&](double share) {
     const double may_stay = share * due - kHeldBack - static_cast<double>(ledger.written);

@@ -1,4 +1,4 @@
-// simplify: what a first reading of the whole stream tells the second. Depends on nothing.
+// simplify: what is known of the whole stream before it is simplified. Depends on nothing.
 #pragma once
 
 #include <cstdint>

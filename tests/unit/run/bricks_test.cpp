@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <map>
-#include <set>
+#include <vector>
 
 #include "random.h"
 
@@ -80,8 +80,21 @@ TEST(Bricks, OfNothingAreNone) {
   Bricks bricks(boxed({0, 0, 0}, {1, 1, 1}));
   bricks.take(20, 0.1);
   EXPECT_EQ(bricks.size(), 0u);
-  const double place[3] = {0.5, 0.5, NAN};
+  const double place[3] = {0.5, 0.5, 0.5};
   EXPECT_EQ(bricks.at(place), Bricks::kNone);
+}
+
+// What is nowhere is counted somewhere, and in no brick.
+TEST(Bricks, TakeAnyNumbers) {
+  Bricks bricks(boxed({0, 0, 0}, {1, 1, 1}));
+  const double corners[][3] = {{0, 0, 0}, {1, 1, 1}, {NAN, NAN, NAN}, {INFINITY, 7, 1e300}};
+  for (const auto& corner : corners) bricks.count(corner);
+  bricks.take(2, 1);
+  ASSERT_EQ(bricks.size(), 2u);
+  EXPECT_EQ(bricks.at(corners[0]), 0u);
+  EXPECT_EQ(bricks.at(corners[1]), 1u);
+  EXPECT_EQ(bricks.at(corners[2]), Bricks::kNone);
+  EXPECT_EQ(bricks.at(corners[3]), Bricks::kNone);
 }
 
 }  // namespace

@@ -128,17 +128,25 @@ TEST(Sampler, TakesNoWrongCellsWhereTheSpanIsALie) {
     EXPECT_TRUE(wanted.count(placesOf(sample, c))) << "cell " << c;
 }
 
-// All of the mesh lies in the corner of one cell of the grid, where bricks are cut without knowing:
-// the one that has it all takes four times the 2500 cells that it should have, and no more.
+// All of the mesh lies in a corner of the box, in one cell of the grid, where a brick is cut
+// without knowing. If it has any of the mesh it has all, and takes four times what it should have.
 TEST(Sampler, TakesNoMoreThanABrickOfWhatLiesInOnePlace) {
-  TestMesh mesh = halfDetailed(20, 20);
-  Swept swept(mesh);
-  Schema schema = swept.stream.schema();
-  for (double& high : schema.box_max) high += 1e9;
-  Sampler sampler(schema);
-  read(swept, sampler, [](const BatchView&) {});
-  const double cells_each = static_cast<double>(mesh.cellCount()) / double(mesh.vertexCount());
-  EXPECT_LE(double(sampler.mesh().vertex_count), 1.01 * 4 * 2500 / cells_each);
+  TestMesh mesh = halfDetailed(12, 12);
+  const uint64_t most = 4 * (mesh.vertexCount() / 5);  // of bricks of 2500 cells
+  size_t met = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Swept swept(mesh);
+    Schema schema = swept.stream.schema();
+    for (size_t i = 0; i < 3; ++i)
+      (corner >> i & 1 ? schema.box_min[i] : schema.box_max[i]) += corner >> i & 1 ? -1e9 : 1e9;
+    Sampler sampler(schema);
+    read(swept, sampler, [](const BatchView&) {});
+    const size_t vertices = sampler.mesh().vertex_count;
+    EXPECT_TRUE(vertices == 0 || vertices == most) << vertices << " of " << most;
+    met += vertices > 0;
+    EXPECT_FALSE(sampler.fly({}).known());  // of one place
+  }
+  EXPECT_GT(met, 0u);
 }
 
 TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
@@ -155,6 +163,26 @@ TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   for (double part = 0; part < 0.95; part += 0.05)
     EXPECT_LE(pilot.shareOf(part), pilot.shareOf(part + 0.05));
   EXPECT_GT(pilot.shareOf(0.5), 0.65);
+}
+
+// The sample keeps a quarter of its free vertices. Where more are wanted no part can keep more than
+// all of them, and one of which nothing was left there is not given up.
+TEST(Sampler, SpreadsTheCellsForAnyTarget) {
+  TestMesh mesh = halfDetailed(slowRun() ? 30 : 60, slowRun() ? 14 : 16);
+  Swept swept(mesh);
+  Sampler sampler(swept.stream.schema());
+  read(swept, sampler, [](const BatchView&) {});
+  for (double ratio : {0.9, 0.6, 0.01}) {
+    SimplifyOptions options;
+    options.ratio = ratio;
+    const Pilot pilot = sampler.fly(options);
+    ASSERT_TRUE(pilot.known());
+    for (double part = 0; part < 1; part += 0.125) {
+      const double share = pilot.shareOf(part + 0.125) - pilot.shareOf(part);
+      EXPECT_LE(ratio * share, 1.01 * 0.125) << ratio << ", " << part;
+      EXPECT_GT(share, 0.01 * 0.125) << ratio << ", " << part;
+    }
+  }
 }
 
 TEST(Sampler, ServesStreamsThatTellEnough) {
@@ -178,7 +206,7 @@ TEST(Sampler, ServesStreamsThatTellEnough) {
   EXPECT_FALSE(Sampler::serves(bare));
 }
 
-// Cells a thousand times as long at one side as at the other.
+// Cells that grow with y and z, to some thousand times what they are at first.
 void grade(TestMesh& mesh, double width) {
   for (size_t v = 0; v < mesh.vertexCount(); ++v)
     for (int axis : {1, 2}) {

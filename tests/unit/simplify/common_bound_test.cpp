@@ -313,9 +313,9 @@ TEST(CommonBound, GivesNumbersWhateverItIsTold) {
   for (double ratio : {1.0, 1e-18, 0.1})
     for (int64_t total : {int64_t{-1}, int64_t{0}, int64_t{1}, int64_t{1} << 62})
       for (int64_t cells : {int64_t{0}, int64_t{1}, int64_t{1} << 62})
-        for (double pilot_bound : {0.0, 1e-45, 1e38}) {
+        for (double pilot_bound : {-1.0, 0.0, 1e-45, 1e38}) {
           Pilot pilot;
-          if (pilot_bound > 0) pilot = {pilot_bound, {0, 0.5, 1}};
+          if (pilot_bound >= 0) pilot = {pilot_bound, {0, 0, 1}};
           CommonBound budget({ratio, 0, cells}, total, pilot);
           for (Ledger l : {Ledger{}, Ledger{1, 0, 1, 1}, Ledger{1, 1, 0, 0}, Ledger{5, 0, 0, 5}})
             for (double bound : {0.0, 1e-45, 1.0, 1e38}) {
