@@ -66,7 +66,7 @@ std::array<Place, 4> placesOf(const BatchView& batch, size_t cell) {
 }
 
 TEST(Sampler, TakesWholeBricksAndHoldsTheirCuts) {
-  TestMesh mesh = halfDetailed(slowRun() ? 20 : 60, slowRun() ? 12 : 20);
+  TestMesh mesh = halfDetailed(slowRun() ? 20 : 40, 12);
   Swept swept(mesh);
   Sampler sampler(swept.stream.schema());
   std::map<Place, int> uses, sampled;  // cells of a vertex
