@@ -166,6 +166,23 @@ TEST(SimplifierWindow, GrowsWhereTheFrontIsWider) {
   }
 }
 
+// What came of a run with a memory budget; or why nothing did.
+struct BudgetRun {
+  Status status;
+  std::string text, problem;
+  Report report;
+  std::vector<int64_t> cells;
+};
+BudgetRun simplifiedWithin(const TestMesh& mesh, SimplifyOptions options, int64_t bytes,
+                           const Cut& cut = {}) {
+  options.memory_bytes = bytes;
+  Recorder out;
+  Simplifier simplifier(options, out, {});
+  MeshStream stream(mesh, cut);
+  const auto [status, text] = thrownBy([&] { copyStream(stream, simplifier); });
+  return {status, text, out.problem, simplifier.report(), out.mesh.cells};
+}
+
 // A budget either holds or the run says that it is too small; it is never passed.
 void expectWithinBudget(const TestMesh& mesh, Mode mode) {
   const int64_t needed =
@@ -173,20 +190,15 @@ void expectWithinBudget(const TestMesh& mesh, Mode mode) {
   ASSERT_GT(needed, 100000);
   int held = 0, refused = 0;
   for (int64_t limit = 1000; limit < 2 * needed; limit += limit / (slowRun() ? 1 : 4)) {
-    SimplifyOptions options = toRatio(0.2, limit % 2 ? 0 : 300, mode);
-    options.memory_bytes = limit;
-    Recorder out;
-    Simplifier simplifier(options, out, {});
-    MeshStream stream(mesh, {});
-    const auto [status, text] = thrownBy([&] { copyStream(stream, simplifier); });
-    if (status == Status::kOk) {
+    const BudgetRun run = simplifiedWithin(mesh, toRatio(0.2, limit % 2 ? 0 : 300, mode), limit);
+    if (run.status == Status::kOk) {
       ++held;
-      EXPECT_LE(simplifier.report().peak_window_bytes, static_cast<uint64_t>(limit));
-      EXPECT_EQ(out.problem, "");
+      EXPECT_LE(run.report.peak_window_bytes, static_cast<uint64_t>(limit));
+      EXPECT_EQ(run.problem, "");
     } else {
       ++refused;
-      EXPECT_EQ(status, Status::kNoMemory);
-      EXPECT_NE(text, "");
+      EXPECT_EQ(run.status, Status::kNoMemory);
+      EXPECT_NE(run.text, "");
     }
   }
   EXPECT_GT(held, 0);
@@ -200,20 +212,15 @@ TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
 
 // A window that starts small and grows must not fail with more memory where it held with less.
 void expectMoreSuffices(const TestMesh& mesh, Mode mode) {
+  Cut cut;
+  cut.say_counts = false;
   int64_t sufficed = 0;
   for (int64_t limit = 300000; limit < 6000000; limit += limit / (slowRun() ? 2 : 12)) {
-    SimplifyOptions options = toRatio(0.2, 0, mode);
-    options.memory_bytes = limit;
-    Recorder out;
-    Simplifier simplifier(options, out, {});
-    Cut cut;
-    cut.say_counts = false;
-    MeshStream stream(mesh, cut);
-    const auto [status, text] = thrownBy([&] { copyStream(stream, simplifier); });
-    if (status == Status::kOk && sufficed == 0) sufficed = limit;
+    const BudgetRun run = simplifiedWithin(mesh, toRatio(0.2, 0, mode), limit, cut);
+    if (run.status == Status::kOk && sufficed == 0) sufficed = limit;
     if (sufficed > 0) {
-      EXPECT_EQ(status, Status::kOk) << "mode " << static_cast<int>(mode) << ": " << limit
-                                     << " fails, " << sufficed << " sufficed: " << text;
+      EXPECT_EQ(run.status, Status::kOk) << "mode " << static_cast<int>(mode) << ": " << limit
+                                         << " fails, " << sufficed << " sufficed: " << run.text;
     }
   }
   EXPECT_GT(sufficed, 0);
@@ -225,22 +232,11 @@ TEST(SimplifierMemory, SufficesIfLessDid) {
 }
 
 // As thin as a wall, with three cells to a vertex: a window has its vertices before its cells.
-struct WallRun {
-  Status status;
-  std::string text;
-  std::vector<int64_t> cells;
-};
-WallRun simplifiedWall(const TestMesh& wall, Mode mode, int64_t window, int64_t bytes,
-                       size_t batch_cells) {
-  SimplifyOptions options = toRatio(0.2, window, mode);
-  options.memory_bytes = bytes;
-  Recorder out;
-  Simplifier simplifier(options, out, {});
+BudgetRun simplifiedWall(const TestMesh& wall, Mode mode, int64_t window, int64_t bytes,
+                         size_t batch_cells) {
   Cut cut;
   cut.batch_cells = batch_cells;
-  MeshStream stream(wall, cut);
-  const auto [status, text] = thrownBy([&] { copyStream(stream, simplifier); });
-  return {status, text, out.mesh.cells};
+  return simplifiedWithin(wall, toRatio(0.2, window, mode), bytes, cut);
 }
 
 // The budget that the sentence says should do; 0: none.
@@ -256,8 +252,8 @@ int expectWallFits(const TestMesh& wall, Mode mode, int64_t window) {
   int held = 0, told = 0;
   const int64_t least = window > 0 ? 600000 : 300000;  // for the arrays that come before all else
   for (int64_t limit = least; limit < 3000000; limit += limit / (slowRun() ? 2 : 8)) {
-    const WallRun run = simplifiedWall(wall, mode, window, limit, 4096);
-    const WallRun finer = simplifiedWall(wall, mode, window, limit, 64);
+    const BudgetRun run = simplifiedWall(wall, mode, window, limit, 4096);
+    const BudgetRun finer = simplifiedWall(wall, mode, window, limit, 64);
     EXPECT_EQ(finer.status, run.status) << limit << ": " << run.text << finer.text;
     if (run.status == Status::kOk) {
       EXPECT_TRUE(finer.cells == run.cells) << limit;

@@ -1,39 +1,7 @@
 // What a run allocates beside its account: the budget would mean little if lists of the window's
 // size lay outside it.
-#include <cstdlib>
-#include <new>
-
+#include "heap_meter.h"
 #include "simplify_testing.h"
-
-// Every allocation carries its size in front of it.
-static size_t held_bytes = 0, peak_bytes = 0;
-constexpr size_t kFront = alignof(std::max_align_t);
-
-__attribute__((noinline)) void* operator new(size_t size) {
-  auto* block = static_cast<char*>(std::malloc(size + kFront));
-  if (!block) throw std::bad_alloc();
-  *reinterpret_cast<size_t*>(block) = size;
-  held_bytes += size;
-  if (held_bytes > peak_bytes) peak_bytes = held_bytes;
-  return block + kFront;
-}
-// Sanitizers' own would not call the one above.
-__attribute__((noinline)) void* operator new(size_t size, const std::nothrow_t&) noexcept {
-  try {
-    return operator new(size);
-  } catch (const std::bad_alloc&) {
-    return nullptr;
-  }
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept {
-  if (!p) return;
-  char* block = static_cast<char*>(p) - kFront;
-  held_bytes -= *reinterpret_cast<size_t*>(block);
-  std::free(block);
-}
-__attribute__((noinline)) void operator delete(void* p, size_t) noexcept {
-  operator delete(p);
-}
 
 namespace tetstream::test {
 namespace {
