@@ -1,14 +1,13 @@
 #include "bricks.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "mix.h"
 
 namespace tetstream {
 
-// Of the box: 2^18 cells, of 8 bytes.
-constexpr int kHalvings = 18;
 // Pieces are halved until they have no more: most of them end with a half of it to all.
 constexpr double kLargest = 1.4;
 
@@ -18,14 +17,16 @@ static int longestOf(const double extent[3]) {
 
 // The box is halved across its longest side, again and again; the code of a cell has a bit for each
 // time, the first one highest, so that each piece is a run of codes.
-Bricks::Bricks(const Schema& schema) : cells_((size_t{1} << kHalvings) + 1, 0) {
+Bricks::Bricks(const Schema& schema, int64_t most_bytes) {
+  const uint64_t count = std::bit_floor(static_cast<uint64_t>(most_bytes) / sizeof(cells_[0]));
+  cells_.resize(count + 1);
   double side[3];
   for (size_t i = 0; i < 3; ++i) {
     low_[i] = schema.box_min[i];
     side[i] = extent_[i] = schema.box_max[i] - schema.box_min[i];
     digits_[i] = {0};
   }
-  for (uint64_t bit = uint64_t{1} << (kHalvings - 1); bit > 0; bit /= 2) {
+  for (uint64_t bit = count / 2; bit > 0; bit /= 2) {
     const int axis = longestOf(side);
     side[axis] /= 2;
     std::vector<uint64_t> finer;

@@ -18,9 +18,10 @@ namespace tetstream {
 class Bricks {
  public:
   static constexpr uint32_t kNone = 0xffffffffu;
+  static constexpr int64_t kGridBytes = 8 << 18;
 
-  // Of the box of a stream.
-  explicit Bricks(const Schema& schema);
+  // Of the box of a stream; the grid takes at most so many bytes.
+  explicit Bricks(const Schema& schema, int64_t most_bytes = kGridBytes);
 
   // First every vertex,
   void count(const double place[3]) { ++cells_[codeOf(place) + 1]; }

@@ -14,7 +14,7 @@ namespace tetstream {
 // With 1.5e5 for 1e5 errors of 1e7 and 1.4e7 cells were 18 % lower; with bricks of 4000 cells for
 // 2500, and so fewer of them, 7 to 20 % higher.
 constexpr double kPart = 1.0 / 40, kLeastSample = 4e4, kLargestSample = 1.5e5;
-constexpr double kBrick = 2500;
+constexpr double kBrick = 2500, kFewestBricks = 16;
 constexpr size_t kLeastBricks = 8;  // with fewer that have vertices to spare nothing is known
 // Of the mean: a part of the stream for which bricks left nothing is not the same all along.
 constexpr double kLeastRate = 0.1;
@@ -23,6 +23,12 @@ constexpr uint64_t kDeclaredAhead = 1 << 15;  // vertices that a batch brings be
 // A brick that has more than so many times the vertices that it should have is no longer filled.
 constexpr uint64_t kFullest = 4;
 constexpr double kCellsPerCollapse = 5.5;
+// Of a memory budget the grid gets a sixth, the sample and its window most of the rest: what they
+// take is foreseen for any front, from arrays that have grown by doubling and few cells a vertex.
+constexpr int64_t kGridPart = 6, kAnyFront = 1 << 20;
+constexpr double kFilled = 0.8, kGrowth = 2, kCellsOfVertex = 3;
+constexpr size_t kNotedBytes = 16;    // of a vertex
+constexpr double kLeastWorth = 8000;  // cells: of less nothing is learnt
 constexpr double kLeft = 0.25;  // of the free vertices: fewer cannot always be had between the cuts
 
 static double volumeOfBox(const Schema& schema) {
@@ -31,14 +37,56 @@ static double volumeOfBox(const Schema& schema) {
   return volume;
 }
 
-bool Sampler::serves(const Schema& schema) {
+// Entries of the table of rows.
+static uint64_t tableSize(const Schema& schema) {
+  return std::bit_ceil(static_cast<uint64_t>(schema.front_span) + kDeclaredAhead);
+}
+
+// Of a memory budget.
+static int64_t gridBytes(const SimplifyOptions& options) {
+  if (options.memory_bytes == 0) return Bricks::kGridBytes;
+  return std::min(options.memory_bytes / kGridPart, Bricks::kGridBytes);
+}
+
+// A cell of the sample with its vertices and what is noted of them, in bytes.
+static double bytesOfCell(const Schema& schema) {
+  size_t cell = 4 * sizeof(int64_t) + 1, vertex = 3 * sizeOf(schema.position_type) + kNotedBytes;
+  for (const Column& c : schema.cell_data) cell += c.bytesPerRow();
+  for (const Column& c : schema.fields) vertex += c.bytesPerRow();
+  return kGrowth * (static_cast<double>(cell) + static_cast<double>(vertex) / kCellsOfVertex);
+}
+
+// As many cells as a memory budget has room for, in the sample and in the window that has it whole.
+static double fittingCells(Schema schema, const SimplifyOptions& options) {
+  if (options.memory_bytes == 0) return kLargestSample;
+  schema.cell_count = -1;
+  schema.front_cells = kAnyFront;
+  SimplifyOptions any = options;
+  any.memory_bytes -= gridBytes(options);
+  any.window_cells = 0;
+  const auto bytes = static_cast<double>(any.memory_bytes);
+  const double window = bytes / static_cast<double>(Simplifier::windowCells(schema, any));
+  return kFilled * bytes / (window + bytesOfCell(schema));
+}
+
+static double sampleOf(const Schema& schema, const SimplifyOptions& options) {
+  const auto cells = static_cast<double>(schema.cell_count);
+  const double part = std::clamp(kPart * cells, kLeastSample, kLargestSample);
+  return std::min({part, cells, fittingCells(schema, options)});
+}
+
+bool Sampler::serves(const Schema& schema, const SimplifyOptions& options) {
   if (schema.cell_count <= 0 || schema.front_span < 0 || schema.front_span > kLargestSpan)
     return false;
   const auto is_float = [](const Column& c) { return isFloat(c.type); };
   if (!schema.hasBox() || std::none_of(schema.fields.begin(), schema.fields.end(), is_float))
     return false;
   const double volume = volumeOfBox(schema);
-  return std::isfinite(volume) && volume > 0;
+  if (!std::isfinite(volume) || volume <= 0) return false;
+  if (options.memory_bytes == 0) return true;
+  const uint64_t table = tableSize(schema) * sizeof(uint32_t);
+  return table <= static_cast<uint64_t>(options.memory_bytes) / 2 &&
+         sampleOf(schema, options) >= kLeastWorth;
 }
 
 // What a sample does not have: labelled faces, which say nothing of errors, and this front.
@@ -47,16 +95,13 @@ static Schema withoutFront(Schema schema) {
   return schema;
 }
 
-static double sampleOf(double cells) {
-  return std::min(std::clamp(kPart * cells, kLeastSample, kLargestSample), cells);
-}
-
-Sampler::Sampler(const Schema& schema)
+Sampler::Sampler(const Schema& schema, const SimplifyOptions& options)
     : schema_(withoutFront(schema)),
+      options_(options),
       sample_(schema_),
-      wanted_(sampleOf(static_cast<double>(schema.cell_count))),
-      bricks_(schema),
-      row_of_(std::bit_ceil(static_cast<uint64_t>(schema.front_span) + kDeclaredAhead), kNone) {}
+      wanted_(sampleOf(schema, options)),
+      bricks_(schema, gridBytes(options)),
+      row_of_(tableSize(schema), kNone) {}
 
 void Sampler::placeOf(const void* positions, size_t row, double place[3]) const {
   for (size_t i = 0; i < 3; ++i)
@@ -126,7 +171,8 @@ void Sampler::count(const BatchView& batch) {
 
 void Sampler::takeBricks() {
   const double share = wanted_ / static_cast<double>(schema_.cell_count);
-  bricks_.take(static_cast<size_t>(std::ceil(wanted_ / kBrick)), share);
+  const double brick = std::min(kBrick, wanted_ / kFewestBricks);
+  bricks_.take(static_cast<size_t>(std::ceil(wanted_ / brick)), share);
   brick_.resize(bricks_.size());
   most_ = kFullest * std::min(bricks_.usual(), static_cast<uint64_t>(kBrick));
 }
@@ -152,6 +198,11 @@ BatchView Sampler::mesh() {
     if (used_[row]) ++(cut_[row] ? brick_[brick_of_[row]].locked : brick_[brick_of_[row]].free);
   }
   return sample_.view();
+}
+
+int64_t Sampler::windowBytes() const {
+  const double sample = bytesOfCell(schema_) * static_cast<double>(sample_.cellCount());
+  return options_.memory_bytes - gridBytes(options_) - static_cast<int64_t>(sample);
 }
 
 // Of all cells of the sample the share that is left when `left` of its free vertices are.
@@ -226,10 +277,14 @@ class Survivors final : public Sink {
 
 }  // namespace
 
-Pilot Sampler::fly(const SimplifyOptions& options) {
+Pilot Sampler::fly() {
   const BatchView all = mesh();
   if (all.cell_count == 0) return {};
-  SimplifyOptions whole = options;
+  SimplifyOptions whole = options_;
+  if (options_.memory_bytes > 0) {
+    whole.memory_bytes = windowBytes();
+    if (whole.memory_bytes <= 0) return {};
+  }
   whole.window_cells = static_cast<int64_t>(all.cell_count);
   whole.cells = 0;
   whole.ratio = ratioFor(kLeft);
@@ -238,7 +293,7 @@ Pilot Sampler::fly(const SimplifyOptions& options) {
   simplifier.begin(schema());
   simplifier.put(all);
   simplifier.finish();
-  const auto wanted = static_cast<double>(Simplifier::targetCells(schema_, options));
+  const auto wanted = static_cast<double>(Simplifier::targetCells(schema_, options_));
   return pilot(wanted / static_cast<double>(schema_.cell_count));
 }
 

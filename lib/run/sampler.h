@@ -18,9 +18,10 @@ namespace tetstream {
 class Sampler {
  public:
   // Whether a stream tells what a sampler must know, its count, box and span, and has a field: the
-  // shape of the boundary alone asks for many cells where few samples are.
-  static bool serves(const Schema& schema);
-  explicit Sampler(const Schema& schema);
+  // shape of the boundary alone asks for many cells where few samples are. And whether a memory
+  // budget has room for a sample that is worth its time, with all that it takes.
+  static bool serves(const Schema& schema, const SimplifyOptions& options);
+  Sampler(const Schema& schema, const SimplifyOptions& options);
 
   // The events of the whole stream, in order: first all to be counted; then, when the bricks are
   // taken, all to be sampled.
@@ -30,11 +31,13 @@ class Sampler {
 
   // Then simplifies the sample, and tells how what is left of it is spread over the whole stream:
   // not known() where too little was met, or nothing could be simplified.
-  Pilot fly(const SimplifyOptions& options);
+  Pilot fly();
 
   // For fly, and to be looked at, when all is put. The sample as a stream of one batch:
   Schema schema() const;
   BatchView mesh();
+  // What the sample leaves of a memory budget, for the window that simplifies it.
+  int64_t windowBytes() const;
   // All vertices that are left of it.
   void countSurvivors(const BatchView& simplified);
 
@@ -58,6 +61,7 @@ class Sampler {
   Pilot pilot(double ratio) const;
 
   Schema schema_;
+  SimplifyOptions options_;
   Batch sample_;
   double wanted_;      // cells
   uint64_t most_ = 0;  // vertices of a brick

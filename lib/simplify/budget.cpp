@@ -36,11 +36,12 @@ constexpr double kLongStep = 3;
 constexpr double kGivenUp = 0.1;
 // With less the target is missed more often than without.
 constexpr double kLeastFronts = 1.5;
-// Of its share, what such a window may keep where memory is bounded. Where it keeps what its bound
-// leaves, detail at the beginning may leave next to nothing for the end: of bluntfin in 7 MB the
-// RMS error was 4.8 %, and the target was missed, for 0.12 %. Where it keeps its share alone those
-// of streams with an end that needs little are up to twice as large.
-constexpr double kTightShare = 2;
+// Of its share, what such a window may keep where memory is bounded and the stream is of few
+// windows: there those with an end that needs little have up to twice the error where it keeps its
+// share alone. Of longer streams, detail at the beginning may leave next to nothing for the end
+// where it keeps more: 1.5 million graded cells in 10 MB missed their target, with an RMS error of
+// 1.6 %, for 0.004 %.
+constexpr double kTightShare = 2, kFewHalfWindows = 8;
 
 double CommonBound::wanted(const Ledger& ledger) const {
   return std::max({static_cast<double>(target_.cells), target_.ratio * total(ledger), 1.0});
@@ -125,7 +126,8 @@ void CommonBound::spread(double due, const Ledger& ledger, Goal& goal) const {
     const double may_stay = share * due - kHeldBack - static_cast<double>(ledger.written);
     return ledger.front + static_cast<int64_t>(std::max(may_stay, 0.0));
   };
-  goal.cells = std::min(goal.cells, left(is_tight_ ? kTightShare : 1));
+  const bool is_short = total(ledger) < kFewHalfWindows * static_cast<double>(ledger.keep);
+  goal.cells = std::min(goal.cells, left(is_tight_ && is_short ? kTightShare : 1));
   goal.enough_cells = left(1 - kGivenUp);
 }
 

@@ -78,8 +78,8 @@ class UniformRatio final : public Budget {
 class CommonBound final : public Budget {
  public:
   // `is_tight`: memory is bounded. Then no bound is approached: patches of the few vertices that
-  // have an edge below a low one have more of a rim than a budget foresees; and a window may keep
-  // more than its share.
+  // have an edge below a low one have more of a rim than a budget foresees; and one of few windows
+  // may keep more than its share.
   CommonBound(const Target& target, int64_t total, const Pilot& pilot, bool is_tight = false)
       : Budget(target, total), pilot_(pilot), is_tight_(is_tight) {}
 

@@ -41,25 +41,31 @@ std::map<uint32_t, uint64_t> filled(const Bricks& bricks, const std::vector<Poin
 }
 
 TEST(Bricks, AreFilledAlikeWhereverVerticesLie) {
-  for (double power : {1.0, 2.0})
-    for (double thickness : {1.0, 1e-3}) {
-      SCOPED_TRACE(::testing::Message() << "power " << power << ", thickness " << thickness);
-      const Schema schema = boxed({-5, 1e3, 7}, {-4, 1e3 + 2, 7 + thickness});
-      const std::vector<Point> points = scattered(schema, 100000, power);
-      Bricks bricks(schema);
-      for (const Point& p : points) bricks.count(p.place);
-      bricks.take(20, 0.1);
-      EXPECT_EQ(bricks.usual(), 500u);
-      EXPECT_GT(bricks.size(), 15u);
-      EXPECT_LE(bricks.size(), 20u);
-      const auto counts = filled(bricks, points);
-      EXPECT_EQ(counts.size(), bricks.size() + 1);  // and none
-      for (const auto& [brick, count] : counts) {
-        if (brick == Bricks::kNone) continue;
-        EXPECT_GE(count, 125u) << brick;  // the smaller half of one that had too many
-        EXPECT_LE(count, 700u) << brick;
-      }
+  struct Case {
+    double power, thickness;
+    int64_t bytes;
+  };
+  const int64_t most = Bricks::kGridBytes;
+  for (const auto& [power, thickness, bytes] :
+       {Case{1, 1, most}, {2, 1, most}, {1, 1e-3, most}, {2, 1e-3, most}, {1, 1, 70000}}) {
+    SCOPED_TRACE(::testing::Message()
+                 << "power " << power << ", thickness " << thickness << ", bytes " << bytes);
+    const Schema schema = boxed({-5, 1e3, 7}, {-4, 1e3 + 2, 7 + thickness});
+    const std::vector<Point> points = scattered(schema, 100000, power);
+    Bricks bricks(schema, bytes);
+    for (const Point& p : points) bricks.count(p.place);
+    bricks.take(20, 0.1);
+    EXPECT_EQ(bricks.usual(), 500u);
+    EXPECT_GT(bricks.size(), 15u);
+    EXPECT_LE(bricks.size(), 20u);
+    const auto counts = filled(bricks, points);
+    EXPECT_EQ(counts.size(), bricks.size() + 1);  // and none
+    for (const auto& [brick, count] : counts) {
+      if (brick == Bricks::kNone) continue;
+      EXPECT_GE(count, 125u) << brick;  // the smaller half of one that had too many
+      EXPECT_LE(count, 700u) << brick;
     }
+  }
 }
 
 // In one cell of the grid nobody knows where the vertices lie: a part of it is taken.

@@ -68,7 +68,7 @@ std::array<Place, 4> placesOf(const BatchView& batch, size_t cell) {
 TEST(Sampler, TakesWholeBricksAndHoldsTheirCuts) {
   TestMesh mesh = halfDetailed(slowRun() ? 20 : 40, 12);
   Swept swept(mesh);
-  Sampler sampler(swept.stream.schema());
+  Sampler sampler(swept.stream.schema(), {});
   std::map<Place, int> uses, sampled;  // cells of a vertex
   std::vector<Place> places;
   size_t cells = 0;
@@ -107,7 +107,7 @@ TEST(Sampler, TakesNoWrongCellsWhereTheSpanIsALie) {
   schema.front_span = 0;
   BatchView all = mesh.view(), vertices = all, others = all, cells = all;
   vertices.cell_count = cells.vertex_count = others.cell_count = 0;
-  Sampler sampler(schema);
+  Sampler sampler(schema, {});
   sampler.count(vertices);
   sampler.takeBricks();
   sampler.put(vertices);
@@ -131,32 +131,33 @@ TEST(Sampler, TakesNoWrongCellsWhereTheSpanIsALie) {
 // All of the mesh lies in a corner of the box, in one cell of the grid, where a brick is cut
 // without knowing. If it has any of the mesh it has all, and takes four times what it should have.
 TEST(Sampler, TakesNoMoreThanABrickOfWhatLiesInOnePlace) {
-  TestMesh mesh = halfDetailed(12, 12);
-  const uint64_t most = 4 * (mesh.vertexCount() / 5);  // of bricks of 2500 cells
   size_t met = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    Swept swept(mesh);
-    Schema schema = swept.stream.schema();
-    for (size_t i = 0; i < 3; ++i)
-      (corner >> i & 1 ? schema.box_min[i] : schema.box_max[i]) += corner >> i & 1 ? -1e9 : 1e9;
-    Sampler sampler(schema);
-    read(swept, sampler, [](const BatchView&) {});
-    const size_t vertices = sampler.mesh().vertex_count;
-    EXPECT_TRUE(vertices == 0 || vertices == most) << vertices << " of " << most;
-    met += vertices > 0;
-    EXPECT_FALSE(sampler.fly({}).known());  // of one place
-  }
+  for (int length : {12, 13, 14})  // other numbers of vertices: cut elsewhere
+    for (int corner = 0; corner < 8; ++corner) {
+      TestMesh mesh = halfDetailed(length, 12);
+      const uint64_t most = 4 * (mesh.vertexCount() / 16);  // of sixteen bricks
+      Swept swept(mesh);
+      Schema schema = swept.stream.schema();
+      for (size_t i = 0; i < 3; ++i)
+        (corner >> i & 1 ? schema.box_min[i] : schema.box_max[i]) += corner >> i & 1 ? -1e9 : 1e9;
+      Sampler sampler(schema, {});
+      read(swept, sampler, [](const BatchView&) {});
+      const size_t vertices = sampler.mesh().vertex_count;
+      EXPECT_TRUE(vertices == 0 || vertices == most) << vertices << " of " << most;
+      met += vertices > 0;
+      EXPECT_FALSE(sampler.fly().known());  // of one place
+    }
   EXPECT_GT(met, 0u);
 }
 
 TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   TestMesh mesh = halfDetailed(slowRun() ? 30 : 60, slowRun() ? 14 : 16);
   Swept swept(mesh);
-  Sampler sampler(swept.stream.schema());
-  read(swept, sampler, [](const BatchView&) {});
   SimplifyOptions options;
   options.ratio = 0.2;
-  const Pilot pilot = sampler.fly(options);
+  Sampler sampler(swept.stream.schema(), options);
+  read(swept, sampler, [](const BatchView&) {});
+  const Pilot pilot = sampler.fly();
   ASSERT_TRUE(pilot.known());
   EXPECT_EQ(pilot.shareOf(0), 0);
   EXPECT_EQ(pilot.shareOf(1), 1);
@@ -169,13 +170,13 @@ TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
 // all of them, and one of which nothing was left there is not given up.
 TEST(Sampler, SpreadsTheCellsForAnyTarget) {
   TestMesh mesh = halfDetailed(slowRun() ? 30 : 60, slowRun() ? 14 : 16);
-  Swept swept(mesh);
-  Sampler sampler(swept.stream.schema());
-  read(swept, sampler, [](const BatchView&) {});
   for (double ratio : {0.9, 0.6, 0.01}) {
     SimplifyOptions options;
     options.ratio = ratio;
-    const Pilot pilot = sampler.fly(options);
+    Swept swept(mesh);
+    Sampler sampler(swept.stream.schema(), options);
+    read(swept, sampler, [](const BatchView&) {});
+    const Pilot pilot = sampler.fly();
     ASSERT_TRUE(pilot.known());
     for (double part = 0; part < 1; part += 0.125) {
       const double share = pilot.shareOf(part + 0.125) - pilot.shareOf(part);
@@ -189,7 +190,7 @@ TEST(Sampler, ServesStreamsThatTellEnough) {
   TestMesh mesh = halfDetailed(4, 4);
   const Swept swept(mesh);
   const Schema schema = swept.stream.schema();
-  EXPECT_TRUE(Sampler::serves(schema));
+  EXPECT_TRUE(Sampler::serves(schema, {}));
   for (int k = 0; k < 5; ++k) {
     Schema other = schema;
     if (k == 0) other.cell_count = -1;
@@ -197,13 +198,31 @@ TEST(Sampler, ServesStreamsThatTellEnough) {
     if (k == 2) other.front_span = int64_t{1} << 40;  // whoever claims so
     if (k == 3) other.box_min.clear();
     if (k == 4) other.box_max[1] = other.box_min[1];
-    EXPECT_FALSE(Sampler::serves(other)) << k;
+    EXPECT_FALSE(Sampler::serves(other, {})) << k;
   }
   Schema bare = schema;
   bare.fields.clear();
   bare.box_min.resize(3);
   bare.box_max.resize(3);
-  EXPECT_FALSE(Sampler::serves(bare));
+  EXPECT_FALSE(Sampler::serves(bare, {}));
+}
+
+// With a budget there is room for a sample that tells something, and for the rows of a span.
+TEST(Sampler, ServesWhereABudgetHasRoom) {
+  TestMesh mesh = halfDetailed(12, 12);
+  const Swept swept(mesh);
+  Schema schema = swept.stream.schema();
+  SimplifyOptions options;
+  for (int64_t budget : {1000, 1000000}) {
+    options.memory_bytes = budget;
+    EXPECT_FALSE(Sampler::serves(schema, options)) << budget;
+  }
+  options.memory_bytes = 7000000;
+  EXPECT_TRUE(Sampler::serves(schema, options));
+  schema.front_span = 1 << 20;
+  EXPECT_FALSE(Sampler::serves(schema, options));
+  options.memory_bytes = 70000000;
+  EXPECT_TRUE(Sampler::serves(schema, options));
 }
 
 // Cells that grow with y and z, to some thousand times what they are at first.
@@ -215,35 +234,63 @@ void grade(TestMesh& mesh, double width) {
     }
 }
 
+struct SampledRun {
+  size_t pilots = 0;  // how often it told of one
+  Report report;
+};
+SampledRun simplifiedAsSampled(TestMesh& mesh, const SimplifyOptions& options) {
+  RunOptions all;
+  all.simplify = options;
+  all.simplify.ratio = 0.2;
+  Recorder out;
+  SampledRun result;
+  double told = 0;
+  SimplifyRun run(all, out, [&](const Progress& p) {
+    result.pilots += p.phase == std::string("pilot");
+    EXPECT_GE(p.fraction, told);
+    told = p.fraction;
+  });
+  Input input;
+  input.indexed = std::make_unique<MemorySource>(mesh.schema, mesh.view());
+  run.run(input);
+  result.report = run.report();
+  EXPECT_EQ(result.report.reached, "ratio");
+  return result;
+}
+
+// Returns the error with the sample over that without.
+double expectSampled(TestMesh& mesh, SimplifyOptions options) {
+  const SampledRun sampled = simplifiedAsSampled(mesh, options);
+  EXPECT_GT(sampled.pilots, 0u);
+  if (slowRun()) return 0;
+  options.pilot = PilotUse::kNever;
+  const SampledRun plain = simplifiedAsSampled(mesh, options);
+  EXPECT_EQ(plain.pilots, 0u);
+  return sampled.report.estimated_error / plain.report.estimated_error;
+}
+
 // Larger than a pilot reads whole: the sample spares the half that needs cells, also where most
 // cells lie in a small part of the box.
 TEST(SimplifyRun, SamplesALongStream) {
   TestMesh mesh = halfDetailed(49, 30);
   grade(mesh, 30);
   ASSERT_GT(mesh.cellCount(), size_t{1} << 18);
-  double errors[2];
-  for (PilotUse use : {PilotUse::kAuto, PilotUse::kNever}) {
-    if (slowRun() && use == PilotUse::kNever) return;
-    RunOptions options;
-    options.simplify.ratio = 0.2;
-    options.simplify.window_cells = 40000;
-    options.simplify.pilot = use;
-    Recorder out;
-    size_t pilots = 0;
-    double told = 0;
-    SimplifyRun run(options, out, [&](const Progress& p) {
-      pilots += p.phase == std::string("pilot");
-      EXPECT_GE(p.fraction, told);
-      told = p.fraction;
-    });
-    Input input;
-    input.indexed = std::make_unique<MemorySource>(mesh.schema, mesh.view());
-    run.run(input);
-    EXPECT_EQ(pilots > 0, use == PilotUse::kAuto);
-    EXPECT_EQ(run.report().reached, "ratio");
-    errors[use == PilotUse::kNever] = run.report().estimated_error;
+  SimplifyOptions options;
+  options.window_cells = 40000;
+  EXPECT_LT(expectSampled(mesh, options), 0.85);
+}
+
+TEST(SimplifyRun, SamplesWhatABudgetHasNoRoomFor) {
+  TestMesh mesh = halfDetailed(slowRun() ? 120 : 200, 14);
+  SimplifyOptions options;
+  options.memory_bytes = 4000000;
+  EXPECT_LT(expectSampled(mesh, options), 0.92);
+  // A budget that has room for all of it, for a quarter, or for hardly a sample.
+  for (int64_t budget : {100000000, 12000000, 2000000}) {
+    if (slowRun()) break;
+    options.memory_bytes = budget;
+    EXPECT_EQ(simplifiedAsSampled(mesh, options).pilots, 0u) << budget;
   }
-  EXPECT_LT(errors[0], 0.85 * errors[1]);
 }
 
 }  // namespace
