@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <limits>
 
 #include "mix.h"
@@ -19,6 +20,7 @@ static int longestOf(const double extent[3]) {
 // time, the first one highest, so that each piece is a run of codes.
 Bricks::Bricks(const Schema& schema, int64_t most_bytes) {
   const uint64_t count = std::bit_floor(static_cast<uint64_t>(most_bytes) / sizeof(cells_[0]));
+  assert(count > 0);
   cells_.resize(count + 1);
   double side[3];
   for (size_t i = 0; i < 3; ++i) {

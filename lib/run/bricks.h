@@ -20,7 +20,7 @@ class Bricks {
   static constexpr uint32_t kNone = 0xffffffffu;
   static constexpr int64_t kGridBytes = 8 << 18;
 
-  // Of the box of a stream; the grid takes at most so many bytes.
+  // Of the box of a stream; the grid has about so many bytes at most, of 8 or more.
   explicit Bricks(const Schema& schema, int64_t most_bytes = kGridBytes);
 
   // First every vertex,

@@ -48,17 +48,24 @@ static int64_t gridBytes(const SimplifyOptions& options) {
   return std::min(options.memory_bytes / kGridPart, Bricks::kGridBytes);
 }
 
-// A cell of the sample with its vertices and what is noted of them, in bytes.
-static double bytesOfCell(const Schema& schema) {
+// What a sample does not have: labelled faces, which say nothing of errors, and this front.
+static Schema withoutFront(Schema schema) {
+  schema.front_width = schema.front_span = schema.front_cells = schema.face_count = -1;
+  return schema;
+}
+
+// Rows of the sample with what is noted of them, in bytes.
+static double sampleBytes(const Schema& schema, double cells, double vertices) {
   size_t cell = 4 * sizeof(int64_t) + 1, vertex = 3 * sizeOf(schema.position_type) + kNotedBytes;
   for (const Column& c : schema.cell_data) cell += c.bytesPerRow();
   for (const Column& c : schema.fields) vertex += c.bytesPerRow();
-  return kGrowth * (static_cast<double>(cell) + static_cast<double>(vertex) / kCellsOfVertex);
+  return kGrowth * (cells * static_cast<double>(cell) + vertices * static_cast<double>(vertex));
 }
 
 // As many cells as a memory budget has room for, in the sample and in the window that has it whole.
-static double fittingCells(Schema schema, const SimplifyOptions& options) {
+static double fittingCells(const Schema& stream, const SimplifyOptions& options) {
   if (options.memory_bytes == 0) return kLargestSample;
+  Schema schema = withoutFront(stream);
   schema.cell_count = -1;
   schema.front_cells = kAnyFront;
   SimplifyOptions any = options;
@@ -66,7 +73,7 @@ static double fittingCells(Schema schema, const SimplifyOptions& options) {
   any.window_cells = 0;
   const auto bytes = static_cast<double>(any.memory_bytes);
   const double window = bytes / static_cast<double>(Simplifier::windowCells(schema, any));
-  return kFilled * bytes / (window + bytesOfCell(schema));
+  return kFilled * bytes / (window + sampleBytes(schema, 1, 1 / kCellsOfVertex));
 }
 
 static double sampleOf(const Schema& schema, const SimplifyOptions& options) {
@@ -89,19 +96,13 @@ bool Sampler::serves(const Schema& schema, const SimplifyOptions& options) {
          sampleOf(schema, options) >= kLeastWorth;
 }
 
-// What a sample does not have: labelled faces, which say nothing of errors, and this front.
-static Schema withoutFront(Schema schema) {
-  schema.front_width = schema.front_span = schema.front_cells = schema.face_count = -1;
-  return schema;
-}
-
 Sampler::Sampler(const Schema& schema, const SimplifyOptions& options)
     : schema_(withoutFront(schema)),
       options_(options),
       sample_(schema_),
       wanted_(sampleOf(schema, options)),
       bricks_(schema, gridBytes(options)),
-      row_of_(tableSize(schema), kNone) {}
+      rows_(tableSize(schema)) {}
 
 void Sampler::placeOf(const void* positions, size_t row, double place[3]) const {
   for (size_t i = 0; i < 3; ++i)
@@ -174,6 +175,7 @@ void Sampler::takeBricks() {
   const double brick = std::min(kBrick, wanted_ / kFewestBricks);
   bricks_.take(static_cast<size_t>(std::ceil(wanted_ / brick)), share);
   brick_.resize(bricks_.size());
+  row_of_.assign(rows_, kNone);
   most_ = kFullest * std::min(bricks_.usual(), static_cast<uint64_t>(kBrick));
 }
 
@@ -201,8 +203,10 @@ BatchView Sampler::mesh() {
 }
 
 int64_t Sampler::windowBytes() const {
-  const double sample = bytesOfCell(schema_) * static_cast<double>(sample_.cellCount());
-  return options_.memory_bytes - gridBytes(options_) - static_cast<int64_t>(sample);
+  const auto cells = static_cast<double>(sample_.cellCount());
+  const auto vertices = static_cast<double>(sample_.vertexCount());
+  return options_.memory_bytes - gridBytes(options_) -
+         static_cast<int64_t>(sampleBytes(schema_, cells, vertices));
 }
 
 // Of all cells of the sample the share that is left when `left` of its free vertices are.

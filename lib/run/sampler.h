@@ -19,7 +19,7 @@ class Sampler {
  public:
   // Whether a stream tells what a sampler must know, its count, box and span, and has a field: the
   // shape of the boundary alone asks for many cells where few samples are. And whether a memory
-  // budget has room for a sample that is worth its time, with all that it takes.
+  // budget has room for a sample of some size, with all that it takes.
   static bool serves(const Schema& schema, const SimplifyOptions& options);
   Sampler(const Schema& schema, const SimplifyOptions& options);
 
@@ -66,6 +66,7 @@ class Sampler {
   double wanted_;      // cells
   uint64_t most_ = 0;  // vertices of a brick
   Bricks bricks_;
+  uint64_t rows_;                  // of the table
   std::vector<uint32_t> row_of_;   // of a rank, modulo the size, a power of two; or kNone
   std::vector<uint64_t> rank_of_;  // of a row
   std::vector<uint32_t> brick_of_;

@@ -34,14 +34,12 @@ constexpr double kLongStep = 3;
 // Such a window gives up this share of its cells at most for others: a stream is seldom as it
 // began.
 constexpr double kGivenUp = 0.1;
-// With less the target is missed more often than without.
-constexpr double kLeastFronts = 1.5;
 // Of its share, what such a window may keep where memory is bounded and the stream is of few
 // windows: there those with an end that needs little have up to twice the error where it keeps its
 // share alone. Of longer streams, detail at the beginning may leave next to nothing for the end
 // where it keeps more: 1.5 million graded cells in 10 MB missed their target, with an RMS error of
 // 1.6 %, for 0.004 %.
-constexpr double kTightShare = 2, kFewHalfWindows = 8;
+constexpr double kTightShare = 2;
 
 double CommonBound::wanted(const Ledger& ledger) const {
   return std::max({static_cast<double>(target_.cells), target_.ratio * total(ledger), 1.0});
@@ -103,7 +101,7 @@ void CommonBound::changeUnits(double rescaled) {
   written_at_1_ *= std::pow(rescaled, kDecay);
 }
 
-// A window that is little more than its front has too few cells to simplify for a ratio.
+// With fewer fronts targets are missed more often.
 bool CommonBound::spreads(const Ledger& ledger) const {
   return countsCells() && !(pilot_.bound > 0) &&
          static_cast<double>(ledger.live) >= kLeastFronts * static_cast<double>(ledger.front);
@@ -126,7 +124,7 @@ void CommonBound::spread(double due, const Ledger& ledger, Goal& goal) const {
     const double may_stay = share * due - kHeldBack - static_cast<double>(ledger.written);
     return ledger.front + static_cast<int64_t>(std::max(may_stay, 0.0));
   };
-  const bool is_short = total(ledger) < kFewHalfWindows * static_cast<double>(ledger.keep);
+  const bool is_short = total_ >= 0 && total_ < kFewWindows * ledger.window;
   goal.cells = std::min(goal.cells, left(is_tight_ && is_short ? kTightShare : 1));
   goal.enough_cells = left(1 - kGivenUp);
 }

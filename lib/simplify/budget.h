@@ -22,6 +22,7 @@ struct Ledger {
   double error = 0, error_limit = 0;  // of all that was read, made and allowed
   bool error_met = false;             // a collapse was refused for it
   bool flips = false;                 // after every pass cells are flipped
+  int64_t window = 0;                 // cells that there is room for
 };
 
 // When to stop; 0: not given. The first that is reached ends the run.

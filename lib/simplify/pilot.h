@@ -10,6 +10,11 @@ namespace tetstream {
 // interpolation follows (squared error times volume ~ n^(-7/3) for n cells).
 constexpr double kDecay = 3.0 / 7;
 
+// Windows of bounded memory that come to know of a stream of so few what nobody tells them.
+constexpr int64_t kFewWindows = 4;
+// A window that is little more than its front has too few cells to simplify for a share.
+constexpr double kLeastFronts = 1.5;
+
 // Of a run with the whole mesh in its window, or of a sample: how the cells that are left are
 // spread over the stream; and of the whole mesh the error at which the target is reached. What a
 // sample says of that may be wrong by orders of magnitude, as its cuts are held.

@@ -220,8 +220,9 @@ TEST(Sampler, ServesWhereABudgetHasRoom) {
   options.memory_bytes = 7000000;
   EXPECT_TRUE(Sampler::serves(schema, options));
   schema.front_span = 1 << 20;
+  schema.front_width = 2000;
   EXPECT_FALSE(Sampler::serves(schema, options));
-  options.memory_bytes = 70000000;
+  options.memory_bytes = 17000000;
   EXPECT_TRUE(Sampler::serves(schema, options));
 }
 
@@ -241,7 +242,6 @@ struct SampledRun {
 SampledRun simplifiedAsSampled(TestMesh& mesh, const SimplifyOptions& options) {
   RunOptions all;
   all.simplify = options;
-  all.simplify.ratio = 0.2;
   Recorder out;
   SampledRun result;
   double told = 0;
@@ -276,20 +276,30 @@ TEST(SimplifyRun, SamplesALongStream) {
   grade(mesh, 30);
   ASSERT_GT(mesh.cellCount(), size_t{1} << 18);
   SimplifyOptions options;
+  options.ratio = 0.2;
   options.window_cells = 40000;
   EXPECT_LT(expectSampled(mesh, options), 0.85);
 }
 
-TEST(SimplifyRun, SamplesWhatABudgetHasNoRoomFor) {
+TEST(SimplifyRun, SamplesWithABudget) {
   TestMesh mesh = halfDetailed(slowRun() ? 120 : 200, 14);
   SimplifyOptions options;
+  options.ratio = 0.2;
   options.memory_bytes = 4000000;
   EXPECT_LT(expectSampled(mesh, options), 0.92);
+  const auto expectNotSampled = [&](const SimplifyOptions& o) {
+    if (slowRun()) return;
+    EXPECT_EQ(simplifiedAsSampled(mesh, o).pilots, 0u) << o.ratio << ", " << o.memory_bytes;
+  };
+  for (double ratio : {0.04, 0.01}) {  // too strong for so small a sample
+    SimplifyOptions strong = options;
+    strong.ratio = ratio;
+    expectNotSampled(strong);
+  }
   // A budget that has room for all of it, for a quarter, or for hardly a sample.
   for (int64_t budget : {100000000, 12000000, 2000000}) {
-    if (slowRun()) break;
     options.memory_bytes = budget;
-    EXPECT_EQ(simplifiedAsSampled(mesh, options).pilots, 0u) << budget;
+    expectNotSampled(options);
   }
 }
 

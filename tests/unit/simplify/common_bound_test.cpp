@@ -278,7 +278,8 @@ TEST(CommonBound, LeavesCellsForOtherWindows) {
       for (const int64_t windows : {3, 5}) {
         const int64_t cells = 100000 * windows;
         CommonBound budget({0.1, 0, 0}, cells, pilot, is_tight);
-        const Ledger first = {100000, 0, 10000, 100000, 50000};
+        Ledger first = {100000, 0, 10000, 100000, 50000};
+        first.window = 100000;
         budget.goalOf(first);
         budget.learn(1e-6, first, first, 0);
         const double part = 90000.0 / static_cast<double>(cells);
