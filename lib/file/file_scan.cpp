@@ -239,41 +239,12 @@ void FileScan::numbers(Number* out, size_t count, const char* what) {
   }
 }
 
-int64_t FileScan::integer(const char* what) {
-  int64_t value;
-  integers(&value, 1, what);
-  return value;
-}
+template void FileScan::numbers(int64_t* out, size_t count, const char* what);
+template void FileScan::numbers(double* out, size_t count, const char* what);
 
-double FileScan::real(const char* what) {
-  double value;
-  reals(&value, 1, what);
-  return value;
-}
-
-void FileScan::integers(int64_t* out, size_t count, const char* what) {
-  numbers(out, count, what);
-}
-
-void FileScan::reals(double* out, size_t count, const char* what) {
-  numbers(out, count, what);
-}
-
-void FileScan::checkRange(int64_t value, const char* what, int64_t least, int64_t most) const {
-  if (value < least || value > most)
-    failBad(textOf("%s is %lld, not %lld to %lld", what, static_cast<long long>(value),
-                   static_cast<long long>(least), static_cast<long long>(most)));
-}
-
-int64_t FileScan::integer(const char* what, int64_t least, int64_t most) {
-  const int64_t value = integer(what);
-  checkRange(value, what, least, most);
-  return value;
-}
-
-void FileScan::integers(int64_t* out, size_t count, const char* what, int64_t least, int64_t most) {
-  integers(out, count, what);
-  for (size_t i = 0; i < count; ++i) checkRange(out[i], what, least, most);
+void FileScan::failRange(int64_t value, const char* what, int64_t least, int64_t most) const {
+  failBad(textOf("%s is %lld, not %lld to %lld", what, static_cast<long long>(value),
+                 static_cast<long long>(least), static_cast<long long>(most)));
 }
 
 std::string FileScan::text(const char* what) {

@@ -32,13 +32,38 @@ class FileScan {
   // True, with nothing taken, if no word is left before the end of the line.
   bool lineEnds();
 
-  int64_t integer(const char* what);
-  int64_t integer(const char* what, int64_t least, int64_t most);
-  double real(const char* what);
+  int64_t integer(const char* what) {
+    int64_t value;
+    integers(&value, 1, what);
+    return value;
+  }
+  int64_t integer(const char* what, int64_t least, int64_t most) {
+    int64_t value;
+    integers(&value, 1, what, least, most);
+    return value;
+  }
+  double real(const char* what) {
+    double value;
+    reals(&value, 1, what);
+    return value;
+  }
   // Many in a row, which is faster.
-  void integers(int64_t* out, size_t count, const char* what);
-  void integers(int64_t* out, size_t count, const char* what, int64_t least, int64_t most);
-  void reals(double* out, size_t count, const char* what);
+  void integers(int64_t* out, size_t count, const char* what) { take(out, count, what); }
+  void integers(int64_t* out, size_t count, const char* what, int64_t least, int64_t most) {
+    const int64_t* const here = integersHere(out, count, what);
+    for (size_t i = 0; i < count; ++i) {
+      if (here[i] < least || here[i] > most) failRange(here[i], what, least, most);
+      out[i] = here[i];
+    }
+  }
+  void reals(double* out, size_t count, const char* what) { take(out, count, what); }
+  // The next ones where they lie, until the next call, or else in `room`.
+  const int64_t* integersHere(int64_t* room, size_t count, const char* what) {
+    if (const uint64_t* here = ahead_ ? ahead_->takeHere(count) : nullptr)
+      return reinterpret_cast<const int64_t*>(here);
+    numbers(room, count, what);
+    return room;
+  }
   // Says that so many rows come, which integers, reals and passLine are to read, in their order and
   // nothing else: other threads may begin. Where the number of rows is not known, it may be larger.
   void expectRows(uint64_t rows, const RowPattern& pattern);
@@ -93,7 +118,7 @@ class FileScan {
     if (ahead_) stopAhead();
   }
   void stopAhead();
-  void checkRange(int64_t value, const char* what, int64_t least, int64_t most) const;
+  [[noreturn]] void failRange(int64_t value, const char* what, int64_t least, int64_t most) const;
   bool passBlanks();
   template <class Number>
   size_t plainNumbers(Number* out, size_t count);
@@ -103,6 +128,15 @@ class FileScan {
   size_t otherNumbers(Number* out, size_t count, const char* what);
   template <class Number>
   void numbers(Number* out, size_t count, const char* what);
+  // Of a few that were read ahead: a copy that is inlined.
+  template <class Number>
+  void take(Number* out, size_t count, const char* what) {
+    const uint64_t* const here = ahead_ ? ahead_->takeHere(count) : nullptr;
+    if (here)
+      std::memcpy(out, here, count * sizeof *out);
+    else
+      numbers(out, count, what);
+  }
   size_t wordSize();
   [[noreturn]] void failWord(std::string_view word, const char* what) const;
 

@@ -44,14 +44,12 @@ void readBinary(FileScan& file, bool swapped, Wide* out, size_t count, size_t wi
 
 }  // namespace
 
-void NumberScan::integers(int64_t* out, size_t count, size_t width, const char* what) {
-  if (binary_) return readBinary<int32_t, int64_t>(file_, swapped_, out, count, width, what);
-  file_.integers(out, count, what);
+void NumberScan::binaryIntegers(int64_t* out, size_t count, size_t width, const char* what) {
+  readBinary<int32_t, int64_t>(file_, swapped_, out, count, width, what);
 }
 
-void NumberScan::reals(double* out, size_t count, size_t width, const char* what) {
-  if (binary_) return readBinary<float, double>(file_, swapped_, out, count, width, what);
-  file_.reals(out, count, what);
+void NumberScan::binaryReals(double* out, size_t count, size_t width, const char* what) {
+  readBinary<float, double>(file_, swapped_, out, count, width, what);
 }
 
 uint64_t NumberScan::count(size_t width, size_t least_bytes, const char* what) {

@@ -18,8 +18,24 @@ class NumberScan {
   bool binary() const { return binary_; }
 
   // `count` numbers, each of `width` bytes, 4 or 8, if they are binary.
-  void integers(int64_t* out, size_t count, size_t width, const char* what);
-  void reals(double* out, size_t count, size_t width, const char* what);
+  void integers(int64_t* out, size_t count, size_t width, const char* what) {
+    if (binary_)
+      binaryIntegers(out, count, width, what);
+    else
+      file_.integers(out, count, what);
+  }
+  void reals(double* out, size_t count, size_t width, const char* what) {
+    if (binary_)
+      binaryReals(out, count, width, what);
+    else
+      file_.reals(out, count, what);
+  }
+  // Where they lie, until the next call, or else in `room`.
+  const int64_t* integersHere(int64_t* room, size_t count, size_t width, const char* what) {
+    if (!binary_) return file_.integersHere(room, count, what);
+    binaryIntegers(room, count, width, what);
+    return room;
+  }
   int64_t integer(size_t width, const char* what) {
     int64_t value;
     integers(&value, 1, width, what);
@@ -37,6 +53,9 @@ class NumberScan {
   void pass(const RowsPlace& rows, const char* what) { file_.skipTo(rows.end(), what); }
 
  private:
+  void binaryIntegers(int64_t* out, size_t count, size_t width, const char* what);
+  void binaryReals(double* out, size_t count, size_t width, const char* what);
+
   FileScan& file_;
   bool binary_ = false, swapped_ = false;
 };

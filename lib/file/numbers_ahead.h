@@ -22,10 +22,17 @@ class NumbersAhead {
     static_assert(sizeof(Number) == sizeof(uint64_t));
     if (taken_ == held_ && !next()) return 0;
     const size_t n = count < held_ - taken_ ? count : held_ - taken_;
-    std::memcpy(out, pieces_->numbers() + taken_, n * sizeof(Number));
-    taken_ += n;
-    line_is_passed_ = false;
+    std::memcpy(out, takeHere(n), n * sizeof(Number));
     return n;
+  }
+  // The next `count` where they lie, until the next call; null, with nothing taken, if they are not
+  // all there.
+  const uint64_t* takeHere(size_t count) {
+    if (held_ - taken_ < count) return nullptr;
+    const uint64_t* const numbers = pieces_->numbers() + taken_;
+    taken_ += count;
+    line_is_passed_ = false;
+    return numbers;
   }
   // The rest of the line of a row of which everything was taken.
   void passLine();

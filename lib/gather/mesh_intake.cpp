@@ -23,7 +23,7 @@ MeshIntake::MeshIntake(const FileScan& file, const ReadOptions& options, ScalarT
       options_(options),
       name_(file.name()),
       mesh_(std::make_unique<MeshSpool>(position_type, options.temp_dir, options.threads.tasks)),
-      held_cells_(4 * (kRowsAtOnce + kMostSplit)) {}
+      held_cells_(4 * kRowsAtOnce) {}
 
 void MeshIntake::addLabels(const char* name, bool wide, bool sure) {
   const ScalarType type = wide ? ScalarType::kInt64 : ScalarType::kInt32;
@@ -153,8 +153,8 @@ void MeshIntake::placeCells(CellKind kind, PlacedCellsPlan plan) {
   mesh_->placeCells(count, tetstream::placeCells(std::move(window), std::move(plan)));
 }
 
-size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t* labels,
-                           int64_t number) {
+size_t MeshIntake::addOtherCell(CellKind kind, const int64_t* corners, const int64_t* labels,
+                                int64_t number) {
   if (kind.shape != CellShape::kTetra && !options_.split)
     file_.failHere(Status::kUnsupported, "cell " + std::to_string(number) + " is a " +
                                              nameOf(kind.shape) + "; " + kOnlyTetrahedra);
@@ -170,8 +170,7 @@ size_t MeshIntake::addCell(CellKind kind, const int64_t* corners, const int64_t*
   quadratic_ += kind.nodes > cornersOf(kind.shape);
   for (int c = 0; c < cornersOf(kind.shape); ++c)
     largest_corner_ = std::max(largest_corner_, corners[c]);
-  for (size_t k = 0; k < labels_.size(); ++k) takeLabel(labels_[k], labels[k], count, number);
-  if (held_ >= kRowsAtOnce) writeHeld();
+  takeLabels(labels, count, number);
   return count;
 }
 

@@ -38,7 +38,14 @@ class MeshIntake {
   // A cell of three dimensions, by its corners' ranks, with a value per column of labels; returns
   // how many tetrahedra it has become. Throws kUnsupported, naming the cell, if it is none and is
   // not to be split. `number` is its number in the file, for messages.
-  size_t addCell(CellKind kind, const int64_t* corners, const int64_t* labels, int64_t number);
+  size_t addCell(CellKind kind, const int64_t* corners, const int64_t* labels, int64_t number) {
+    if (kind.shape != CellShape::kTetra || kind.nodes != 4)
+      return addOtherCell(kind, corners, labels, number);
+    for (int c = 0; c < 4; ++c) largest_corner_ = std::max(largest_corner_, corners[c]);
+    holdCell(corners);
+    takeLabels(labels, 1, number);
+    return 1;
+  }
   void addFace(CellKind kind, const int64_t* corners, int64_t label);
 
   // Told once each, at the end, with how many there were.
@@ -90,7 +97,16 @@ class MeshIntake {
     std::shared_ptr<RowReader> placed;
     uint64_t placed_rows = 0;
   };
+  size_t addOtherCell(CellKind kind, const int64_t* corners, const int64_t* labels, int64_t number);
   void takeLabel(Labels& labels, int64_t label, size_t count, int64_t number);
+  // Of a cell that has become so many, of every column.
+  void takeLabels(const int64_t* labels, size_t count, int64_t number) {
+    for (size_t k = 0; k < labels_.size(); ++k)
+      if (labels[k] == 0 && !labels_[k].any)
+        labels_[k].zeros += count;
+      else
+        takeLabel(labels_[k], labels[k], count, number);
+  }
   bool takeZeros(Labels& labels, uint64_t count, bool any);
   void placeLabels(Labels& labels, uint64_t count, std::shared_ptr<RowReader> rows);
   void placeLabels(Labels& labels, const RowsPlace& rows, const NumbersOfRow& label);
@@ -103,7 +119,7 @@ class MeshIntake {
   void countZeros(Labels& labels);
   void holdCell(const int64_t* corners) {
     std::copy(corners, corners + 4, held_cells_.begin() + static_cast<std::ptrdiff_t>(4 * held_));
-    ++held_;
+    if (++held_ == held_cells_.size() / 4) writeHeld();
   }
   void writeHeld();
   void checkCorners();

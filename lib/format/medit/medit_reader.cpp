@@ -101,18 +101,18 @@ class MeditReader {
     const auto corners = static_cast<size_t>(cornersOf(kind.shape));
     const bool is_cell = dimensionOf(kind.shape) == 3;
     const int64_t last = lastVertex();
-    int64_t row[kMostMeditNodes + 1];
+    int64_t room[kMostMeditNodes + 1], ranks[kMostMeditNodes];
     scan_.expectRows(count, {{{false, nodes + 1}}});
     for (uint64_t i = 0; i < count; ++i) {
-      scan_.integers(row, nodes + 1, section.name.c_str());
+      const int64_t* const row = scan_.integersHere(room, nodes + 1, section.name.c_str());
       for (size_t k = 0; k < corners; ++k) {
         checkVertex(row[k], last);
-        --row[k];  // only now: the least integer has none before it
+        ranks[k] = row[k] - 1;  // only now: the least integer has none before it
       }
       if (is_cell)
-        intake_.addCell(kind, row, row + nodes, static_cast<int64_t>(i + 1));
+        intake_.addCell(kind, ranks, row + nodes, static_cast<int64_t>(i + 1));
       else
-        intake_.addFace(kind, row, row[nodes]);
+        intake_.addFace(kind, ranks, row[nodes]);
     }
   }
 

@@ -32,6 +32,9 @@ class MeditScan {
   void integers(int64_t* out, size_t count, const char* what) {
     numbers_.integers(out, count, integer_bytes_, what);
   }
+  const int64_t* integersHere(int64_t* room, size_t count, const char* what) {
+    return numbers_.integersHere(room, count, integer_bytes_, what);
+  }
   // Where so many rows of a binary file lie, which are the next ones, and what their numbers are
   // from a byte of the row on.
   std::optional<RowsPlace> rowsHere(uint64_t rows, size_t integers, size_t reals) const {
