@@ -19,6 +19,11 @@
 #else
 #define TETSTREAM_LZMA_WORD "no lzma"
 #endif
+#ifdef TETSTREAM_WITH_DEFLATE
+#define TETSTREAM_DEFLATE_WORD "libdeflate"
+#else
+#define TETSTREAM_DEFLATE_WORD "no libdeflate"
+#endif
 #ifdef TETSTREAM_WITH_HDF5
 #define TETSTREAM_HDF5_WORD "hdf5"
 #else
@@ -34,9 +39,10 @@
 #else
 #define TETSTREAM_KERNEL_WORD "plain kernels"
 #endif
-#define TETSTREAM_BUILD                                                     \
-  " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_LZ4_WORD ", " TETSTREAM_LZMA_WORD \
-  ", " TETSTREAM_HDF5_WORD ", " TETSTREAM_CAIRO_WORD ", " TETSTREAM_KERNEL_WORD ")"
+#define TETSTREAM_BUILD                                                          \
+  " (" TETSTREAM_ZSTD_WORD ", " TETSTREAM_LZ4_WORD ", " TETSTREAM_LZMA_WORD      \
+  ", " TETSTREAM_DEFLATE_WORD ", " TETSTREAM_HDF5_WORD ", " TETSTREAM_CAIRO_WORD \
+  ", " TETSTREAM_KERNEL_WORD ")"
 
 int32_t tetstream_version_number(void) {
   return TETSTREAM_VERSION_NUMBER;

@@ -1,7 +1,14 @@
-// Blocks of .vtu files that are zlib streams.
+// Blocks of .vtu files that are zlib streams. libdeflate takes half of zlib's time and less, but
+// only whole ones; what it refuses zlib reads, as far as it is sound, and says what is wrong.
 #include <zlib.h>
+#ifdef TETSTREAM_WITH_DEFLATE
+#include <libdeflate.h>
+#endif
 
-#include "vtu_blocks.h"
+#include <algorithm>
+
+#include "status.h"
+#include "vtu_whole_blocks.h"
 
 namespace tetstream {
 
@@ -41,12 +48,51 @@ class ZlibDecoder final : public BlockDecoder {
   bool open_ = false;
 };
 
+std::unique_ptr<ValueBytes> openByZlib(BlockTable table, const EncodedRun& run, uint64_t size) {
+  return openStreamedBlocks(std::move(table), run, size, std::make_unique<ZlibDecoder>());
+}
+
+#ifdef TETSTREAM_WITH_DEFLATE
+
+constexpr uint64_t kMostWhole = 1 << 18;  // VTK's are of 32 KiB
+
+class DeflateDecoder final : public WholeDecoder {
+ public:
+  explicit DeflateDecoder(const EncodedRun& run) : decompressor_(libdeflate_alloc_decompressor()) {
+    if (!decompressor_)
+      fail(Status::kNoMemory, "%s: no memory to decompress it", run.what().c_str());
+  }
+  ~DeflateDecoder() override { libdeflate_free_decompressor(decompressor_); }
+  DeflateDecoder(const DeflateDecoder&) = delete;
+  DeflateDecoder& operator=(const DeflateDecoder&) = delete;
+
+  size_t mostFor(size_t size) const override { return compressBound(size); }
+  bool decode(const unsigned char* packed, size_t packed_size, unsigned char* out,
+              size_t size) override {
+    size_t used;  // what stands behind a block's end is passed over
+    return libdeflate_zlib_decompress_ex(decompressor_, packed, packed_size, out, size, &used,
+                                         nullptr) == LIBDEFLATE_SUCCESS;
+  }
+
+ private:
+  libdeflate_decompressor* decompressor_;
+};
+
+#endif
+
 }  // namespace
 
 std::unique_ptr<ValueBytes> openZlibBlocks(const EncodedRun& run, const VtuFile& file,
                                            uint64_t size) {
-  return openStreamedBlocks(BlockTable(run, file, size, kMaxZlibRatio), run, size,
-                            std::make_unique<ZlibDecoder>());
+  BlockTable table(run, file, size, kMaxZlibRatio);
+#ifdef TETSTREAM_WITH_DEFLATE
+  if (std::min(table.blockBytes(), size) <= kMostWhole)
+    return openWholeBlocks(
+        std::move(table), size, std::make_unique<DeflateDecoder>(run), [run, &file, size] {
+          return openByZlib(BlockTable(run, file, size, kMaxZlibRatio), run, size);
+        });
+#endif
+  return openByZlib(std::move(table), run, size);
 }
 
 }  // namespace tetstream

@@ -1,5 +1,6 @@
 // Blocks of .vtu files compressed with what VTK offers beside zlib.
 #include <gtest/gtest.h>
+#include <cstring>
 
 #include "slow_run.h"
 #include "status.h"
@@ -72,6 +73,18 @@ TEST(VtuCodecs, NameTheDamagedBlock) {
     const std::string text = vtuFailure(file);
     EXPECT_NE(text.find("compressed block 0 (byte 0 of the values): "), std::string::npos) << text;
   }
+}
+
+// Also where another library has refused the block.
+TEST(VtuCodecs, SayWhatZlibSaysOfABlock) {
+  std::string file = makeVtu({twoCellPiece()}, styleOf("zlib", VtuCoding::kAppendedRaw, 1 << 10));
+  const size_t begin = file.find("\n _") + 3;
+  uint64_t size;
+  std::memcpy(&size, file.data() + begin + 3 * sizeof size, sizeof size);
+  file[begin + 4 * sizeof size + size - 1] ^= 1;  // of the checksum
+  EXPECT_NE(vtuFailure(file).find("compressed block 0 (byte 0 of the values): "),
+            std::string::npos);
+  EXPECT_NE(vtuFailure(file).find("incorrect data check"), std::string::npos) << vtuFailure(file);
 }
 
 // The two cells so many times, each time with points of their own.
