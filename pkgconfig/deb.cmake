@@ -76,7 +76,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${control}/shlibs ${control}/trig
 # What tetstream.pc and the static library ask for.
 set(needed "${library_package} (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})")
 string(APPEND needed ", zlib1g-dev, libexpat1-dev")
-foreach(codec ZSTD LZ4 LZMA DEFLATE)
+foreach(codec IN LISTS TETSTREAM_LINKED)
   if(TETSTREAM_${codec})
     string(TOLOWER "lib${codec}-dev" package)
     string(APPEND needed ", ${package}")

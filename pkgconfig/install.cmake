@@ -36,7 +36,7 @@ else()
 endif()
 set(pc_requires "zlib expat")
 set(TETSTREAM_CODECS "")  # those that pkg-config finds
-foreach(codec ZSTD LZ4 LZMA DEFLATE)
+foreach(codec IN LISTS TETSTREAM_LINKED)
   if(TETSTREAM_${codec})
     string(TOLOWER lib${codec} module)
     string(APPEND pc_requires " ${module}")

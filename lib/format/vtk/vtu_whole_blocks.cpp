@@ -77,7 +77,8 @@ class WholeBlocks final : public ValueBytes {
 
   BlockTable table_;
   EncodedRun blocks_;
-  uint64_t size_, block_ = UINT64_MAX, refused_ = UINT64_MAX;  // that is held; by the decoder
+  uint64_t size_;
+  uint64_t block_ = UINT64_MAX, refused_ = UINT64_MAX;  // held in plain_; by the decoder
   std::unique_ptr<WholeDecoder> decoder_;
   std::function<std::unique_ptr<ValueBytes>()> otherwise_;
   std::unique_ptr<ValueBytes> other_;

@@ -54,7 +54,8 @@ std::unique_ptr<ValueBytes> openByZlib(BlockTable table, const EncodedRun& run, 
 
 #ifdef TETSTREAM_WITH_DEFLATE
 
-constexpr uint64_t kMostWhole = 1 << 18;  // VTK's are of 32 KiB
+// VTK's are of 32 KiB. Twice this is held for each array, and for each thread that reads it.
+constexpr uint64_t kMostWhole = 1 << 18;
 
 class DeflateDecoder final : public WholeDecoder {
  public:
