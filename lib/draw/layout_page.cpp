@@ -99,10 +99,10 @@ void LayoutPage::drawRaster() {
 // Where each vertex has a row that can be seen, its line is one.
 void LayoutPage::separateLines() {
   constexpr size_t kMostLines = 120;
-  constexpr double kGap = 0.15;  // of a row
+  constexpr double kRowGap = 0.15;  // of a row
   const size_t rows = diagram_.rows();
   if (diagram_.verticesPerRow() > 1 || rows > kMostLines) return;
-  const double gap = kGap * kDiagram.height / static_cast<double>(rows);
+  const double gap = kRowGap * kDiagram.height / static_cast<double>(rows);
   for (size_t r = 1; r < rows; ++r)
     canvas_.fill(Frame{kDiagram.left, down(static_cast<double>(r)) - gap / 2, kDiagram.width, gap},
                  kWhite);

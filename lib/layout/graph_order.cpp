@@ -8,6 +8,7 @@
 #include "order_front.h"
 #include "spectral.h"
 #include "status.h"
+#include "vertex_graph.h"
 
 namespace tetstream {
 
@@ -16,8 +17,6 @@ struct GraphBytes {
   uint64_t point, cell;
 };
 constexpr GraphBytes kBreadthFirst = {100, 66}, kSpectral = {400, 32};
-
-constexpr uint64_t kMostCells = (uint64_t{1} << 30) - 1;  // that lists are made of
 
 uint64_t graphOrderBytes(Order order, uint64_t points, uint64_t cells) {
   if (cells > kMostCells) return std::numeric_limits<uint64_t>::max();

@@ -20,10 +20,10 @@ static void check(const Schema& schema, const OrderOptions& options) {
   for (const char* axis : {"auto", "x", "y", "z"}) is_axis = is_axis || options.axis == axis;
   if (!is_axis)
     fail(Status::kBadArgument, "axis \"%s\": auto, x, y and z are possible", options.axis.c_str());
-  constexpr int64_t kMost = std::numeric_limits<uint32_t>::max() - 1;
-  if (schema.vertex_count > kMost)
+  constexpr int64_t kMostPoints = std::numeric_limits<uint32_t>::max() - 1;
+  if (schema.vertex_count > kMostPoints)
     fail(Status::kUnsupported, "a mesh of %lld points: %lld can be ordered",
-         static_cast<long long>(schema.vertex_count), static_cast<long long>(kMost));
+         static_cast<long long>(schema.vertex_count), static_cast<long long>(kMostPoints));
 }
 
 static uint64_t bytesFor(Order order, const Schema& schema) {

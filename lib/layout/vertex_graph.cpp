@@ -13,10 +13,9 @@ static bool isRepeated(const uint32_t* v, int j) {
 }
 
 void listCells(const Connectivity& mesh, CellLists& lists) {
-  constexpr uint32_t kMost = (1u << 30) - 1;
-  if (mesh.cells > kMost)
+  if (mesh.cells > kMostCells)
     fail(Status::kUnsupported, "a mesh of %u cells: orders that follow its graph hold up to %u",
-         mesh.cells, kMost);
+         mesh.cells, kMostCells);
   // One place further, so that filling moves each start to where it belongs.
   lists.first.resize(size_t{mesh.vertices} + 2);
   std::fill_n(lists.first.data(), lists.first.size(), 0u);
@@ -48,22 +47,22 @@ static void forNeighbours(const Connectivity& mesh, const CellLists& lists, uint
 
 void buildGraph(const Connectivity& mesh, const CellLists& lists, Account& account,
                 VertexGraph& graph) {
-  constexpr uint32_t kNobody = std::numeric_limits<uint32_t>::max();
+  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
   graph.vertices = mesh.vertices;
   graph.first.resize(size_t{mesh.vertices} + 1);
   Array<uint32_t> seen(account, mesh.vertices);
-  std::fill_n(seen.data(), mesh.vertices, kNobody);
+  std::fill_n(seen.data(), mesh.vertices, kNone);
   uint64_t total = 0;
   for (uint32_t v = 0; v < mesh.vertices; ++v) {
     graph.first[v] = static_cast<uint32_t>(total);
     forNeighbours(mesh, lists, v, seen, [&](uint32_t) { ++total; });
   }
-  if (total > kNobody)
+  if (total > kNone)
     fail(Status::kUnsupported, "a mesh with %llu edges: orders that follow its graph hold up to %u",
-         static_cast<unsigned long long>(total / 2), kNobody / 2);
+         static_cast<unsigned long long>(total / 2), kNone / 2);
   graph.first[mesh.vertices] = static_cast<uint32_t>(total);
   graph.neighbour.resize(total);
-  std::fill_n(seen.data(), mesh.vertices, kNobody);
+  std::fill_n(seen.data(), mesh.vertices, kNone);
   uint32_t* next = graph.neighbour.data();
   for (uint32_t v = 0; v < mesh.vertices; ++v)
     forNeighbours(mesh, lists, v, seen, [&](uint32_t u) { *next++ = u; });

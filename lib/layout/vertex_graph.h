@@ -12,7 +12,10 @@ struct CellLists {
   Array<uint32_t> cell;   // of vertex v: [first[v], first[v + 1])
 };
 
-// Throws kUnsupported above 2^30 - 1 cells: lists are numbered with 32 bits.
+// Lists are numbered with 32 bits.
+constexpr uint32_t kMostCells = (1u << 30) - 1;
+
+// Throws kUnsupported above kMostCells.
 void listCells(const Connectivity& mesh, CellLists& lists);
 
 // Vertices that share a cell, each neighbour once, nobody its own; the lists are not sorted.

@@ -41,6 +41,15 @@ constexpr double kGivenUp = 0.1;
 // 1.6 %, for 0.004 %.
 constexpr double kTightShare = 2;
 
+namespace {
+
+// Of cells, those that are whole; as many as can be counted where a stream claims more.
+int64_t whole(double cells) {
+  return static_cast<int64_t>(std::clamp(cells, 0.0, 0x1p60));
+}
+
+}  // namespace
+
 double CommonBound::wanted(const Ledger& ledger) const {
   return std::max({static_cast<double>(target_.cells), target_.ratio * total(ledger), 1.0});
 }
@@ -122,7 +131,7 @@ void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
 void CommonBound::spread(double due, const Ledger& ledger, Goal& goal) const {
   const auto left = [&](double share) {
     const double may_stay = share * due - kHeldBack - static_cast<double>(ledger.written);
-    return ledger.front + static_cast<int64_t>(std::max(may_stay, 0.0));
+    return ledger.front + whole(may_stay);
   };
   const bool is_short = total_ >= 0 && total_ < kFewWindows * ledger.window;
   goal.cells = std::min(goal.cells, left(is_tight_ && is_short ? kTightShare : 1));
@@ -134,10 +143,10 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
   const double seen = static_cast<double>(ledger.read - ledger.front);
   // Cells that are written are lost for the target: not many more than are due by now.
   const double due = wanted(ledger) * shareOf(seen, ledger);
-  const double may_go = std::max(due - kHeldBack - static_cast<double>(ledger.written), 0.0);
+  const double may_go = due - kHeldBack - static_cast<double>(ledger.written);
   // In a window of less than two fronts the front alone is more than what may stay.
   const int64_t may_stay = std::max(ledger.keep, ledger.front);
-  Goal goal{may_stay + static_cast<int64_t>(may_go), leastOf(ledger), false, ledger.front};
+  Goal goal{may_stay + whole(may_go), leastOf(ledger), false, ledger.front};
   // An error bound is not passed to make room: what comes first would use it up.
   if (target_.error > 0) goal.most_error = 0;
   if (spreads(ledger)) spread(due, ledger, goal);
@@ -149,7 +158,7 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
   } else {
     const double ratio = std::max(wanted(ledger) / std::max(total(ledger), 1.0), kFirstRatio);
     const double kept = countsCells() ? ratio * static_cast<double>(ledger.live - ledger.front) : 0;
-    goal.cells = std::min(goal.cells, ledger.front + static_cast<int64_t>(kept));
+    goal.cells = std::min(goal.cells, ledger.front + whole(kept));
     if (target_.error > 0) goal.most_error = kFirstError * ledger.error_limit;
   }
   first_bound_ = goal.first_bound;

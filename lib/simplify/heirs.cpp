@@ -28,7 +28,7 @@ void Heirs::find(Mesh& mesh, uint32_t v, const Stars& stars) {
     __builtin_prefetch(mesh.cellMeans(h.dying));
     for (const Star* star : {&stars.u, &stars.v})
       for (const StarCell& s : *star)
-        if (s.has(a) & s.has(b) && h.count < 2) {
+        if (s.has(a) + s.has(b) == 2 && h.count < 2) {
           __builtin_prefetch(mesh.cellMeans(s.cell));
           h.cell[h.count++] = s.cell;
         }

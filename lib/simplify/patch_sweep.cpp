@@ -267,7 +267,7 @@ void PatchSweep<S>::findSeams() {
   for (uint32_t x = patch_.ownedEnd(); x < patch_.vertexEnd(); ++x)
     if (patch_.isFreeElsewhere(x)) seen_[x] = 0;
   for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
-    if (patch_.isInside(c) | !patch_.isLive(c)) continue;
+    if (patch_.isInside(c) || !patch_.isLive(c)) continue;
     bool at_seam = false;
     for (uint32_t j = 0; j < 4; ++j) at_seam |= seen_[patch_.vertexOf(c, j)] == 0;
     if (!at_seam) continue;

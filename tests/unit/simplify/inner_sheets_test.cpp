@@ -27,7 +27,9 @@ struct Sheeted {
       Middle middle{};
       bool in_plane = false;
       for (size_t i = 0; i < 3; ++i) {
-        const auto at = [&](size_t k) { return places[3 * static_cast<size_t>(face[k]) + i]; };
+        const auto at = [&places, &face = face, i](size_t k) {
+          return places[3 * static_cast<size_t>(face[k]) + i];
+        };
         middle[i] = (at(0) + at(1) + at(2)) / 3;
         in_plane |= at(0) == at(1) && at(0) == at(2);
       }
