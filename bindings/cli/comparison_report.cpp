@@ -118,6 +118,12 @@ std::string fieldsText(const ComparisonFigures& f) {
   return text;
 }
 
+// By which a boundary's distance is measured: tetstream_comparison says so.
+int64_t boundaryPoints(const tetstream_comparison_info& info) {
+  constexpr int64_t kMost = 200000;
+  return info.is_exact ? kMost : std::min(info.samples, kMost);
+}
+
 std::string boundaryText(const ComparisonFigures& f) {
   const tetstream_comparison_info& i = f.info;
   const auto line = [&](const char* name, double largest, double rms, const double place[3]) {
@@ -131,8 +137,8 @@ std::string boundaryText(const ComparisonFigures& f) {
       textOf("%-26s%12s%12s%12s%12s\n", "boundary", "largest %", "RMS %", "largest", "RMS") +
       line("original to simplified", i.distance, i.rms_distance, i.distance_place) +
       line("simplified to original", i.distance_back, i.rms_distance_back, i.distance_back_place) +
-      "  in percent of the diagonal, " + short3(i.diagonal) +
-      ", by 200000 points and all vertices\n" +
+      "  in percent of the diagonal, " + short3(i.diagonal) + ", by " +
+      std::to_string(boundaryPoints(i)) + " points and all vertices\n" +
       "  outside the simplified mesh: " + short3(outside) + " % of the original's volume\n";
   if (i.repeated_volume > 1e-9 * f.original.volume)
     text += "  in more than one simplified cell: " +

@@ -772,9 +772,10 @@ TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *dia
  * one's value is the one at the nearest point of its boundary: there the error is sampled, at up to
  * eight places in each such cell and at the corners that are outside. With the option `samples` the
  * fields are compared at that many points, uniform by volume, instead, and largest errors are those
- * of the points. Distances between boundaries are sampled at 200 000 points, uniform by area, and
- * at all vertices. Cells flatter than 1e-12 of the cube of their longest edge take no part in the
- * fields' figures. The same meshes, options and seed give the same figures. */
+ * of the points. Distances between boundaries are sampled at 200 000 points, or at `samples` where
+ * those are fewer, uniform by area, and at all vertices. Cells flatter than 1e-12 of the cube of
+ * their longest edge take no part in the fields' figures. The same meshes, options and seed give
+ * the same figures. */
 typedef struct tetstream_comparison tetstream_comparison;
 
 /* Which of the two meshes. */

@@ -1,6 +1,7 @@
 // measure: what a comparison is asked for. Depends on nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -9,6 +10,12 @@ namespace tetstream {
 struct CompareOptions {
   int64_t samples = 0;       // 0: exact integrals
   std::string cut = "none";  // of the picture
+
+  // Points by which each boundary's distance is measured; its vertices are looked at besides.
+  int64_t surfaceSamples() const {
+    constexpr int64_t kMost = 200000;
+    return samples > 0 ? std::min(samples, kMost) : kMost;
+  }
 };
 
 }  // namespace tetstream

@@ -8,8 +8,6 @@
 
 namespace tetstream {
 
-// Each boundary is sampled so often; its vertices are looked at besides.
-constexpr int64_t kSurfaceSamples = 200000;
 // Shares of the memory: the original's cells, the simplified ones, each boundary, while they are
 // read; ordering has a quarter for itself, the front the rest.
 constexpr size_t kOriginalShare = 3, kSimplifiedShare = 1, kShares = 8, kBoundaryParts = 32;
@@ -207,10 +205,10 @@ void Comparison::measureFields(const Done& done) {
 void Comparison::measureDistances(const Done& done) {
   MeshScan* scans[2] = {original_.get(), simplified_.get()};
   for (int i = 0; i < 2; ++i)
-    distances_[i] = boundaryDistance(scans[i]->boundary(), scans[1 - i]->boundary(),
-                                     {kSurfaceSamples, plan_.seed, scans[i]->boundaryArea()},
-                                     {account_, plan_.temp_dir, memory_ / 4},
-                                     [&](double share) { done((i + share) / 2); });
+    distances_[i] = boundaryDistance(
+        scans[i]->boundary(), scans[1 - i]->boundary(),
+        {plan_.options.surfaceSamples(), plan_.seed, scans[i]->boundaryArea()},
+        {account_, plan_.temp_dir, memory_ / 4}, [&](double share) { done((i + share) / 2); });
 }
 
 void Comparison::compareRegions() {

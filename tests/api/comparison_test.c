@@ -178,7 +178,7 @@ static void a_page_is_drawn_where_a_cut_was_asked_for(void) {
     CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL), TETSTREAM_UNSUPPORTED);
   }
   tetstream_comparison_destroy(comparison);
-  comparison = comparison_with(NULL, NULL);
+  comparison = comparison_with("samples", "500");
   CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_comparison_message(comparison), "without a cut");
@@ -226,11 +226,11 @@ static int32_t stop(void* user, const tetstream_progress* progress) {
 
 static void progress_grows_and_cancels_at_any_call(void) {
   struct stopper all = {0, 0, 0};
-  const int stops = getenv("TETSTREAM_SLOW") ? 4 : 20;
+  const int is_slow = getenv("TETSTREAM_SLOW") != NULL, stops = is_slow ? 4 : 20;
   for (int at = 0; at <= all.calls; at += 1 + all.calls / stops) {
     struct stopper s = {0, at, 0};
     hostile_reader hostile;
-    tetstream_comparison* comparison = comparison_with(NULL, NULL);
+    tetstream_comparison* comparison = comparison_with("samples", is_slow ? "500" : "0");
     tetstream_reader* first = arrays_of(mesh);
     tetstream_reader* second = callbacks(&hostile, mesh, HOSTILE_ODD, 0);
     CHECK_EQUAL(tetstream_comparison_read(comparison, first, second, stop, &s),
@@ -269,7 +269,7 @@ static void misuse_is_refused_and_does_no_harm(void) {
   CHECK_SAYS(tetstream_comparison_message(comparison), "nothing");
   tetstream_comparison_destroy(comparison);
 
-  comparison = comparison_with(NULL, NULL);
+  comparison = comparison_with("samples", "500");
   tetstream_reader* reader = arrays_of(mesh);
   tetstream_comparison_info info = {0};
   tetstream_field_comparison field = {0};
