@@ -30,11 +30,6 @@ foreach(text IN LISTS texts)
   endif()
 endforeach()
 
-set(flags "")
-if(SANITIZE)
-  set(flags "-fsanitize=address,undefined")
-endif()
-
 # ------------------------------------------------------------------------------- pkg-config
 # The shell takes the flags, as it does in a makefile.
 if(PKG_CONFIG)
@@ -46,11 +41,11 @@ if(PKG_CONFIG)
     if(client STREQUAL "cpp")
       set(compiler ${CXX})
     endif()
-    must(sh -c "eval \"${compiler}\" ${flags} '\"${here}/client.${client}\"' \
+    must(sh -c "eval \"${compiler}\" '\"${here}/client.${client}\"' \
 $(${PKG_CONFIG} --cflags --libs tetstream) -o '\"${WORK}/shared_${client}\"'")
     must(${CMAKE_COMMAND} -E env "LD_LIBRARY_PATH=${prefix}/${LIBDIR}" ${WORK}/shared_${client})
     # Without the shared library in its way the linker takes the static one.
-    must(sh -c "eval \"${compiler}\" ${flags} '\"${here}/client.${client}\"' \
+    must(sh -c "eval \"${compiler}\" '\"${here}/client.${client}\"' \
 $(${PKG_CONFIG} --static --cflags --libs tetstream | sed 's/-ltetstream/-l:libtetstream.a/') \
 -o '\"${WORK}/static_${client}\"'")
     must(${WORK}/static_${client})
@@ -62,7 +57,7 @@ $(${PKG_CONFIG} --static --cflags --libs tetstream | sed 's/-ltetstream/-l:libte
       if(linkage STREQUAL "static")
         set(libraries "--static --libs tetstream-fortran | sed 's/-ltetstream /-l:libtetstream.a /'")
       endif()
-      must(sh -c "eval \"${FC}\" ${flags} '\"${here}/client.f90\"' \
+      must(sh -c "eval \"${FC}\" '\"${here}/client.f90\"' \
 $(${PKG_CONFIG} --cflags tetstream-fortran) $(${PKG_CONFIG} ${libraries}) \
 -o '\"${WORK}/${linkage}_fortran\"'")
     endforeach()
@@ -78,7 +73,7 @@ $(${PKG_CONFIG} --cflags tetstream-fortran) $(${PKG_CONFIG} ${libraries}) \
   endif()
   foreach(source IN LISTS sources)
     get_filename_component(name "${source}" NAME_WE)
-    must(sh -c "eval \"${CC}\" ${flags} '\"${source}\"' \
+    must(sh -c "eval \"${CC}\" '\"${source}\"' \
 $(${PKG_CONFIG} --cflags --libs tetstream) -lm -o '\"${WORK}/example_${name}\"'")
   endforeach()
   foreach(name 02_arrays 03_options 08_errors)
@@ -103,16 +98,15 @@ endif()
 # ------------------------------------------------------------------------------------ CMake
 foreach(linkage shared static any)
   must(${CMAKE_COMMAND} -S ${here}/project -B ${WORK}/${linkage} -G ${GENERATOR}
-    -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_C_FLAGS=${flags}
-    -DCMAKE_CXX_FLAGS=${flags} "-DCMAKE_PREFIX_PATH=${prefix}" -DLINKAGE=${linkage})
+    -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_PREFIX_PATH=${prefix}"
+    -DLINKAGE=${linkage})
   must(${CMAKE_COMMAND} --build ${WORK}/${linkage})
   must(${WORK}/${linkage}/client_c)
   must(${WORK}/${linkage}/client_cpp)
   if(FC AND NOT linkage STREQUAL "shared")  # which is what "any" means there
     set(build "${WORK}/${linkage} fortran")
     must(${CMAKE_COMMAND} -S ${here}/project_fortran -B "${build}" -G ${GENERATOR}
-      -DCMAKE_Fortran_COMPILER=${FC} -DCMAKE_Fortran_FLAGS=${flags} "-DCMAKE_PREFIX_PATH=${prefix}"
-      -DLINKAGE=${linkage})
+      -DCMAKE_Fortran_COMPILER=${FC} "-DCMAKE_PREFIX_PATH=${prefix}" -DLINKAGE=${linkage})
     must(${CMAKE_COMMAND} --build "${build}")
     must("${build}/client_fortran")
   endif()

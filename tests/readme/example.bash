@@ -17,7 +17,6 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 flags=(-std=c99 -pedantic -Wall -Wextra -Werror)
-[[ $TETSTREAM_SANITIZED == 1 ]] && flags+=("-fsanitize=address,undefined")
 
 block c >program.c
 [[ -s program.c ]] || fail "README.md has no example in C"

@@ -189,7 +189,9 @@ void damageEverywhere(const VtuStyle& style) {
 // Much text between the tags is not parsed; what stands behind it is found, and named.
 TEST(VtuErrors, NamesThePlaceOfWhatIsNoXmlBehindLongTexts) {
   const VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
-  for (const size_t size : {1000, 65000, 65536 - 700, 65536, 131072, 200001}) {
+  const size_t sizes[] = {1000, 65536, 65536 - 700, 131072, 65000, 200001};
+  for (size_t i = 0; i < std::size(sizes); i += oneIn(3)) {
+    const size_t size = sizes[i];
     std::string blanks;
     while (blanks.size() < size) blanks += blanks.size() % 3 ? " " : "\r\n";
     std::string text = makeVtu({twoCellPiece()}, {});
