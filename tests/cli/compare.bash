@@ -1,7 +1,7 @@
 # compare tells what it measured, for people and as JSON, whatever the memory; draws; refuses.
 source "${BASH_SOURCE%/*}/common.bash"
 
-tetstream generate ball --cells 20000 in.tets
+tetstream generate ball --cells 10000 in.tets
 tetstream simplify in.tets out.vtu --ratio 0.2 --quiet
 
 # A mesh is itself.
