@@ -14,13 +14,16 @@ namespace {
 struct Equations {
   double a[3][3], b[3];
   int column[3] = {0, 1, 2};  // where each unknown stands now
+  double least_share = 0;     // of the first pivot that another one has to be larger than
+  double least = 0;
 
   bool pivot(int k) {
     int row = k, col = k;
     for (int i = k; i < 3; ++i)
       for (int j = k; j < 3; ++j)
         if (std::fabs(a[i][j]) > std::fabs(a[row][col])) row = i, col = j;
-    if (!(std::fabs(a[row][col]) > 0)) return false;
+    if (!(std::fabs(a[row][col]) > least)) return false;
+    if (k == 0) least = least_share * std::fabs(a[row][col]);
     std::swap(a[k], a[row]);
     std::swap(b[k], b[row]);
     for (auto& equation : a) std::swap(equation[k], equation[col]);
@@ -71,8 +74,12 @@ void barycentricWeights(const double p[4][3], const double x[3], double w[4]) {
     e.b[i] = x[i] - p[o][i];
     for (int j = 0; j < 3; ++j) e.a[i][j] = p[other[j]][i] - p[o][i];
   }
+  Equations roughly = e;
+  roughly.least_share = 1 / kLargestWeight;
   double z[3];
   e.solve(z);
+  const auto isTooLarge = [](double weight) { return std::fabs(weight) > kLargestWeight; };
+  if (std::any_of(z, z + 3, isTooLarge)) roughly.solve(z);
   for (int j = 0; j < 3; ++j) w[other[j]] = z[j];
   w[o] = 1 - z[0] - z[1] - z[2];
   bool inexact = false;

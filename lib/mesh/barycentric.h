@@ -8,10 +8,11 @@ namespace tetstream {
 // reproduced; of a thin cell it is the weights that may be inexact. A point upon a corner gets 1
 // there and 0 elsewhere. Below 0 no weight is nearer to it than kLeastOutside: a point that
 // rounding alone put outside is inside. Along a direction in which the cell has no extent x is
-// projected.
+// projected; where weights would be above kLargestWeight, of no use to anybody, also along those in
+// which it has less than that part of its largest extent.
 void barycentricWeights(const double p[4][3], const double x[3], double w[4]);
 
-constexpr double kLeastOutside = 1e-13;
+constexpr double kLeastOutside = 1e-13, kLargestWeight = 1e8;
 
 // Faster and less exact: those of x, or of a point of the cell where x lies outside; of a flat cell
 // they stay as they are.

@@ -87,6 +87,22 @@ TEST(Weights, OfAFlatCellAreNumbers) {
   EXPECT_DOUBLE_EQ(w[0] + w[1] + w[2] + w[3], 1);
 }
 
+// Three corners that differ by rounding, far from the origin: one direction is all that the cell
+// has.
+TEST(Weights, StaySmallWhereACellHasAllButNoExtent) {
+  const double p[4][3] = {
+      {2e8, 6e8, 5e8 + 1e-7}, {2e8, 6e8 + 1e-7, 5e8}, {2e8, 6e8, 5e8}, {2e8, 6e8, 5e8 - 1e7}};
+  const double x[3] = {2e8 - 4e6, 6e8 + 3e6, 5e8 - 2.5e6};
+  double w[4], sum = 0;
+  barycentricWeights(p, x, w);
+  for (double weight : w) {
+    EXPECT_LE(std::fabs(weight), 1.001);
+    sum += weight;
+  }
+  EXPECT_NEAR(sum, 1, 1e-15);
+  EXPECT_NEAR(w[3], 0.25, 1e-9);  // as high as x is
+}
+
 TEST(Weights, ClampedAreThoseOfAPointOfTheCell) {
   const double in[3] = {0.5, 0.25, 0.125}, out[3] = {1.5, 0.5, -0.5};
   double w[4] = {}, expected[4];
