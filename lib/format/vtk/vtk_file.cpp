@@ -33,6 +33,7 @@ constexpr TypeWord kTypeWords[] = {
     {"long", ValueType::kInt64},
     {"unsigned_long", ValueType::kUInt64},
     {"vtkidtype", ValueType::kInt32},
+    {"vtktypeint32", ValueType::kInt32},  // as meshio writes it
     {"vtktypeint64", ValueType::kInt64},
     {"vtktypeuint64", ValueType::kUInt64},
     {"float", ValueType::kFloat32},

@@ -131,12 +131,18 @@ std::string binaryFile(const std::string& version, const std::string& cells) {
 }
 
 const std::string kRows = "CELLS 2 10\n" + big<int32_t>({4, 0, 1, 2, 3, 4, 1, 2, 3, 4}) + "\n";
-const std::string kOffsets = "CELLS 3 8\nOFFSETS vtktypeint64\n" + big<int64_t>({0, 4, 8}) +
-                             "\nCONNECTIVITY vtktypeint64\n" +
-                             big<int64_t>({0, 1, 2, 3, 1, 2, 3, 4}) + "\n";
+
+template <class T>
+std::string offsetsAs(const std::string& type) {
+  return "CELLS 3 8\nOFFSETS " + type + "\n" + big<T>({0, 4, 8}) + "\nCONNECTIVITY " + type + "\n" +
+         big<T>({0, 1, 2, 3, 1, 2, 3, 4}) + "\n";
+}
+const std::string kOffsets = offsetsAs<int64_t>("vtktypeint64");
+const std::string kNarrow = offsetsAs<int32_t>("vtktypeint32");  // as meshio writes it
 
 TEST(Vtk, ReadsBinaryOfBothFormsOfCells) {
-  for (const std::string& file : {binaryFile("4.2", kRows), binaryFile("5.1", kOffsets)})
+  for (const std::string& file :
+       {binaryFile("4.2", kRows), binaryFile("5.1", kOffsets), binaryFile("5.1", kNarrow)})
     for (const size_t step : {1, 1000}) {
       const VtuMesh mesh = readAs("vtk", file, step);
       EXPECT_EQ(valuesAs<float>(mesh.positions)[12], 1);
