@@ -1,5 +1,6 @@
 // api: what the public header offers without simplifying.
 #include "handles.h"
+#include "named_input.h"
 #include "registry.h"
 
 using namespace tetstream;
@@ -9,8 +10,8 @@ static LayoutReport convertInto(Output& output, tetstream_reader& reader, const 
                                 const ProgressFunction& progress) {
   ReaderUse use(reader);
   output.start(options.temp_dir);
-  LayoutReport report = convert(use.input(output.mustRound(use.schema()), options.temp_dir), output,
-                                options, progress);
+  Input& input = use.input(output.mustRound(use.schema()), options.temp_dir);
+  LayoutReport report = readNamed(input, [&] { return convert(input, output, options, progress); });
   use.done();
   return report;
 }
@@ -90,8 +91,9 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     run.automatic = RunOptions::Auto::kKeeps;
     ReaderUse use(r);
     const bool indexed = (r.known->info().flags & TETSTREAM_STREAM_INDEXED) != 0;
+    Input& input = use.input(false, run.temp_dir);
     const Inspection found =
-        inspect(use.input(false, run.temp_dir), run, progressOf(progress, user));
+        readNamed(input, [&] { return inspect(input, run, progressOf(progress, user)); });
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
     r.front = publicFront(found);
     r.face_labels.clear();

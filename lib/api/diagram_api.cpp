@@ -1,6 +1,7 @@
 // api: layout diagrams of the public header.
 #include "handles.h"
 #include "layout_page.h"
+#include "named_input.h"
 #include "sweep_page.h"
 
 using namespace tetstream;
@@ -21,8 +22,9 @@ static void readInto(tetstream_diagram& d, tetstream_reader& reader, bool with_s
                      const ProgressFunction& progress) {
   const Busy busy(d);
   ReaderUse use(reader);
+  Input& input = use.input(false, d.options.temp_dir);
   d.diagram =
-      readDiagram(use.input(false, d.options.temp_dir), d.size, with_sweep, d.options, progress);
+      readNamed(input, [&] { return readDiagram(input, d.size, with_sweep, d.options, progress); });
   for (const DiagramColumn& column : d.diagram.layout->front()) {
     d.widths.push_back(column.width);
     d.lowest.push_back(column.lowest);

@@ -38,8 +38,10 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   bytes = unwrapped(std::move(bytes));
   if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), options.temp_dir);
   const bool waits = bytes->waits();
+  const std::string name = bytes->name();
   reader.input = format.open(std::move(bytes), options);
   reader.input.stays_with_caller = waits;
+  reader.input.name = name;
   openReader(reader);
 }
 

@@ -1,6 +1,7 @@
 // api: simplifiers of the public header.
 #include "handles.h"
 #include "memory.h"
+#include "named_input.h"
 
 using namespace tetstream;
 
@@ -61,7 +62,8 @@ static Status pull(tetstream_simplifier& s, tetstream_reader& reader) {
     ~Scope() { dropRun(s); }
   };
   const Scope scope{s};
-  s.run->run(use.input(s.output->mustRound(use.schema()), s.options.temp_dir));
+  Input& input = use.input(s.output->mustRound(use.schema()), s.options.temp_dir);
+  readNamed(input, [&] { s.run->run(input); });
   use.done();
   return endRun(s);
 }

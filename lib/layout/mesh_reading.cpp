@@ -1,13 +1,21 @@
 #include "mesh_reading.h"
 
+#include <algorithm>
+
 #include "status.h"
 
 namespace tetstream {
 
-void failPoint(uint64_t cell, int64_t point, int64_t points) {
-  fail(Status::kBadData, "cell %llu: point %lld is not one of the mesh's %lld",
-       static_cast<unsigned long long>(cell), static_cast<long long>(point),
-       static_cast<long long>(points));
+void checkCell(uint64_t cell, const int64_t corners[4], int64_t points) {
+  const auto number = static_cast<unsigned long long>(cell);
+  for (int j = 0; j < 4; ++j) {
+    if (corners[j] < 0 || corners[j] >= points)
+      fail(Status::kBadData, "cell %llu: point %lld is not one of the mesh's %lld", number,
+           static_cast<long long>(corners[j]), static_cast<long long>(points));
+    if (std::find(corners, corners + j, corners[j]) != corners + j)
+      fail(Status::kBadData, "cell %llu: point %lld is there twice", number,
+           static_cast<long long>(corners[j]));
+  }
 }
 
 double valueAt(const void* rows, ScalarType type, size_t index) {

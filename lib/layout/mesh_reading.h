@@ -23,9 +23,10 @@ void readInPieces(uint64_t rows, const Tell& tell, Visit visit) {
   }
 }
 
-[[noreturn]] void failPoint(uint64_t cell, int64_t point, int64_t points);
+// Throws kBadData unless the corners are four different points of the mesh.
+void checkCell(uint64_t cell, const int64_t corners[4], int64_t points);
 
-// visit(first, count, corners [count][4]), which are points of the mesh.
+// visit(first, count, corners [count][4]), of each cell four different points of the mesh.
 template <class Visit>
 void readAllCells(IndexedSource& source, const Tell& tell, Visit visit) {
   const auto cells = static_cast<uint64_t>(source.schema().cell_count);
@@ -33,8 +34,7 @@ void readAllCells(IndexedSource& source, const Tell& tell, Visit visit) {
   std::vector<int64_t> corners(4 * std::min<uint64_t>(kRowsAtOnce, cells));
   readInPieces(cells, tell, [&](uint64_t first, size_t count) {
     source.readCells(first, count, corners.data());
-    for (size_t i = 0; i < 4 * count; ++i)
-      if (corners[i] < 0 || corners[i] >= points) failPoint(first + i / 4, corners[i], points);
+    for (size_t i = 0; i < count; ++i) checkCell(first + i, &corners[4 * i], points);
     visit(first, count, corners.data());
   });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "named_input.h"
 #include "ordering.h"
 
 namespace tetstream {
@@ -54,8 +55,9 @@ std::unique_ptr<Comparison> compareInputs(Input& original, Input& simplified,
     else
       comparison->readSimplified(stream.source(), done);
   };
-  read(original, "read original", 0, kOriginalRead, true);
-  read(simplified, "read simplified", kOriginalRead, kBothRead, false);
+  readNamed(original, [&] { read(original, "read original", 0, kOriginalRead, true); });
+  readNamed(simplified,
+            [&] { read(simplified, "read simplified", kOriginalRead, kBothRead, false); });
   comparison->measure(part("compare", kBothRead, 1));
   return comparison;
 }

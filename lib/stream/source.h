@@ -58,6 +58,7 @@ struct Input {
   // Callbacks of the caller's, or what may wait for somebody at the other end: a stream that is
   // read by the caller's thread alone.
   bool stays_with_caller = true;
+  std::string name = {};  // of the file that it is read from; empty: of none
   const Schema& schema() const { return stream ? stream->schema() : indexed->schema(); }
 };
 
