@@ -221,7 +221,9 @@ void Parser::addSimplify() {
   addIn(command);
   addOut(command);
   for (tetstream_option_info info : optionTable()) {
-    if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT) continue;
+    if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
+        info.id == TETSTREAM_OPTION_BOX)
+      continue;
     // The defaults of the two targets do not hold here: one has to be given.
     if (info.id == TETSTREAM_OPTION_RATIO || info.id == TETSTREAM_OPTION_CELLS)
       info.default_text = nullptr;
@@ -344,11 +346,15 @@ void Parser::addCompare() {
       info.text = "plane of the picture: auto, across the shortest axis; x, y, z or x=0.3";
       info.default_text = "auto";
     }
+    if (info.id == TETSTREAM_OPTION_BOX)
+      info.text =
+          "part of ORIGINAL whose fields and boundary are compared: x0:x1,y0:y1,z0:z1, whose "
+          "ends may be left out (default: all of it)";
     if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
-        info.id == TETSTREAM_OPTION_SEED || info.id == TETSTREAM_OPTION_REGIONS ||
-        info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
-        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_STEP ||
-        info.id == TETSTREAM_OPTION_THREADS)
+        info.id == TETSTREAM_OPTION_BOX || info.id == TETSTREAM_OPTION_SEED ||
+        info.id == TETSTREAM_OPTION_REGIONS || info.id == TETSTREAM_OPTION_MEMORY ||
+        info.id == TETSTREAM_OPTION_TMPDIR || info.id == TETSTREAM_OPTION_SPLIT ||
+        info.id == TETSTREAM_OPTION_STEP || info.id == TETSTREAM_OPTION_THREADS)
       addTableOption(command, info);
   }
   addReport(command);

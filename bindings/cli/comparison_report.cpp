@@ -95,6 +95,17 @@ std::string fieldLine(const tetstream_field_comparison& f, size_t width) {
                 short3(f.largest).c_str(), short3(f.range).c_str());
 }
 
+bool isPart(const ComparisonFigures& f) {
+  return f.info.compared_cells < f.original.cells;
+}
+
+std::string partText(const ComparisonFigures& f) {
+  if (!isPart(f)) return "";
+  return "fields and boundaries are those of a part of " + countText(f.info.compared_cells) +
+         " original cells, " + short3(percentOf(f.info.compared_volume, f.original.volume)) +
+         " % of the volume\n\n";
+}
+
 std::string fieldsText(const ComparisonFigures& f) {
   const std::string how =
       f.info.is_exact ? "exact" : "by " + shortCount(static_cast<double>(f.info.samples));
@@ -118,12 +129,6 @@ std::string fieldsText(const ComparisonFigures& f) {
   return text;
 }
 
-// By which a boundary's distance is measured: tetstream_comparison says so.
-int64_t boundaryPoints(const tetstream_comparison_info& info) {
-  constexpr int64_t kMost = 200000;
-  return info.is_exact ? kMost : std::min(info.samples, kMost);
-}
-
 std::string boundaryText(const ComparisonFigures& f) {
   const tetstream_comparison_info& i = f.info;
   const auto line = [&](const char* name, double largest, double rms, const double place[3]) {
@@ -132,17 +137,18 @@ std::string boundaryText(const ComparisonFigures& f) {
                   short3(percentOf(rms, i.diagonal)).c_str(), short3(largest).c_str(),
                   short3(rms).c_str(), placeText(place).c_str());
   };
-  const double outside = percentOf(i.outside_volume, f.original.volume);
+  const double outside = percentOf(i.outside_volume, i.compared_volume);
   std::string text =
       textOf("%-26s%12s%12s%12s%12s\n", "boundary", "largest %", "RMS %", "largest", "RMS") +
       line("original to simplified", i.distance, i.rms_distance, i.distance_place) +
       line("simplified to original", i.distance_back, i.rms_distance_back, i.distance_back_place) +
-      "  in percent of the diagonal, " + short3(i.diagonal) + ", by " +
-      std::to_string(boundaryPoints(i)) + " points and all vertices\n" +
-      "  outside the simplified mesh: " + short3(outside) + " % of the original's volume\n";
-  if (i.repeated_volume > 1e-9 * f.original.volume)
+      "  in percent of the diagonal, " + short3(i.diagonal) + ", by about " +
+      std::to_string(i.boundary_samples) + " points and all vertices\n" +
+      "  outside the simplified mesh: " + short3(outside) + " % of the " +
+      (isPart(f) ? "part's" : "original's") + " volume\n";
+  if (i.repeated_volume > 1e-9 * i.compared_volume)
     text += "  in more than one simplified cell: " +
-            short3(percentOf(i.repeated_volume, f.original.volume)) + " %\n";
+            short3(percentOf(i.repeated_volume, i.compared_volume)) + " %\n";
   return text;
 }
 
@@ -305,9 +311,9 @@ void addFaceLabel(JsonText& json, const tetstream_face_label_comparison& l) {
 }  // namespace
 
 std::string comparisonText(const ComparisonFigures& f) {
-  return meshesText(f.original, f.simplified) + "\n" + fieldsText(f) + "\n" + boundaryText(f) +
-         "\n" + topologyText(f) + "\n" + shapesText(f.original, f.simplified) + "\n" +
-         regionsText(f) + "\n" + faceLabelsText(f) +
+  return meshesText(f.original, f.simplified) + "\n" + partText(f) + fieldsText(f) + "\n" +
+         boundaryText(f) + "\n" + topologyText(f) + "\n" + shapesText(f.original, f.simplified) +
+         "\n" + regionsText(f) + "\n" + faceLabelsText(f) +
          row("time", textOf("%.2f s, %s cells/s", f.info.seconds,
                             shortCount(static_cast<double>(f.original.cells) /
                                        std::max(f.info.seconds, 1e-9))
@@ -326,6 +332,9 @@ std::string comparisonJson(const ComparisonFigures& f) {
   json.key("is_exact").value(i.is_exact != 0);
   json.key("samples").value(i.samples);
   json.key("diagonal").value(i.diagonal);
+  json.key("compared_cells").value(i.compared_cells);
+  json.key("compared_volume").value(i.compared_volume);
+  json.key("boundary_samples").value(i.boundary_samples);
   json.key("outside_volume").value(i.outside_volume);
   json.key("repeated_volume").value(i.repeated_volume);
   json.key("distance").value(i.distance);

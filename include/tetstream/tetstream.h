@@ -118,6 +118,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_SHAPE 140           /* text: "field", "solver": no thin cells */
 #define TETSTREAM_OPTION_SAMPLES 150         /* int64, points of a comparison; 0: exact integrals */
 #define TETSTREAM_OPTION_CUT 151             /* text: plane of its picture: "none", "auto", "x=0.3" */
+#define TETSTREAM_OPTION_BOX 152             /* text: part of the original: "0:1,0.2:0.4,:"; "": all */
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
@@ -767,15 +768,19 @@ TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *dia
  *   tetstream_comparison_get_field(comparison, 0, &field);    // field.rms, field.largest
  *
  * How the figures are made. Fields are linear on each cell. Every original cell is cut with every
- * simplified one: on their common part the difference is linear, and its squared norm is integrated
- * exactly and has its maximum at a corner. Where the original is outside the simplified mesh, that
- * one's value is the one at the nearest point of its boundary: there the error is sampled, at up to
- * eight places in each such cell and at the corners that are outside. With the option `samples` the
- * fields are compared at that many points, uniform by volume, instead, and largest errors are those
- * of the points. Distances between boundaries are sampled at 200 000 points, or at `samples` where
- * those are fewer, uniform by area, and at all vertices. Cells flatter than 1e-12 of the cube of
- * their longest edge take no part in the fields' figures. The same meshes, options and seed give
- * the same figures. */
+ * simplified one: on their common part the difference is linear, and its squared norm is
+ * integrated exactly and has its maximum at a corner. Where the original is outside the simplified
+ * mesh, that one's value is the one at the nearest point of its boundary: there the error is
+ * sampled, at up to eight places in each such cell and at the corners that are outside. With the
+ * option `samples` the fields are compared at that many points, uniform by volume, instead, and
+ * largest errors are those of the points. Distances between boundaries are sampled at 200 000
+ * points, or at `samples` where those are fewer, uniform by area, and at all vertices. With the
+ * option `box` fields are compared on those cells of the original whose centres lie in it, low
+ * sides included, and distances are those of the faces whose centres do, to all of the other
+ * boundary; ranges of fields, topology, shapes and regions are told of the whole meshes. So
+ * billions of cells need no more room than a part of them: of two boxes side by side the errors'
+ * squares, weighted by volume, add up. Cells flatter than 1e-12 of the cube of their longest edge
+ * take no part in the fields' figures. The same meshes, options and seed give the same figures. */
 typedef struct tetstream_comparison tetstream_comparison;
 
 /* Which of the two meshes. */
@@ -792,8 +797,8 @@ typedef struct tetstream_comparison_info {
   int32_t is_exact;            /* 0: fields are sampled */
   int64_t samples;             /* of the fields; 0: exact */
   double diagonal;             /* of the original's box */
-  double outside_volume;       /* of the original, outside the simplified mesh */
-  double repeated_volume;      /* of the original, in more than one simplified cell; 0 if sampled */
+  double outside_volume;       /* of what is compared, outside the simplified mesh */
+  double repeated_volume;      /* the same in more than one simplified cell; 0 if sampled */
   double distance, rms_distance;   /* from the original's boundary to the simplified one: the
                                       largest, and the root of the mean square */
   double distance_back, rms_distance_back; /* from the simplified boundary to the original's */
@@ -803,6 +808,9 @@ typedef struct tetstream_comparison_info {
   double seconds;              /* that `read` took */
   uint64_t peak_bytes;         /* of the arrays that the memory option bounds */
   int32_t face_label_count;
+  int64_t compared_cells;      /* of the original: all, or those in the option `box` */
+  double compared_volume;      /* of these */
+  int64_t boundary_samples;    /* about so many points of each boundary, beside its vertices */
 } tetstream_comparison_info;
 
 /* The figures of one mesh. Members may be added at the end. */
@@ -840,7 +848,7 @@ typedef struct tetstream_field_comparison {
   double largest;             /* largest error */
   double largest_place[3];    /* where it is */
   double largest_inside;      /* where the original is inside the simplified mesh */
-  double cmse;                /* mean of the squared error over the original's volume */
+  double cmse;                /* mean of the squared error over the volume that is compared */
   double rms;                 /* root of it */
   double rms_inside;          /* over the volume inside the simplified mesh */
   double cpsnr;               /* 20 log10(range / rms), decibels; infinite if there is no error */
@@ -865,17 +873,17 @@ typedef struct tetstream_face_label_comparison {
 } tetstream_face_label_comparison;
 
 /* The options are copied; NULL: the defaults. Those count that count for `inspect`, and `samples`,
- * `seed`, `cut`, `regions` and fields that were added: only these are compared, those of weight 0
- * left out. Since 0.1. */
+ * `seed`, `cut`, `box`, `regions` and fields that were added: only these are compared, those of
+ * weight 0 left out. BAD_ARGUMENT for a `cut` or a `box` that is none. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_comparison_create(const tetstream_options *options,
                                                            tetstream_comparison **comparison);
 /* Since 0.1. */
 TETSTREAM_API void tetstream_comparison_destroy(tetstream_comparison *comparison);
 /* Reads both meshes to their ends and compares them. Fields are matched by name. BAD_ARGUMENT if
- * an option names a field or cell array that is not in both; BAD_DATA, naming the vertex or the
- * cell, for values that are not finite; NO_MEMORY where the front does not fit the memory. Once
- * per comparison; after a failure it can only be asked for its message, and destroyed. Since 0.1.
- */
+ * an option names a field or cell array that is not in both, or a `box` without cells; BAD_DATA,
+ * naming the vertex or the cell, for values that are not finite; NO_MEMORY where the front does
+ * not fit the memory. Once per comparison; after a failure it can only be asked for its message,
+ * and destroyed. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_comparison_read(tetstream_comparison *comparison,
                                                          tetstream_reader *original,
                                                          tetstream_reader *simplified,

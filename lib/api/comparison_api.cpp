@@ -58,6 +58,9 @@ static tetstream_comparison_info publicInfo(const tetstream_comparison& c) {
   out.seconds = c.seconds;
   out.peak_bytes = found.peakBytes();
   out.face_label_count = static_cast<int32_t>(found.faceLabels().size());
+  out.compared_cells = static_cast<int64_t>(found.cellsCompared());
+  out.compared_volume = found.volumeCompared();
+  out.boundary_samples = found.surfaceSamples();
   return out;
 }
 
@@ -142,6 +145,7 @@ tetstream_status tetstream_comparison_create(const tetstream_options* options,
   return guardCreate(__func__, comparison, [&](tetstream_comparison& c) {
     c.options = runOptionsOf(options);
     if (c.options.compare.cut != "none") checkCut(c.options.compare.cut);
+    partBoxOf(c.options.compare.box);  // throws for what is none
   });
 }
 

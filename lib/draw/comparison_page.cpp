@@ -261,6 +261,7 @@ void ComparisonPage::drawFigures(double left, double top) {
   const MeshFigures &a = c.original(), &b = c.simplified();
   const double diagonal = c.diagonal() > 0 ? c.diagonal() : 1;
   const double volume = a.shapes.volume > 0 ? a.shapes.volume : 1;
+  const double compared = c.volumeCompared() > 0 ? c.volumeCompared() : 1;
   std::vector<std::pair<std::string, std::string>> rows;
   if (field_) {
     rows.emplace_back("RMS error", percentText(field_->percent(field_->rms())) +
@@ -278,9 +279,10 @@ void ComparisonPage::drawFigures(double left, double top) {
           " of the diagonal at most, " +
           percentText(100 * std::max(c.toSimplified().rms, c.toOriginal().rms) / diagonal) +
           " RMS");
-  rows.emplace_back(
-      "Volume", textOf("%+.3g %%", 100 * (b.shapes.volume - a.shapes.volume) / volume) + ", " +
-                    percentText(100 * c.volumes().outside / volume) + " of the original outside");
+  rows.emplace_back("Volume",
+                    textOf("%+.3g %%", 100 * (b.shapes.volume - a.shapes.volume) / volume) + ", " +
+                        percentText(100 * c.volumes().outside / compared) +
+                        (c.isWhole() ? " of the original outside" : " of the part outside"));
   rows.emplace_back("Topology", c.topologyKept() ? "kept" : "changed");
   rows.emplace_back("Least dihedral angle",
                     textOf("%.3g\xc2\xb0 (%.3g\xc2\xb0 before), %.3g %% below 10\xc2\xb0",

@@ -25,6 +25,9 @@ static void addPlaces(SimplexRows& from, const SurfaceSampling& s, Account& acco
   IdHash taken(account);  // vertices, which many faces share
   for (uint64_t i = 0; i < from.count(); ++i) {
     const double* corners = from.row(i);
+    double centre[3];
+    from.shape().centreOf(corners, centre);
+    if (!isWithin(s.part, centre)) continue;
     Random random(numberOf(corners, 9, s.seed));
     const double share = s.area > 0 ? triangleArea(corners) / s.area : 0;
     const double wanted = static_cast<double>(s.samples) * share + shareOf(random.next());

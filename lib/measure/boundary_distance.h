@@ -1,23 +1,26 @@
-// measure: how far one boundary is from another. Depends on nearest_points.h.
+// measure: how far one boundary is from another. Depends on nearest_points.h, part_box.h.
 #pragma once
 
 #include <functional>
 
 #include "nearest_points.h"
+#include "part_box.h"
 
 namespace tetstream {
 
 struct DistanceFigures {
-  double largest = 0;  // over the samples and all vertices of the first boundary
+  double largest = 0;  // over the samples and all vertices of those triangles
   double place[3] = {0, 0, 0};
   double rms = 0, mean = 0;  // over the samples
 };
 
-// About `samples` points, uniform by area, of a boundary of that area.
+// About `samples` points, uniform by area, of those triangles of a boundary whose centres lie in
+// the part, which have that area.
 struct SurfaceSampling {
   int64_t samples;
   uint64_t seed;
   double area;
+  Box part;
 };
 
 struct SearchBudget {
@@ -26,7 +29,7 @@ struct SearchBudget {
   size_t bytes;
 };
 
-// From `from` to the nearest points of `to`; all zero where one of them has no triangles.
+// From `from` to the nearest points of all of `to`; all zero where one of them has no triangles.
 DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
                                  const SurfaceSampling& sampling, const SearchBudget& budget,
                                  const std::function<void(double)>& share);

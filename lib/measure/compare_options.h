@@ -10,6 +10,7 @@ namespace tetstream {
 struct CompareOptions {
   int64_t samples = 0;       // 0: exact integrals
   std::string cut = "none";  // of the picture
+  std::string box;           // the part that is compared (part_box.h)
 
   // Points by which each boundary's distance is measured; its vertices are looked at besides.
   int64_t surfaceSamples() const {

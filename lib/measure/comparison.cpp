@@ -91,6 +91,7 @@ void Comparison::matchRegions(const Schema& original, const Schema& simplified, 
 
 Comparison::Comparison(const Schema& original, const Schema& simplified, const ComparePlan& plan)
     : plan_(plan),
+      part_(partBoxOf(plan.options.box)),
       memory_(plan.memory_bytes > 0 ? plan.memory_bytes : kDefaultCompareMemory),
       account_(memory_ / 4 * 3),
       schemas_{original, simplified} {
@@ -101,6 +102,7 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   matchFields(original, simplified, plans);
   matchRegions(original, simplified, plans);
   plans[0].drops_ids = plan.regions == "auto";
+  plans[0].part = plans[1].part = part_;
   const auto scan = [&](int which, size_t share) {
     const MeshScan::Budgets budgets = {{account_, plan.temp_dir, memory_ / kShares * share},
                                        {account_, plan.temp_dir, memory_ / kBoundaryParts}};
@@ -110,7 +112,24 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   simplified_ = scan(1, kSimplifiedShare);
 }
 
+void Comparison::readOriginal(Source& source, const Done& done) {
+  original_->read(source, done);
+  checkPart();
+}
+
+// Of no part there is nothing to be told.
+void Comparison::checkPart() {
+  if (isWhole() || original_->cells().count() > 0) return;
+  const Box& all = original_->box();
+  fail(Status::kBadArgument,
+       "the original has no cell in the box %s: it lies in %.6g:%.6g,%.6g:%.6g,%.6g:%.6g",
+       plan_.options.box.c_str(), all.low[0], all.high[0], all.low[1], all.high[1], all.low[2],
+       all.high[2]);
+}
+
+// All of it that may have something in common with the original's part.
 void Comparison::readSimplified(Source& source, const Done& done) {
+  if (!isWhole()) simplified_->keepWhatMeets(original_->cells().box());
   for (size_t i = 0; i < region_arrays_.size(); ++i) {
     if (!original_->regions(i).dropped()) continue;
     simplified_->regions(i).drop();
@@ -156,7 +175,9 @@ void Comparison::measure(const Done& done) {
     figures_[i].shapes = scans[i]->shapes();
     figures_[i].boundary_area = scans[i]->boundaryArea();
   }
-  box_ = original_->cells().box();
+  box_ = original_->box();
+  cells_compared_ = original_->cells().count();
+  volume_compared_ = original_->volumeKept();
   for (FieldComparison& field : fields_) {
     double square = 0;
     for (size_t c = field.first; c < field.first + field.components; ++c) {
@@ -179,7 +200,7 @@ void Comparison::measureFields(const Done& done) {
   std::vector<ComparedField> compared;
   for (const FieldComparison& f : fields_) compared.push_back({f.first, f.components, f.range});
   FieldDifference difference(compared, values_,
-                             {plan_.options.samples, plan_.seed, figures_[0].shapes.volume},
+                             {plan_.options.samples, plan_.seed, volume_compared_},
                              {account_, plan_.temp_dir, memory_ / 2});
   constexpr double kShare = kFieldsEnd / kOutsideEnd;
   difference.measure(original_->cells(), simplified_->cells(),
@@ -207,7 +228,7 @@ void Comparison::measureDistances(const Done& done) {
   for (int i = 0; i < 2; ++i)
     distances_[i] = boundaryDistance(
         scans[i]->boundary(), scans[1 - i]->boundary(),
-        {plan_.options.surfaceSamples(), plan_.seed, scans[i]->boundaryArea()},
+        {plan_.options.surfaceSamples(), plan_.seed, scans[i]->boundaryAreaInPart(), part_},
         {account_, plan_.temp_dir, memory_ / 4}, [&](double share) { done((i + share) / 2); });
 }
 
@@ -230,7 +251,7 @@ void Comparison::compareRegions() {
 // The first field, on a raster that takes an eighth of the memory at most.
 void Comparison::drawCut() {
   CutComparison cut;
-  cut.plane = cutPlaneOf(plan_.options.cut, box_);
+  cut.plane = cutPlaneOf(plan_.options.cut, original_->cells().box());
   Box seen = cutBoxOf(original_->cells(), cut.plane);
   seen.add(cutBoxOf(simplified_->cells(), cut.plane));
   showBox(seen, cut.plane);

@@ -76,7 +76,8 @@ class Comparison {
   // Throws kBadArgument for fields and regions that are not in both meshes.
   Comparison(const Schema& original, const Schema& simplified, const ComparePlan& plan);
 
-  void readOriginal(Source& source, const Done& done) { original_->read(source, done); }
+  // Throws kBadArgument where none of its cells is of the part that is asked for.
+  void readOriginal(Source& source, const Done& done);
   void readSimplified(Source& source, const Done& done);  // then
   void measure(const Done& done);                         // once both were read
 
@@ -84,6 +85,9 @@ class Comparison {
   const MeshFigures& original() const { return figures_[0]; }
   const MeshFigures& simplified() const { return figures_[1]; }
   const Box& box() const { return box_; }  // of the original
+  // Of the original, that were compared: all, or those of the part that was asked for.
+  uint64_t cellsCompared() const { return cells_compared_; }
+  double volumeCompared() const { return volume_compared_; }
   double diagonal() const;
   bool topologyKept() const;
   const std::vector<FieldComparison>& fields() const { return fields_; }
@@ -96,18 +100,22 @@ class Comparison {
   const std::string& regionWords() const { return region_words_; }
   const CutComparison* cut() const { return cut_ ? &*cut_ : nullptr; }
   bool isExact() const { return plan_.options.samples == 0; }
+  bool isWhole() const { return plan_.options.box.empty(); }
   int64_t samples() const { return plan_.options.samples; }
+  int64_t surfaceSamples() const { return plan_.options.surfaceSamples(); }
   size_t peakBytes() const { return account_.peak(); }
 
  private:
   void matchFields(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
+  void checkPart();
   void measureFields(const Done& done);
   void measureDistances(const Done& done);
   void compareRegions();
   void drawCut();
 
   ComparePlan plan_;
+  Box part_;
   size_t memory_;
   Account account_;
   Schema schemas_[2];
@@ -117,6 +125,8 @@ class Comparison {
   std::unique_ptr<MeshScan> original_, simplified_;
   MeshFigures figures_[2];
   Box box_;
+  uint64_t cells_compared_ = 0;
+  double volume_compared_ = 0;
   VolumeSums volumes_;
   DistanceFigures distances_[2];
   std::vector<RegionComparison> regions_;

@@ -119,6 +119,17 @@ void MeshScan::finalize(int64_t vertex) {
 
 // ------------------------------------------------------------------------------------- cells
 
+// The cell in row_.
+void MeshScan::keepCell() {
+  const Box box = cells_.shape().boxOf(row_.data());
+  box_.add(box);
+  double centre[3];
+  cells_.shape().centreOf(row_.data(), centre);
+  if (met_ ? !met_->meets(box) : !isWithin(plan_.part, centre)) return;
+  volume_kept_ += shapes_.lastVolume();
+  cells_.add(row_.data());
+}
+
 void MeshScan::addCell(const int64_t corners[4], size_t row) {
   uint32_t numbers[4];
   for (int j = 0; j < 4; ++j) {
@@ -141,7 +152,7 @@ void MeshScan::addCell(const int64_t corners[4], size_t row) {
   const double* p = row_.data();
   const int side = orientation(p, p + 3, p + 6, p + 9);
   shapes_.add(p, side);
-  cells_.add(p);
+  keepCell();
   const uint32_t cell = takeNumber(cell_link_, cell_free_, cells_used_);
   for (size_t i = 0; i < regions_.size(); ++i)
     regions_[i]->add(cell, labels_[i][row], shapes_.lastVolume());
@@ -192,7 +203,11 @@ void MeshScan::addBoundary(const uint32_t vertices[3]) {
     std::copy_n(p[j] + 3, values_, values + values_ * j);
   }
   boundary_.add(row_.data());
-  boundary_area_ += triangleArea(row_.data());
+  const double area = triangleArea(row_.data());
+  boundary_area_ += area;
+  double centre[3];
+  boundary_.shape().centreOf(row_.data(), centre);
+  if (isWithin(plan_.part, centre)) area_in_part_ += area;
 }
 
 void MeshScan::read(Source& source, const Done& done) {

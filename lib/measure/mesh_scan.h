@@ -1,10 +1,11 @@
-// measure: everything about one mesh that one reading of it tells, and its cells and its boundary
-// for what comes after. Depends on stream, mesh, face_front.h, cell_shapes.h, region_parts.h,
-// face_labels.h, simplex_rows.h.
+// measure: everything about one mesh that one reading of it tells, and its boundary and its cells,
+// all or those of a part, for what comes after. Depends on stream, mesh, face_front.h,
+// cell_shapes.h, region_parts.h, face_labels.h, part_box.h.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,8 @@
 #include "face_front.h"
 #include "face_labels.h"
 #include "front.h"
+#include "part_box.h"
 #include "region_parts.h"
-#include "simplex_rows.h"
 #include "source.h"
 
 namespace tetstream {
@@ -26,6 +27,7 @@ struct ScanPlan {
   std::vector<size_t> fields;       // columns whose values are kept, all components
   std::vector<size_t> cell_arrays;  // integer columns that may label regions
   bool drops_ids = false;           // those that number the cells
+  Box part = partBoxOf("");         // cells are kept whose centres lie in it
 };
 
 class MeshScan {
@@ -35,6 +37,8 @@ class MeshScan {
   };
   // `account` bounds what the front takes.
   MeshScan(const Schema& schema, const ScanPlan& plan, const Budgets& budgets, Account& account);
+  // Before it is read: all cells are kept that meet the box.
+  void keepWhatMeets(const Box& box) { met_ = box; }
   // Reads everything. Throws kBadData, naming the vertex or the cell: what is not known, final,
   // there twice or not finite.
   void read(Source& source, const Done& done);
@@ -45,9 +49,13 @@ class MeshScan {
   // Of each component that is kept, over the vertices that cells use.
   const std::vector<double>& lowest() const { return low_; }
   const std::vector<double>& highest() const { return high_; }
-  SimplexRows& cells() { return cells_; }
-  SimplexRows& boundary() { return boundary_; }
+  const Box& box() const { return box_; }  // of all cells
+  SimplexRows& cells() { return cells_; }  // that are kept
+  double volumeKept() const { return volume_kept_; }
+  SimplexRows& boundary() { return boundary_; }  // all of it
   double boundaryArea() const { return boundary_area_; }
+  // Of the faces whose centres lie in the part.
+  double boundaryAreaInPart() const { return area_in_part_; }
   const FaceLabels& faceLabels() const { return face_labels_; }
 
  private:
@@ -57,6 +65,7 @@ class MeshScan {
   void takeCells(const BatchView& batch);
   void takeFaces(const BatchView& batch);
   void addCell(const int64_t corners[4], size_t row);
+  void keepCell();
   void use(uint32_t vertex);
   void finalize(int64_t vertex);
   void addBoundary(const uint32_t vertices[3]);
@@ -76,7 +85,9 @@ class MeshScan {
   uint32_t vertex_free_ = kNone, vertices_used_ = 0, cell_free_ = kNone, cells_used_ = 0;
   uint64_t cells_seen_ = 0;
   SimplexRows cells_, boundary_;
-  double boundary_area_ = 0;
+  std::optional<Box> met_;
+  Box box_;
+  double volume_kept_ = 0, boundary_area_ = 0, area_in_part_ = 0;
   FaceLabels face_labels_;
   std::vector<double> low_, high_, row_, positions_;
   std::vector<std::vector<double>> columns_;  // of one batch

@@ -33,6 +33,7 @@ class _Options(TypedDict, total=False):
     shape: Literal["field", "solver"]
     samples: int | str
     cut: str
+    box: str
     window: int | str
     memory: int | str
     tmpdir: str
@@ -150,6 +151,7 @@ class Options:
     shape: str
     samples: int | str
     cut: str
+    box: str
     window: int | str
     memory: int | str
     tmpdir: str
