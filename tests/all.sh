@@ -102,8 +102,8 @@ stage_full() {
 echo "== packages"
 bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev liblz4-dev \
   liblzma-dev libdeflate-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev \
-  clang libclang-rt-dev clang-format clang-tidy valgrind mandoc python3 python3-dev python3-numpy swig abigail-tools \
-  dpkg-dev zsh fish octave-dev gfortran || exit 1
+  clang libclang-rt-dev clang-format clang-tidy valgrind mandoc python3 python3-dev python3-numpy \
+  swig abigail-tools dpkg-dev zsh fish octave-dev gfortran || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"
   begin=$SECONDS

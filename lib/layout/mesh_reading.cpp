@@ -6,7 +6,7 @@
 
 namespace tetstream {
 
-void checkCell(uint64_t cell, const int64_t corners[4], int64_t points) {
+void refuseCell(uint64_t cell, const int64_t corners[4], int64_t points) {
   const auto number = static_cast<unsigned long long>(cell);
   for (int j = 0; j < 4; ++j) {
     if (corners[j] < 0 || corners[j] >= points)

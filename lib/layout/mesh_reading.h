@@ -23,8 +23,17 @@ void readInPieces(uint64_t rows, const Tell& tell, Visit visit) {
   }
 }
 
-// Throws kBadData unless the corners are four different points of the mesh.
-void checkCell(uint64_t cell, const int64_t corners[4], int64_t points);
+// Throws kBadData where the corners are not four different points of the mesh.
+void refuseCell(uint64_t cell, const int64_t corners[4], int64_t points);
+
+inline void checkCell(uint64_t cell, const int64_t corners[4], int64_t points) {
+  bool is_good = true;
+  for (int j = 0; j < 4; ++j) {
+    is_good &= static_cast<uint64_t>(corners[j]) < static_cast<uint64_t>(points);
+    for (int i = 0; i < j; ++i) is_good &= corners[i] != corners[j];
+  }
+  if (!is_good) refuseCell(cell, corners, points);
+}
 
 // visit(first, count, corners [count][4]), of each cell four different points of the mesh.
 template <class Visit>
