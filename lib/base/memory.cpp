@@ -31,11 +31,11 @@ void Account::charge(size_t bytes) {
   size_t before = used(), after;
   do {
     after = checkedAdd(before, bytes);
-    const bool refused = limit_ != 0 && after > limit_;
-    refused_.store(refused, std::memory_order_relaxed);
-    if (refused)
+    if (limit_ != 0 && after > limit_) {
+      refused_.store(true, std::memory_order_relaxed);
       fail(Status::kNoMemory,
            "the memory budget of %zu bytes is too small: at least %zu are needed", limit_, after);
+    }
   } while (!used_.compare_exchange_weak(before, after, std::memory_order_relaxed));
   size_t peak = this->peak();
   while (after > peak && !peak_.compare_exchange_weak(peak, after, std::memory_order_relaxed)) {
@@ -66,6 +66,7 @@ void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_
   void* data = std::realloc(old, new_bytes);
   if (!data) {
     if (new_bytes > old_bytes) account.release(new_bytes - old_bytes);
+    account.failedOtherwise();
     fail(Status::kNoMemory, "the system has no %zu bytes of memory left", new_bytes);
   }
   if (new_bytes < old_bytes) account.release(old_bytes - new_bytes);

@@ -30,8 +30,9 @@ class Account {
   size_t used() const noexcept { return used_.load(std::memory_order_relaxed); }
   size_t peak() const noexcept { return peak_.load(std::memory_order_relaxed); }
   size_t limit() const noexcept { return limit_; }
-  // Whether the last charge would have passed the limit.
+  // Whether what failed last was a charge that would have passed the limit.
   bool refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
+  void failedOtherwise() noexcept { refused_.store(false, std::memory_order_relaxed); }
 
  private:
   const size_t limit_;

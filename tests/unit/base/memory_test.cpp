@@ -41,7 +41,9 @@ TEST(Account, HoldsItsLimitToTheByte) {
   Account account(100);
   account.charge(60);
   account.charge(40);
+  EXPECT_FALSE(account.refused());
   EXPECT_EQ(statusOf([&] { account.charge(1); }), Status::kNoMemory);
+  EXPECT_TRUE(account.refused());
   EXPECT_EQ(account.used(), 100u);  // what failed had no effect
   account.release(30);
   account.charge(29);
@@ -142,9 +144,12 @@ TEST(GrowArray, PassesOtherErrorsOn) {
 #ifndef __SANITIZE_ADDRESS__
 TEST(Array, SaysWhenTheSystemHasNoMemory) {
   if (slowRun()) return;
-  Account account;
+  Account account(size_t{1} << 63);
+  EXPECT_EQ(statusOf([&] { account.charge(~size_t{0} - 100); }), Status::kNoMemory);
+  EXPECT_TRUE(account.refused());
   Array<char> array(account, 10);
   EXPECT_EQ(statusOf([&] { array.resize(size_t{1} << 62); }), Status::kNoMemory);
+  EXPECT_FALSE(account.refused());
   EXPECT_EQ(account.used(), 10u);
   EXPECT_EQ(array.size(), 10u);
 }
