@@ -103,6 +103,9 @@ void ComparisonPage::drawHead(const std::string& title) {
   std::string words = textOf("Cut at %s = %.5g", kAxes[plane.axis], plane.at);
   if (field_) words += ", coloured by " + field_->name;
   words += textOf("; %s to the right, %s upwards.", kAxes[plane.across], kAxes[plane.up]);
+  if (!comparison_.isWhole())
+    words += textOf(" A part of the original, %llu cells; topology and shapes are of all.",
+                    static_cast<unsigned long long>(comparison_.cellsCompared()));
   canvas_.text({kMargin, 57}, words, kTextStyle);
 }
 

@@ -116,10 +116,11 @@ Image errorPanel(const CutComparison& cut, double range, const Scale& scale) {
   const CutImage &a = *cut.original, &b = *cut.simplified;
   Image panel(a.width(), a.height());
   const double tone = 0.5 * edgeTone(b);
+  const Colour added = cut.is_whole ? kAdded : kWhite;
   for (size_t y = 0; y < a.height(); ++y)
     for (size_t x = 0; x < a.width(); ++x)
       panel.set(x, y,
-                a.cell(x, y) == 0   ? (b.cell(x, y) == 0 ? kWhite : kAdded)
+                a.cell(x, y) == 0   ? (b.cell(x, y) == 0 ? kWhite : added)
                 : b.cell(x, y) == 0 ? kLeftOut
                                     : errorColour(0));
   if (!cut.field.empty())

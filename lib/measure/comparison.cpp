@@ -253,7 +253,8 @@ void Comparison::drawCut() {
   CutComparison cut;
   cut.plane = cutPlaneOf(plan_.options.cut, original_->cells().box());
   Box seen = cutBoxOf(original_->cells(), cut.plane);
-  seen.add(cutBoxOf(simplified_->cells(), cut.plane));
+  cut.is_whole = isWhole();
+  if (cut.is_whole) seen.add(cutBoxOf(simplified_->cells(), cut.plane));
   showBox(seen, cut.plane);
   CutImage::Shown shown = {0, 0, nullptr};
   if (!fields_.empty()) {

@@ -65,7 +65,8 @@ struct FaceLabelComparison {
 // What the picture shows of one field.
 struct CutComparison {
   CutPlane plane;
-  std::string field;  // empty: there is none
+  bool is_whole = true;  // else the simplified mesh goes on where the original's part ends
+  std::string field;     // empty: there is none
   size_t components = 1;
   std::vector<double> zero;
   std::unique_ptr<CutImage> original, simplified;
