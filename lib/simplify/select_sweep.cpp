@@ -90,6 +90,7 @@ class SweepSelector final : public Selector {
   void shareOut(size_t pieces, Work work);
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
+  TileLayout layout() const;
   int64_t room() const {
     return core_.window.liveCells() - (goal_.last ? goal_.cells : goal_.least_cells);
   }
@@ -144,10 +145,12 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   double bound = bounds_.start(goal_, unit_);
   for (bool first = true;; first = false) {
     constexpr float kAll = std::numeric_limits<float>::infinity();
-    tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll, takesShares());
+    tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll, layout());
     if (!(bound > 0)) bound = firstBound();
     const int64_t before = core_.window.liveCells();
-    const bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
+    bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
+    // What is left out, of a pass that could do nothing, is left to what comes after all passes.
+    more |= tiling_.leavesOut() && core_.window.liveCells() < before;
     // A pass that the limit on the error ended was left half done: the one before tells the bound.
     if (!core_.tally.error_reached || first) bound_ = bound;
     if (!more) return;
@@ -208,6 +211,14 @@ bool SweepSelector<S>::takesShares() const {
   const auto live = static_cast<double>(core_.window.liveCells());
   return core_.shapesFirst() && goal_.last && core_.options.memory_bytes == 0 && !worksInOrder() &&
          static_cast<double>(room()) > kLeastShareOfSlices * live;
+}
+
+template <class S>
+TileLayout SweepSelector<S>::layout() const {
+  if (takesShares()) return TileLayout::kSlices;
+  const bool several = core_.options.memory_bytes == 0 && !worksInOrder();
+  if (!several) return TileLayout::kWhole;
+  return goal_.last ? TileLayout::kApart : TileLayout::kPieces;
 }
 
 // As many tiles as can be swept before the goal may be met: with all of their cells, or where

@@ -1,7 +1,6 @@
 #include "tiling.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "median_cut.h"
 #include "settled.h"
@@ -85,6 +84,15 @@ size_t Tiling<S>::listVertices() {
 // than they save.
 constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastPart = 4;
 
+// What a pass looks at again are few vertices with many cells. A tile that is smaller still has
+// more seams than it has inside.
+constexpr size_t kPieces = 8, kLeastPieces = 6;
+
+// The most vertices of one.
+size_t pieceOf(size_t vertices, size_t tile) {
+  return std::clamp(vertices / kPieces + 1, tile / kLeastPieces, tile);
+}
+
 // 0: none. `tile`: the most vertices of one.
 template <class S>
 size_t Tiling<S>::slicesOf(size_t vertices, size_t tile) const {
@@ -94,10 +102,11 @@ size_t Tiling<S>::slicesOf(size_t vertices, size_t tile) const {
 }
 
 template <class S>
-void Tiling<S>::cut(size_t count, unsigned round, bool together) {
+void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
-  const auto most =
+  const auto largest =
       static_cast<size_t>(tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan)));
+  const size_t most = layout == TileLayout::kPieces ? pieceOf(count, largest) : largest;
   const CutRule rule{kShare[round % 3], most};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), rule, at);
@@ -106,7 +115,7 @@ void Tiling<S>::cut(size_t count, unsigned round, bool together) {
     for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = tile;
     tiles_.push_back({begin, end, 0, tile - 1, 0});
   };
-  const size_t slices = together ? slicesOf(count, most) : 0;
+  const size_t slices = layout == TileLayout::kSlices ? slicesOf(count, largest) : 0;
   are_slices_ = slices > 0;
   if (are_slices_)
     pieces.slice(0, count, slices, round % 2 == 1, add);
@@ -130,14 +139,7 @@ size_t Tiling<S>::tilesOf(uint32_t cell, uint32_t tiles[4]) const {
 }
 
 template <class S>
-void Tiling<S>::meet(uint32_t a, uint32_t b, Earlier& earlier) {
-  std::vector<uint32_t>& of = earlier[std::max(a, b)];
-  const uint32_t other = std::min(a, b);
-  if (std::find(of.begin(), of.end(), other) == of.end()) of.push_back(other);
-}
-
-template <class S>
-void Tiling<S>::addCells(uint32_t first, uint32_t end, Part& part) const {
+void Tiling<S>::sortCells(uint32_t first, uint32_t end, bool whole, Part& part) const {
   const Topology& mesh = core_.window.mesh;
   const uint32_t* of = core_.window.scratch();
   uint32_t tiles[4];
@@ -145,68 +147,147 @@ void Tiling<S>::addCells(uint32_t first, uint32_t end, Part& part) const {
     if (!mesh.isLive(c)) continue;
     const uint32_t* v = mesh.corners(c);
     if (of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]]) {
-      if (of[v[0]] != 0) part.cells.add(of[v[0]] - 1, c);  // most cells are in one tile or in none
+      if (of[v[0]] != 0) part.cells.add(of[v[0]] - 1, c);  // most are in one tile or in none
       continue;
     }
     const size_t count = tilesOf(c, tiles);
-    for (size_t k = 0; k < count; ++k) part.cells.add(tiles[k], c);
     for (size_t k = 1; k < count; ++k)
-      for (size_t l = 0; l < k; ++l) meet(tiles[k], tiles[l], part.earlier);
+      for (size_t l = 0; l < k; ++l) part.contacts.add(tiles[k], tiles[l]);
+    if (count > 1 && !whole)
+      part.addBetween(c);
+    else
+      for (size_t k = 0; k < count; ++k) part.cells.add(tiles[k], c);
   }
 }
 
 template <class S>
-void Tiling<S>::addCells() {
+void Tiling<S>::Part::addBetween(uint32_t cell) {
+  if (between.size() == between_count)
+    between.resize(between_count + between_count / 2 + kBlockCells);
+  between[between_count++] = cell;
+}
+
+template <class S>
+void Tiling<S>::sortCells(bool whole) {
   for (Part& part : parts_) {
     part.cells.reset(tiles_.size());
-    part.earlier.assign(tiles_.size(), {});
+    part.contacts.reset(tiles_.size());
+    part.between_count = 0;
   }
-  core_.forHalves(
-      [this](uint32_t first, uint32_t end, unsigned half) { addCells(first, end, parts_[half]); });
-  earlier_ = parts_[0].earlier;
-  for (uint32_t tile = 0; tile < tiles_.size(); ++tile) {
-    for (uint32_t other : parts_[1].earlier[tile]) meet(tile, other, earlier_);
-    tiles_[tile].cell_count = parts_[0].cells.count(tile) + parts_[1].cells.count(tile);
+  core_.forHalves([this, whole](uint32_t first, uint32_t end, unsigned half) {
+    sortCells(first, end, whole, parts_[half]);
+  });
+  contacts_.reset(tiles_.size());
+  for (const Part& part : parts_) contacts_.add(part.contacts);
+}
+
+// Vertices of the cell that are of that tile.
+template <class S>
+void Tiling<S>::leaveOut(uint32_t cell, uint32_t tile) {
+  const uint32_t* v = core_.window.mesh.corners(cell);
+  uint32_t* const of = core_.window.scratch();
+  for (int j = 0; j < 4; ++j) {
+    if (of[v[j]] != tile + 1) continue;
+    of[v[j]] = 0;
+    const bool looked = settledOf(core_.window, v[j]).least <= bound_;
+    leaves_out_ |= looked;
+    looking_ -= looked;
   }
+}
+
+// Leaves out what the cell has of all but one of the tiles that are to be kept apart: of two the
+// one with fewer corners.
+template <class S>
+void Tiling<S>::part(uint32_t cell) {
+  const uint32_t* v = core_.window.mesh.corners(cell);
+  const uint32_t* of = core_.window.scratch();
+  const auto corners = [of, v](uint32_t tile) {
+    return std::count_if(v, v + 4, [of, tile](uint32_t corner) { return of[corner] == tile + 1; });
+  };
+  uint32_t tiles[4];
+  const size_t count = tilesOf(cell, tiles);
+  for (size_t k = 1; k < count; ++k)
+    for (size_t l = 0; l < k; ++l)
+      if (contacts_.areApart(tiles[k], tiles[l]))
+        leaveOut(cell, corners(tiles[k]) < corners(tiles[l]) ? tiles[k] : tiles[l]);
+}
+
+template <class S>
+void Tiling<S>::dropLeftOut() {
+  const uint32_t* of = core_.window.scratch();
+  for (TilePiece& tile : tiles_) {
+    const auto begin = &vertices_[tile.vertex_begin], end = begin + tile.vertexCount();
+    const auto is_left_out = [of, &tile](uint32_t v) { return of[v] != tile.number + 1; };
+    tile.vertex_end =
+        tile.vertex_begin + static_cast<size_t>(std::remove_if(begin, end, is_left_out) - begin);
+  }
+}
+
+// In the order of the cells, whichever half they are of.
+template <class S>
+void Tiling<S>::keepApart() {
+  std::vector<size_t> sizes;
+  for (const TilePiece& tile : tiles_) sizes.push_back(tile.vertexCount());
+  contacts_.divide(sizes);
+  for (const Part& part : parts_)
+    for (size_t i = 0; i < part.between_count; ++i) this->part(part.between[i]);
+  dropLeftOut();
+}
+
+template <class S>
+void Tiling<S>::addBetween() {
+  between_.reset(tiles_.size());
+  uint32_t tiles[4];
+  for (const Part& part : parts_)
+    for (size_t i = 0; i < part.between_count; ++i) {
+      const size_t count = tilesOf(part.between[i], tiles);
+      for (size_t k = 0; k < count; ++k) between_.add(tiles[k], part.between[i]);
+    }
+  for (uint32_t tile = 0; tile < tiles_.size(); ++tile)
+    tiles_[tile].cell_count =
+        parts_[0].cells.count(tile) + parts_[1].cells.count(tile) + between_.count(tile);
 }
 
 template <class S>
 const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) const {
   if (room.size() < t.cell_count) room.resize(t.cell_count + t.cell_count / 4);
-  parts_[0].cells.copy(t.number, room.data());
-  parts_[1].cells.copy(t.number, room.data() + parts_[0].cells.count(t.number));
+  uint32_t* to = room.data();
+  for (const TileCells* cells : {&parts_[0].cells, &parts_[1].cells, &between_}) {
+    cells->copy(t.number, to);
+    to += cells->count(t.number);
+  }
   return room.data();
 }
 
-// The lowest colour that no neighbour before it has.
+// The lowest colour that no tile has of those that it meets: of one side first, then of the other.
 template <class S>
 void Tiling<S>::colour() {
+  for (TilePiece& tile : tiles_) tile.colour = kNone;
   std::vector<bool> taken;
-  for (size_t i = 0; i < tiles_.size(); ++i) {
-    taken.assign(earlier_[i].size() + 1, false);
-    for (uint32_t n : earlier_[i])
-      if (tiles_[n].colour < taken.size()) taken[tiles_[n].colour] = true;
-    tiles_[i].colour =
-        static_cast<uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
-  }
+  for (int side : {0, 1})
+    for (TilePiece& tile : tiles_) {
+      if (contacts_.side(tile.number) != side) continue;
+      const std::vector<TileContacts::Contact>& contacts = contacts_.of(tile.number);
+      taken.assign(contacts.size() + 1, false);
+      for (const TileContacts::Contact& contact : contacts) {
+        const uint32_t colour = tiles_[contact.tile].colour;
+        if (!contact.apart && colour < taken.size()) taken[colour] = true;
+      }
+      tile.colour =
+          static_cast<uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
+    }
 }
 
 template <class S>
 void Tiling<S>::sortByColour() {
-  std::vector<uint32_t> order(tiles_.size()), place(tiles_.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [this](uint32_t a, uint32_t b) { return tiles_[a].colour < tiles_[b].colour; });
-  for (uint32_t i = 0; i < order.size(); ++i) place[order[i]] = i;
-  std::vector<TilePiece> tiles;
-  std::vector<std::vector<uint32_t>> earlier(tiles_.size());
-  for (uint32_t a : order) {
-    tiles.push_back(tiles_[a]);
-    for (uint32_t b : earlier_[a])
-      earlier[std::max(place[a], place[b])].push_back(std::min(place[a], place[b]));
-  }
-  tiles_.swap(tiles);
-  earlier_.swap(earlier);
+  std::stable_sort(tiles_.begin(), tiles_.end(),
+                   [](const TilePiece& a, const TilePiece& b) { return a.colour < b.colour; });
+  std::vector<uint32_t> place(tiles_.size());
+  for (uint32_t i = 0; i < tiles_.size(); ++i) place[tiles_[i].number] = i;
+  earlier_.assign(tiles_.size(), {});
+  for (uint32_t i = 0; i < tiles_.size(); ++i)
+    for (const TileContacts::Contact& contact : contacts_.of(tiles_[i].number))
+      if (!contact.apart && place[contact.tile] < i) earlier_[i].push_back(place[contact.tile]);
 }
 
 template <class S>
@@ -219,14 +300,17 @@ void Tiling<S>::lookAhead() {
 }
 
 template <class S>
-void Tiling<S>::build(unsigned round, float bound, bool together) {
+void Tiling<S>::build(unsigned round, float bound, TileLayout layout) {
   tiles_.clear();
-  are_slices_ = false;
+  bound_ = bound;
+  leaves_out_ = are_slices_ = false;
   markVertices(bound);
   const size_t count = listVertices();
   if (count == 0) return;
-  cut(count, round, together);
-  addCells();
+  cut(count, round, layout);
+  sortCells(layout == TileLayout::kWhole);
+  if (layout != TileLayout::kWhole) keepApart();
+  addBetween();
   colour();
   sortByColour();
   lookAhead();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core.h"
+#include "tile_contacts.h"
 
 namespace tetstream {
 
@@ -36,21 +37,31 @@ class TileCells {
   std::vector<uint32_t> block_before_;
 };
 
+// What a tiling is for.
+enum class TileLayout : uint8_t {
+  kWhole,   // every vertex that is to be in a tile is in one
+  kApart,   // to be worked on at the same time: tiles that would share next to no cells share none,
+            // since vertices between them are left out
+  kPieces,  // the same of few vertices in smaller tiles, for passes whose seams others come back to
+  kSlices,  // the same of few vertices cut across, into more tiles
+};
+
 template <class S>
 class Tiling {
  public:
   Tiling(Core<S>& core, Account& account)
-      : core_(core), vertices_(account), parts_{Part(account), Part(account)} {}
+      : core_(core), vertices_(account), parts_{Part(account), Part(account)}, between_(account) {}
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
   // the cache. `round` shifts the cuts: what lies on a seam of one round is inside a tile of
-  // another. Tiles come ordered by colour. Where there are few, `together` asks for such that may
-  // be worked on at the same time, though they have more seams.
-  void build(unsigned round, float bound, bool together = false);
+  // another. Tiles come ordered by colour.
+  void build(unsigned round, float bound, TileLayout layout = TileLayout::kWhole);
 
-  // Of the vertices listed, those whose edges may have errors up to the bound.
+  // Of the vertices in tiles, those whose edges may have errors up to the bound.
   int64_t looking() const { return looking_; }
+  // Whether there are others of these, that are in no tile.
+  bool leavesOut() const { return leaves_out_; }
   // Whether edges of free vertices that were not listed have errors above the bound.
   bool othersWait() const { return others_wait_; }
   const std::vector<TilePiece>& tiles() const { return tiles_; }
@@ -61,27 +72,33 @@ class Tiling {
   // Of each tile: its cells, and of those that wait for it the most that one has ahead.
   const std::vector<size_t>& ahead() const { return ahead_; }
   const uint32_t* vertices(const TilePiece& t) const { return &vertices_[t.vertex_begin]; }
-  // Its cells, listed in `room`, which grows if need be.
+  // Its cells, each once, listed in `room`, which grows if need be.
   const uint32_t* listCells(const TilePiece& t, Array<uint32_t>& room) const;
 
  private:
   void markVertices(float bound);
   size_t listVertices();
   size_t slicesOf(size_t vertices, size_t tile) const;
-  void cut(size_t count, unsigned round, bool together);
-  using Earlier = std::vector<std::vector<uint32_t>>;
+  void cut(size_t count, unsigned round, TileLayout layout);
   // What was found in a part of the window's cells.
   struct Part {
-    explicit Part(Account& account) : near(account), cells(account) {}
-    Array<uint8_t> near;  // of each vertex: whether a cell has it and one to be looked at
-    TileCells cells;
-    Earlier earlier;
+    explicit Part(Account& account) : near(account), cells(account), between(account) {}
+    void addBetween(uint32_t cell);
+    Array<uint8_t> near;      // of each vertex: whether a cell has it and one to be looked at
+    TileCells cells;          // of one tile, or of any if no vertices are to be left out
+    Array<uint32_t> between;  // others, of several
+    size_t between_count = 0;
+    TileContacts contacts;
   };
 
-  void addCells();
-  void addCells(uint32_t first, uint32_t end, Part& part) const;
+  void sortCells(uint32_t first, uint32_t end, bool whole, Part& part) const;
+  void sortCells(bool whole);
+  void keepApart();
+  void part(uint32_t cell);
+  void leaveOut(uint32_t cell, uint32_t tile);
+  void dropLeftOut();
+  void addBetween();
   size_t tilesOf(uint32_t cell, uint32_t tiles[4]) const;
-  static void meet(uint32_t a, uint32_t b, Earlier& earlier);
   void colour();
   void sortByColour();
   void lookAhead();
@@ -89,10 +106,13 @@ class Tiling {
   Core<S>& core_;
   Array<uint32_t> vertices_;
   Part parts_[2];  // the second is empty where one thread works
+  TileCells between_;
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
-  bool others_wait_ = false, are_slices_ = false;
-  Earlier earlier_;
+  float bound_ = 0;
+  bool others_wait_ = false, leaves_out_ = false, are_slices_ = false;
+  TileContacts contacts_;
+  std::vector<std::vector<uint32_t>> earlier_;
   std::vector<size_t> ahead_;
 };
 
