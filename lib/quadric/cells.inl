@@ -94,9 +94,25 @@ double addCellField(const S* const x[4], const S* scale, int n_given, double sha
   return det;
 }
 
+// Of a quadric: its mean gradient's part along c, squared and summed over components, times W.
+template <class S>
+inline double slopeAlong(const double* c, int n, const S* q) {
+  const double volume = n > 3 ? static_cast<double>(q[Fields::weight(n)]) : 0;
+  if (!(volume > 0)) return 0;
+  double sum = 0;
+  for (int f = 3; f < n; ++f) {
+    double along = 0;
+    for (int j = 0; j < 3; ++j) along += c[j] * static_cast<double>(q[Fields::gradient(f) + j]);
+    sum += along * along;
+  }
+  return sum / volume;
+}
+
+// The plane is in space: the first six numbers of the triangle.
 template <class S, int N>
-void addFacePlane(const S* const x[3], const S* scale, int n_given, double weight, S* const q[3]) {
-  (void)n_given;  // the plane is in space: the first six numbers of the triangle
+void addFacePlane(const S* const x[3], const S* scale, int n_given, double weight, double slope,
+                  S* const q[3]) {
+  const int n = dimension<N>(n_given);
   double e1[3], e2[3], c[3], a[6];
   difference(x[0], x[1], scale, 3, e1);
   difference(x[0], x[2], scale, 3, e2);
@@ -104,10 +120,13 @@ void addFacePlane(const S* const x[3], const S* scale, int n_given, double weigh
   const double c2 = dot(c, c, 3);
   if (!(c2 > 0)) return;
   const double area = 0.5 * squareRoot(c2);
-  const double w = weight * area / 3.0 / c2;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) a[at(i, j)] = w * (c[i] * c[j]);
-  addToAll(a, 6, q, 3);
+  for (int k = 0; k < 3; ++k) {
+    const double beyond = slope > 0 ? slope * slopeAlong(c, n, q[k]) / c2 : 0;
+    const double w = (weight * area + beyond) / 3.0 / c2;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) a[at(i, j)] = w * (c[i] * c[j]);
+    addToAll(a, 6, q + k, 1);
+  }
 }
 
 // ----------------------------------------------------------------- four cells side by side

@@ -41,7 +41,7 @@ double addCellDistance(const S* const x[4], const S* scale, int n_given, double 
 }
 
 template <class S, int N>
-void addFaceDistance(const S* const x[3], const S* scale, int n_given, double weight,
+void addFaceDistance(const S* const x[3], const S* scale, int n_given, double weight, double,
                      S* const q[3]) {
   const int n = dimension<N>(n_given), size = n * (n + 1) / 2;
   double e[2][kRoom<N>], c[3], a[kRoom<N> * (kRoom<N> + 1) / 2];

@@ -76,7 +76,11 @@ struct QuadricKernels {
                    const uint32_t* rows, const S* scale, int n, double shape, double* determinants);
   // Adds a boundary face to its vertices: weight * area / 3 times the squared distance to
   // its plane in space (kFields), or to its 2-flat in R^n (kFull).
-  void (*addFace)(const S* const x[3], const S* scale, int n, double weight, S* const q[3]);
+  // `slope` (kFields): of a vertex, slope * W g^2 / 3 times it besides, with W and the mean
+  // gradient of what its quadric has from cells, and g the gradient's part across the face: where
+  // the boundary moves, a layer of the field comes to lie outside, or is made up.
+  void (*addFace)(const S* const x[3], const S* scale, int n, double weight, double slope,
+                  S* const q[3]);
   // Carries a quadric over into units in which component i is divided by factor[i], and multiplies
   // it by `weight`. kFields: W is that of the component with the smallest factor; of the others,
   // which would count more, what belongs to their mean gradients is brought down to it.

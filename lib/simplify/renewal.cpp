@@ -152,6 +152,7 @@ void Renewal<S>::renewStale() {
   if (!findStale()) return;
   const auto row = static_cast<size_t>(core_.window.shape().quadric);
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) std::fill_n(rowOf(v), row, S(0));
+  std::fill_n(patch_.quadric(patch_.ownedEnd()), row, S(0));  // of those that are not stale
   face_count_ = 0;
   for (uint32_t c = 0; c < patch_.cellEnd(); ++c)
     if (patch_.isLive(c)) takeCell(c);

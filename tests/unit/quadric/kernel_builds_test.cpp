@@ -19,7 +19,7 @@ void expectSameBits(const QuadricKernels<S>& a, const QuadricKernels<S>& b, Quad
     c.template addWith<4>(
         [&](const S* const* x, S* const* q) { k.addCell(x, c.scale.data(), n, kShapeWeight, q); });
     f.template addWith<3>(
-        [&](const S* const* x, S* const* q) { k.addFace(x, f.scale.data(), n, 300, q); });
+        [&](const S* const* x, S* const* q) { k.addFace(x, f.scale.data(), n, 300, 0.5, q); });
   };
   addAll(a, cell, face);
   addAll(b, other, other_face);

@@ -217,10 +217,10 @@ TEST(QuadricOfAFace, IsTheDistanceToItsPlaneOrFlat) {
       flat.scale = c.scale;
       const auto size = static_cast<size_t>(n);
       c.addWith<3>([&](const double* const* x, double* const* q) {
-        c.kernels().addFace(x, c.scale.data(), n, 7, q);
+        c.kernels().addFace(x, c.scale.data(), n, 7, 0, q);
       });
       flat.addWith<3>([&](const double* const* x, double* const* q) {
-        flat.kernels().addFace(x, c.scale.data(), n, 7, q);
+        flat.kernels().addFace(x, c.scale.data(), n, 7, 0, q);
       });
       const Vector e1 = c.edge(1), e2 = c.edge(2);
       const Vector s1(e1.begin(), e1.begin() + 3), s2(e2.begin(), e2.begin() + 3);
@@ -240,6 +240,43 @@ TEST(QuadricOfAFace, IsTheDistanceToItsPlaneOrFlat) {
     }
 }
 
+// Where the field has a slope across the boundary a vertex has, for its share of the cells, the
+// square of what a step off the boundary changes it by, in each component.
+TEST(QuadricOfAFace, CountsTheFieldBeyondIt) {
+  Random r(16);
+  for (int n : {3, 4, 7, 12}) {
+    Corners<double> c(r, QuadricLayout::kFields, 4, n, n % 2);
+    std::vector<Vector> slopes;
+    for (int f = 3; f < n; ++f) {
+      slopes.push_back(randomVector(r, 3));
+      for (std::vector<double>& p : c.points) {  // linear, in normalised units
+        double value = 0;
+        for (size_t i = 0; i < 3; ++i) value += slopes.back()[i] * p[i] * c.scale[i];
+        p[static_cast<size_t>(f)] = value / c.scale[static_cast<size_t>(f)];
+      }
+    }
+    c.addWith<4>([&](const double* const* x, double* const* q) {
+      c.kernels().addCell(x, c.scale.data(), n, kShape, q);
+    });
+    const Vector d = randomVector(r, static_cast<size_t>(n));
+    const double before = formOf(c.dense(1), d);
+    c.addWith<3>([&](const double* const* x, double* const* q) {
+      c.kernels().addFace(x, c.scale.data(), n, 0, 2, q);
+    });
+    Vector normal(3);
+    const Vector e1 = c.edge(1), e2 = c.edge(2);
+    for (size_t i = 0; i < 3; ++i)
+      normal[i] = e1[(i + 1) % 3] * e2[(i + 2) % 3] - e1[(i + 2) % 3] * e2[(i + 1) % 3];
+    const double size = std::sqrt(dotOf(normal, normal)),
+                 off = dotOf(normal, {d[0], d[1], d[2]}) / size;
+    double squares = 0;
+    for (const Vector& slope : slopes) squares += std::pow(dotOf(slope, normal) / size * off, 2);
+    const double share = volumeOf(e1, e2, c.edge(3)) / 4;
+    EXPECT_NEAR(formOf(c.dense(1), d) - before, 2 * share * squares / 3, 1e-9 * (before + squares))
+        << "n = " << n;
+  }
+}
+
 TEST(QuadricOfAFace, OfNoAreaIsZero) {
   Random r(6);
   for (QuadricLayout layout : kLayouts)
@@ -247,7 +284,7 @@ TEST(QuadricOfAFace, OfNoAreaIsZero) {
       Corners<double> c(r, layout, 3, n, true);
       c.points[2] = c.points[1];
       c.addWith<3>([&](const double* const* x, double* const* q) {
-        c.kernels().addFace(x, c.scale.data(), n, 300, q);
+        c.kernels().addFace(x, c.scale.data(), n, 300, 1, q);
       });
       for (double v : c.quadrics[0]) EXPECT_NEAR(v, 0, 1e-6) << nameOf(layout);
     }

@@ -1,6 +1,8 @@
 // Several fields at once: none loses much against being alone, in whatever form and however their
 // ranges come to be known; what a field of no extent or of no weight does.
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "field_error.h"
 #include "simplify_testing.h"
@@ -120,7 +122,6 @@ TEST(SeveralFields, OfNoExtentOrWeightLeaveTheOthersAlone) {
   }
 }
 
-// Forty components in a budget of memory: rows are long, but as long as they are, not longer.
 // With a field twice all errors count twice: beside it the boundary would count half, were it not
 // for its weight.
 TEST(SeveralFields, LeaveTheBoundaryItsShare) {
@@ -140,6 +141,7 @@ TEST(SeveralFields, LeaveTheBoundaryItsShare) {
     }
 }
 
+// Forty components in a budget of memory: rows are long, but as long as they are, not longer.
 TEST(SeveralFields, OfManyComponentsKeepABudget) {
   TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1);
   for (int f = 0; f < 5; ++f)
@@ -152,6 +154,62 @@ TEST(SeveralFields, OfManyComponentsKeepABudget) {
   expectSound(mesh, result);
   expectReached(result);
   EXPECT_LE(result.report.peak_window_bytes, size_t{4} << 20);
+}
+
+// A quarter of a thin tube, with waves along it and a layer of a twentieth of its inner radius.
+TestMesh heatedTube() {
+  const int n = side();
+  TestMesh mesh = fullGrid(2 * n, n, n, 0.1);
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+    const double angle = mesh.position(v, 0) / (2 * n) * std::acos(0.0);
+    const double radius = 1 + std::pow(mesh.position(v, 1) / n, 2);
+    mesh.setPosition(v, 0, radius * std::sin(angle));
+    mesh.setPosition(v, 1, radius * std::cos(angle));
+    mesh.setPosition(v, 2, 40 * mesh.position(v, 2) / n);
+  }
+  addPositionField(mesh, {"heat", 1, k64}, [](double x, double y, double z) {
+    return std::exp(-20 * (std::sqrt(x * x + y * y) - 1)) +
+           0.5 * std::sin(5 * x) * std::sin(0.5 * z);
+  });
+  return mesh;
+}
+
+// How far the middles of the faces at the tube's inside are from it, as root mean square.
+double lossAtTheWall(const TestMesh& result) {
+  std::map<std::array<int64_t, 3>, int> faces;
+  for (size_t c = 0; c < result.cellCount(); ++c)
+    for (size_t j = 0; j < 4; ++j) {
+      std::array<int64_t, 3> face;
+      for (size_t k = 0, out = 0; k < 4; ++k)
+        if (k != j) face[out++] = result.cells[4 * c + k];
+      std::sort(face.begin(), face.end());
+      ++faces[face];
+    }
+  double sum = 0;
+  int count = 0;
+  for (const auto& [face, cells] : faces) {
+    double x = 0, y = 0, outermost = 0;
+    for (int64_t v : face) {
+      const double a = result.position(static_cast<size_t>(v), 0),
+                   b = result.position(static_cast<size_t>(v), 1);
+      outermost = std::max(outermost, std::sqrt(a * a + b * b));
+      x += a / 3;
+      y += b / 3;
+    }
+    if (cells != 1 || outermost > 1.1) continue;
+    sum += std::pow(std::sqrt(x * x + y * y) - 1, 2);
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
+TEST(AFieldThatIsSteepAtAWall, KeepsTheWall) {
+  const TestMesh mesh = heatedTube();
+  const Result result = simplified(mesh, toRatio(0.1));
+  expectSound(mesh, result);
+  expectReached(result);
+  // With the boundary's own weight alone it is 0.026.
+  EXPECT_LT(lossAtTheWall(result.out.mesh), 0.022);
 }
 
 }  // namespace
