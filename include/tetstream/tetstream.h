@@ -107,6 +107,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_CELLS 101           /* int64, cells out */
 #define TETSTREAM_OPTION_ERROR 102           /* double, RMS field error in percent of the range */
 #define TETSTREAM_OPTION_BOUNDARY_WEIGHT 110 /* double, dimensionless: boundary against field */
+#define TETSTREAM_OPTION_FIELD_RANGE 111     /* text: "free": values may leave their range; "keep" */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
 #define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: none */
 #define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */

@@ -37,25 +37,25 @@ void Collapser<Mesh>::forget() {
   sound_.forget();
 }
 
-template <class Mesh>
-void Collapser<Mesh>::endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
-  const S *a = mesh_.values(u), *b = mesh_.values(v);
-  for (size_t i = 0; i < core_.scale.size(); ++i) {
-    const S half = S(0.5) * ((b[i] - a[i]) * core_.scale[i]);
-    z[i] = at_v ? half : -half;
-  }
-}
-
 // The new position is rounded to the type in which it is written: what is tested is what the file
-// will hold.
+// will hold. Values stay in the range of what was read, or of the two ends where a header has told
+// a narrower one; returns whether z had to give way for it.
 template <class Mesh>
-void Collapser<Mesh>::placeAt(uint32_t u, uint32_t v, const S* z) {
+bool Collapser<Mesh>::placeAt(uint32_t u, uint32_t v, S* z) {
   const S *a = mesh_.values(u), *b = mesh_.values(v);
   const bool to_float = core_.plan.schema.position_type == ScalarType::kFloat32;
+  bool gave_way = false;
   for (size_t i = 0; i < core_.scale.size(); ++i) {
-    merged_[i] = (a[i] + S(0.5) * (b[i] - a[i])) + z[i] * core_.inverse_scale[i];
-    if (to_float && i < 3) merged_[i] = static_cast<S>(static_cast<float>(merged_[i]));
+    const S middle = a[i] + S(0.5) * (b[i] - a[i]);
+    S& x = merged_[i] = middle + z[i] * core_.inverse_scale[i];
+    if (to_float && i < 3) x = static_cast<S>(static_cast<float>(x));
+    if (!(x < core_.least[i] || x > core_.most[i])) continue;
+    x = std::clamp(x, std::min({core_.least[i], a[i], b[i]}),
+                   std::max({core_.most[i], a[i], b[i]}));
+    z[i] = (x - middle) * core_.scale[i];
+    gave_way = true;
   }
+  return gave_way;
 }
 
 template <class Mesh>
@@ -354,7 +354,7 @@ template <class Mesh>
 Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                                   float most_price) {
   std::copy_n(z, z_.size(), z_.data());
-  placeAt(u, v, z);
+  if (placeAt(u, v, z_.data())) error = std::max(error, errorHere(u, v));
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               merged_.data() + core_.plan.dimension);
   Outcome outcome = Outcome::kNotFinite;

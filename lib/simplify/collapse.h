@@ -59,7 +59,13 @@ class Collapser {
   float price() const { return price_; }
 
   // z of an end.
-  void endOf(uint32_t u, uint32_t v, bool at_v, S* z) const;
+  void endOf(uint32_t u, uint32_t v, bool at_v, S* z) const {
+    const S *a = mesh_.values(u), *b = mesh_.values(v);
+    for (size_t i = 0; i < core_.scale.size(); ++i) {
+      const S half = S(0.5) * ((b[i] - a[i]) * core_.scale[i]);
+      z[i] = at_v ? half : -half;
+    }
+  }
 
   // The last edge that was tried. After a collapse the two stars are that of the merged vertex.
   const Stars& stars() const { return stars_; }
@@ -94,7 +100,7 @@ class Collapser {
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
   void count(Outcome outcome);
-  void placeAt(uint32_t u, uint32_t v, const S* z);
+  bool placeAt(uint32_t u, uint32_t v, S* z);
   StarShape shapeFrom(const S* place, const StarCell* cells, size_t count,
                       const ThinAngle& angle) const;
   size_t thinIn(const Star& star, const S* centre, const ThinAngle& angle) const {

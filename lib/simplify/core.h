@@ -124,6 +124,8 @@ struct Core {
         front(account, span),
         scale(static_cast<size_t>(the_plan.dimension), S(1)),
         inverse_scale(scale),
+        least(scale.size(), -std::numeric_limits<S>::infinity()),
+        most(scale.size(), std::numeric_limits<S>::infinity()),
         shape_weight(the_options.shape_weight >= 0    ? the_options.shape_weight
                      : followsPaper(the_options.mode) ? kShapeWeightPaper
                                                       : kShapeWeight),
@@ -227,6 +229,7 @@ struct Core {
   Window<S> window;
   Front front;
   std::vector<S> scale, inverse_scale;  // per dimension: normalised = scale * user's units
+  std::vector<S> least, most;           // per dimension: what a merged vertex may have
   double error_unit = 1;                // times a quadric error: the report's unit
   double shape_weight;                  // of a cell's regulariser (kernels.h)
   double face_weight = 0;               // of a face on the boundary

@@ -290,8 +290,19 @@ void Metric<S>::prepare(uint32_t first, uint32_t end) {
   if (!box_known_) growBox(first, end);
   if (!unit_known_) chooseLengthUnit(first, end);
   updateScales();
+  keepRange();
   // Errors of several fields are added up: the boundary counts as much beside them as beside one.
   core_.face_weight = fields_together_ * core_.options.boundary_weight * extent() / length_unit_;
+}
+
+// Minimizers lie beyond the values they come from where a field bends: of a density, below 0.
+template <class S>
+void Metric<S>::keepRange() {
+  if (core_.options.field_range == FieldRange::kFree) return;
+  for (size_t i = 3; i < low_.size(); ++i) {
+    core_.least[i] = static_cast<S>(low_[i]);
+    core_.most[i] = static_cast<S>(high_[i]);
+  }
 }
 
 template <class S>

@@ -33,6 +33,7 @@ class Metric {
   double fieldsTogether() const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
+  void keepRange();
   void rescaleQuadrics(const std::vector<S>& factor);
   double addCell(uint32_t cell, double volume);
   bool addLanes(uint32_t first, double* volume);

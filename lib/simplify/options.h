@@ -21,6 +21,7 @@ constexpr bool followsPaper(Mode mode) {
 }
 enum class PilotUse { kAuto, kNever };
 enum class ReleaseOrder { kArrival, kError };
+enum class FieldRange { kFree, kKeep };
 enum class Shape { kField, kSolver };
 
 struct SimplifyOptions {
@@ -31,6 +32,7 @@ struct SimplifyOptions {
   double error = 0;   // RMS error of the measured fields, percent of their range
   std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
   double boundary_weight = 10;
+  FieldRange field_range = FieldRange::kFree;
   std::string regions = "auto";
   double feature_angle = 0;  // degrees by which a sheet bends at least to make a curve; 0: none
   Mode mode = Mode::kSweep;

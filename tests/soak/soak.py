@@ -88,6 +88,7 @@ class Case:
         if "--mode" not in words:
             perhaps(0.2, ["--shape", "solver"])
         perhaps(0.2, ["--release", "error"])
+        perhaps(0.2, ["--field-range", "keep"])
         perhaps(0.3, *(["--feature-angle", str(n)] for n in (5, 30, 90, 180)))
         perhaps(0.3, *(["--boundary-weight", n] for n in ("0", "0.01", "1000", "1e9")))
         perhaps(0.2, ["--regions", "none"])

@@ -23,6 +23,7 @@ class _Options(TypedDict, total=False):
     cells: int | str
     error: float | str
     boundary_weight: float | str
+    field_range: Literal["free", "keep"]
     feature_angle: float | str
     mode: Literal["sweep", "paper", "queue"]
     seed: int | str
@@ -140,6 +141,7 @@ class Options:
     cells: int | str
     error: float | str
     boundary_weight: float | str
+    field_range: str
     regions: str
     feature_angle: float | str
     mode: str

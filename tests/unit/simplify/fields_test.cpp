@@ -156,6 +156,64 @@ TEST(SeveralFields, OfManyComponentsKeepABudget) {
   EXPECT_LE(result.report.peak_window_bytes, size_t{4} << 20);
 }
 
+// Of one component of a field: its least and its largest value.
+std::pair<double, double> rangeOf(const TestMesh& mesh, size_t field, int component) {
+  std::pair<double, double> range = {HUGE_VAL, -HUGE_VAL};
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+    const double x = mesh.field(field, v, component);
+    range = {std::min(range.first, x), std::max(range.second, x)};
+  }
+  return range;
+}
+
+// By how much of its range a component leaves it, at most.
+double excess(const TestMesh& mesh, const TestMesh& result) {
+  double most = 0;
+  for (size_t f = 0; f < mesh.fields.size(); ++f)
+    for (int i = 0; i < mesh.schema.fields[f].components; ++i) {
+      const auto before = rangeOf(mesh, f, i), after = rangeOf(result, f, i);
+      most = std::max({most, (before.first - after.first) / (before.second - before.first),
+                       (after.second - before.second) / (before.second - before.first)});
+    }
+  return most;
+}
+
+// Minimizers lie beyond it.
+TEST(SeveralFields, StayWithinTheirRangeIfAsked) {
+  for (ScalarType type : {k32, k64}) {
+    const TestMesh mesh = fieldsMesh(type);
+    for (bool box : {true, false})
+      for (bool carried : {true, false}) {
+        Cut cut;
+        cut.say_box = box;
+        SimplifyOptions options = measuring({});
+        if (carried) options.fields = {{"front", 1}};
+        EXPECT_GT(excess(mesh, simplified(mesh, options, cut).out.mesh), 0.01);
+        options.field_range = FieldRange::kKeep;
+        for (Mode mode : kModes) {
+          options.mode = mode;
+          const Result result = simplified(mesh, options, cut);
+          expectSound(mesh, result);
+          EXPECT_EQ(excess(mesh, result.out.mesh), 0) << "box " << box << " carried " << carried;
+        }
+      }
+  }
+}
+
+// A header that tells half of the range: values are as those they come from.
+TEST(SeveralFields, AreNotPressedIntoARangeThatIsTooNarrow) {
+  TestMesh mesh = fullGrid(side(), side(), side(), 0.1);
+  addPositionField(mesh, {"front", 1, k64}, front);
+  mesh.schema.box_min = {0, 0, 0, -0.5};
+  mesh.schema.box_max = {side() + 0.0, side() + 0.0, side() + 0.0, 0.5};
+  SimplifyOptions options = toRatio(0.3);
+  options.field_range = FieldRange::kKeep;
+  const Result result = simplified(mesh, options);
+  const auto [least, most] = rangeOf(result.out.mesh, 0, 0);
+  EXPECT_LT(least, -0.95);
+  EXPECT_GT(most, 0.95);
+}
+
 // A quarter of a thin tube, with waves along it and a layer of a twentieth of its inner radius.
 TestMesh heatedTube() {
   const int n = side();
