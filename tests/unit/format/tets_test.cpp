@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "slow_run.h"
 #include "tets_chunk.h"
 #include "tets_streams.h"
 
@@ -103,7 +104,7 @@ TEST(Tets, KeepsVerticesWithoutCells) {
 
 // 86,400 cells, in batches far larger and far smaller than a chunk.
 TEST(Tets, KeepsManyChunksWhateverTheBatches) {
-  const SmallMesh mesh = gridMesh(12, 12, 100);
+  const SmallMesh mesh = gridMesh(12, 12, slowRun() ? 30 : 100);
   Wanted wanted;
   wanted.fields = {{"f", 1, ScalarType::kFloat32}};
   wanted.explicit_every = 50;

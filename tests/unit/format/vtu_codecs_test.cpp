@@ -40,17 +40,19 @@ TEST(VtuCodecs, ReadBlocksOfAnySizeInAnyCoding) {
     for (const VtuCoding coding :
          {VtuCoding::kInline, VtuCoding::kAppendedBase64, VtuCoding::kAppendedRaw})
       for (const size_t block_bytes : {1, 7, 16, 32768})
-        for (const size_t step : {1, 3, 1000})
+        for (const size_t step : {1, 3, 1000}) {
+          if (slowRun() && step == 1) continue;
           EXPECT_TRUE(readVtu(makeVtu({twoCellPiece()}, styleOf(codec, coding, block_bytes)),
                               step) == plain)
               << codec << " in blocks of " << block_bytes;
+        }
 }
 
 TEST(VtuCodecs, SurviveDamageOfEveryByte) {
   for (const char* codec : kCodecs) {
     const std::string good =
         makeVtu({twoCellPiece("Float32", "UInt8")}, styleOf(codec, VtuCoding::kAppendedRaw, 16));
-    for (size_t byte = 0; byte < good.size(); byte += oneIn(5))
+    for (size_t byte = 0; byte < good.size(); byte += oneIn(11))
       for (const int bit : {0, 3, 7}) {
         std::string bad = good;
         bad[byte] = static_cast<char>(bad[byte] ^ (1 << bit));
@@ -59,7 +61,7 @@ TEST(VtuCodecs, SurviveDamageOfEveryByte) {
                     text.starts_with("TETSTREAM_UNSUPPORTED: test.vtu: "))
             << codec << ", byte " << byte << ": " << text;
       }
-    for (size_t size = 0; size < good.size(); size += oneIn(5))
+    for (size_t size = 0; size < good.size(); size += oneIn(11))
       EXPECT_TRUE(vtuFailure(good.substr(0, size)) != "" || size >= good.rfind("\n</AppendedData>"))
           << codec << ", cut to " << size;
   }

@@ -62,7 +62,7 @@ void expectSolutionsOfSolveEdge() {
       const uint32_t vertices = slowRun() && n > 20 ? 5 : 30;
       const Table<S> table(r, layout, n, vertices);
       const VertexTable<S> view = table.view();
-      for (size_t count = 1; count <= kEdgeLanes; count += oneIn(n > 20 ? 7 : 2)) {
+      for (size_t count = 1; count <= kEdgeLanes; count += oneIn(7)) {
         std::vector<uint32_t> ends(2 * count);
         for (uint32_t& end : ends) end = r.below(vertices);
         std::vector<S> z(size * count + 1, S(-7)), errors(count + 1, S(-7)), one(size);

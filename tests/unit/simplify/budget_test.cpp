@@ -270,7 +270,7 @@ int expectWallFits(const TestMesh& wall, Mode mode, int64_t window) {
   return told;
 }
 TEST(SimplifierMemory, SufficesForWallsOrSaysHowMuchDoes) {
-  const TestMesh wall = fullGrid(12, slowRun() ? 40 : 400, 1);
+  const TestMesh wall = fullGrid(12, slowRun() ? 24 : 400, 1);
   int told = 0;
   for (Mode mode : kModes)
     for (int64_t window : {0, 6000}) told += expectWallFits(wall, mode, window);

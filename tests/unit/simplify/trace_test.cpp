@@ -164,8 +164,8 @@ TEST(Traces, TellOfEveryVertexAndCollapseInEveryModeAndWindow) {
 TEST(Traces, TellOfStrongReductions) {
   for (Mode mode : kModes)
     expectTraces(fullGrid(8, 8, slowRun() ? 8 : 16, 0.1), toRatio(0.02, 1500, mode));
-  const int n = slowRun() ? 8 : 16;
-  for (Mode mode : kModes) expectTraces(fullGrid(n, n, 24, 0.1), toRatio(0.1, 0, mode));
+  const int n = slowRun() ? 6 : 16, length = slowRun() ? 12 : 24;
+  for (Mode mode : kModes) expectTraces(fullGrid(n, n, length, 0.1), toRatio(0.1, 0, mode));
 }
 
 TEST(Traces, TellOfDomainsWithHolesCracksAndSingularPlaces) {
