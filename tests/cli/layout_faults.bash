@@ -3,9 +3,7 @@
 source "${BASH_SOURCE%/*}/common.bash"
 
 mkdir tmp out
-cells=100000
-[[ ${TETSTREAM_SANITIZED:-0} == 1 ]] && cells=40000
-tetstream generate ball --cells $cells mesh.tets
+tetstream generate ball --cells 100000 mesh.tets
 tetstream convert mesh.tets mesh.vtu 2>"$logs/err"
 cells=$(cells_in mesh.tets)
 words=(layout mesh.vtu out/mesh.tets --order hilbert --memory 1M --tmpdir tmp --quiet)
