@@ -10,11 +10,11 @@
 namespace tetstream {
 
 [[noreturn]] static void refuse(const std::string& text) {
-  fail(Status::kBadArgument,
-       "a box is a range of x, of y and of z, low end first, as 0.4:0.6,0:1,: whose ends may be "
-       "left "
-       "out, not \"%s\"",
-       text.c_str());
+  fail(
+      Status::kBadArgument,
+      "a box is a range of x, of y and of z, low end first, as 0.4:0.6,0:1,: whose ends may be left"
+      " out, not \"%s\"",
+      text.c_str());
 }
 
 // Up to `stop`, which is passed.

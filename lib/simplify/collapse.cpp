@@ -38,8 +38,8 @@ void Collapser<Mesh>::forget() {
 }
 
 // The new position is rounded to the type in which it is written: what is tested is what the file
-// will hold. Values stay in the range of what was read, or of the two ends where a header has told
-// a narrower one; returns whether z had to give way for it.
+// will hold. Where fields are to keep their range, values stay in what is known of it, or in that
+// of the two ends where a header has told a narrower one; returns whether z had to give way.
 template <class Mesh>
 bool Collapser<Mesh>::placeAt(uint32_t u, uint32_t v, S* z) {
   const S *a = mesh_.values(u), *b = mesh_.values(v);

@@ -229,7 +229,7 @@ struct Core {
   Window<S> window;
   Front front;
   std::vector<S> scale, inverse_scale;  // per dimension: normalised = scale * user's units
-  std::vector<S> least, most;           // per dimension: what a merged vertex may have
+  std::vector<S> least, most;           // per dimension: the values a merged vertex may have
   double error_unit = 1;                // times a quadric error: the report's unit
   double shape_weight;                  // of a cell's regulariser (kernels.h)
   double face_weight = 0;               // of a face on the boundary

@@ -23,18 +23,6 @@ static tetstream_reader* callbacks(hostile_reader* hostile, const hostile_mesh* 
   return reader;
 }
 
-/* Where no figure of it counts: by so many points only. */
-static tetstream_comparison* rough_comparison(const char* name, const char* value) {
-  tetstream_options* options = NULL;
-  tetstream_comparison* comparison = NULL;
-  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_options_parse(options, name, value), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_options_parse(options, "samples", "500"), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
-  tetstream_options_destroy(options);
-  return comparison;
-}
-
 static tetstream_options* options_with(const char* name, const char* value) {
   tetstream_options* options = NULL;
   CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
@@ -177,7 +165,7 @@ static void a_page_is_drawn_where_a_cut_was_asked_for(void) {
   if (!CHECK(mkdtemp(folder) != NULL)) return;
   snprintf(svg, sizeof svg, "%s/a.svg", folder);
   snprintf(png, sizeof png, "%s/a.png", folder);
-  tetstream_comparison* comparison = rough_comparison("cut", "x=1.25");
+  tetstream_comparison* comparison = comparison_with("cut", "x=1.25");
   CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL), TETSTREAM_BAD_STATE);
   CHECK_EQUAL(compare(comparison, mesh, HOSTILE_ODD, 0), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_comparison_check_path(comparison, "a.gif"), TETSTREAM_UNSUPPORTED);

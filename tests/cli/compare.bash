@@ -14,7 +14,7 @@ for words in "topology: kept" "density" "velocity" "Euler characteristic" "simpl
   contains "$out" "$words"
 done
 [[ -z $err ]] || fail "a report is enough: $err"
-expect 0 compare in.tets out.vtu --quiet --samples 500
+expect 0 compare in.tets out.vtu --quiet
 [[ -z $out$err ]] || fail "--quiet is not quiet: $out$err"
 
 # Every figure of the public structs is told, and little memory gives the same ones.
@@ -90,7 +90,7 @@ expect_error 4 "" compare in.tets out.vtu --memory 100k
 only_files in.tets out.vtu cut.tets
 [[ $(tetstream --version) == *"no cairo"* ]] && exit 0
 for picture in a.svg a.png; do
-  expect 0 compare in.tets out.vtu --quiet --samples 500 --picture $picture --cut z=0.1 --title "Two balls"
+  expect 0 compare in.tets out.vtu --quiet --picture $picture --cut z=0.1 --title "Two balls"
 done
 [[ $(head -c 5 a.svg) == "<?xml" && $(tail -n 1 a.svg) == "</svg>" ]] || fail "a.svg is no SVG"
 [[ $(head -c 4 a.png | tr -d '\0') == $'\x89PNG' ]] || fail "a.png is no PNG"
