@@ -3,7 +3,8 @@
 # those named. Every stage runs, also after one that failed; the last one is the main layer.
 #   build      release, with compiler warnings as errors, into build/release
 #   format     clang-format finds nothing to change
-#   lint       clang-tidy finds nothing to say about the library and the command
+#   lint       clang-tidy finds nothing to say about the library and the command, and no file of the
+#              library uses what it does not include
 #   sanitize   another build, by Clang, with its warnings as errors, AddressSanitizer and
 #              UndefinedBehaviorSanitizer, and its tests, with smaller meshes
 #   memcheck   unit, API and Fortran tests of the release, the shared problem, and streams through Python
@@ -23,10 +24,11 @@ stages=("$@")
 failed=()
 
 # The Python of the distribution has the modules that some tests need; another may come first.
+python=python3
+[[ -x /usr/bin/python3 ]] && python=/usr/bin/python3
+
 configure() {
-  local python=()
-  [[ -x /usr/bin/python3 ]] && python=(-DPython3_EXECUTABLE=/usr/bin/python3)
-  cmake -S . -B "$1" -G Ninja "${python[@]}" "${@:2}" >/dev/null
+  cmake -S . -B "$1" -G Ninja "-DPython3_EXECUTABLE=$(command -v "$python")" "${@:2}" >/dev/null
 }
 
 # Only what goes wrong is shown.
@@ -73,7 +75,7 @@ compiled() {
 }
 
 stage_lint() {
-  configure_sanitize &&
+  "$python" tests/includes.py && configure_sanitize &&
     compiled | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/sanitize 2>&1 |
     sed '/warnings\? generated\.$/d'
 }

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <exception>
+#include <new>
 
 #include "bytes.h"
 #include "cairo_library.h"

@@ -1,5 +1,7 @@
 #include "compressed_bytes.h"
 
+#include <utility>
+
 #include "wrapping_parts.h"
 
 namespace tetstream {

@@ -1,5 +1,7 @@
 #include "file_pool.h"
 
+#include <utility>
+
 namespace tetstream {
 
 std::string pathBeside(const std::string& file, const std::string& name) {

@@ -5,6 +5,7 @@
 #ifdef TETSTREAM_WITH_ZSTD
 #include <zstd.h>
 
+#include <utility>
 #include <vector>
 #endif
 

@@ -3,6 +3,7 @@
 // source.h.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "source.h"

@@ -1,5 +1,7 @@
 #include "sv_bytes.h"
 
+#include <utility>
+
 namespace tetstream {
 
 // One read; large enough that the calls do not count, small against the 2 MB of an L2 cache.

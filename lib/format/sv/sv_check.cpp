@@ -1,5 +1,7 @@
 #include "sv_check.h"
 
+#include <utility>
+
 #include "status.h"
 
 namespace tetstream {

@@ -1,6 +1,7 @@
 #include "sva_header.h"
 
 #include <cmath>
+#include <utility>
 
 #include "status.h"
 #include "text_number.h"

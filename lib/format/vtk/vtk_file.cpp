@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <string_view>
 
 #include "status.h"
 #include "vtk_scan.h"
@@ -120,7 +121,7 @@ class VtkParser {
     keyword_at_ = scan_.place();
     if (lower(scan_.word()) != "dataset") fail("there is no DATASET");
     const std::string kind = scan_.word();
-    if (lower(kind) != "unstructured_grid")
+    if (lower(kind) != std::string_view("unstructured_grid"))
       tetstream::fail(Status::kUnsupported, "%s: the file holds \"%s\", no UNSTRUCTURED_GRID",
                       bytes_.name().c_str(), cutMeshName(kind).c_str());
     scan_.line();

@@ -2,6 +2,7 @@
 // raw files. Of a collection over time one step is read; grids of a spatial collection are pieces
 // whose shared points are one each.
 #include <algorithm>
+#include <cstdlib>
 
 #include "format_rows.h"
 #include "made_values.h"

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Finds names of the standard library in lib/ whose header is not included, by the file itself or
+by a header of the project that it includes. The compiler does not: where headers are precompiled,
+all files see them. Prints a line for each, and exits with 1 if there are any."""
+import functools
+import pathlib
+import re
+import sys
+
+# Names that several headers declare stand with each of them.
+NAMES = {
+    "algorithm": """all_of any_of binary_search clamp copy copy_n count count_if equal fill fill_n find
+        find_if find_if_not lower_bound make_heap max max_element min min_element minmax
+        minmax_element move_backward none_of nth_element pop_heap push_heap remove remove_if replace
+        replace_if search sort stable_sort unique upper_bound""",
+    "array": "array size",
+    "atomic": "atomic atomic_ref memory_order_relaxed",
+    "bit": """bit_cast bit_ceil bit_floor bit_width countl_zero countr_zero endian has_single_bit
+        popcount""",
+    "charconv": "chars_format from_chars from_chars_result to_chars",
+    "chrono": "chrono",
+    "cmath": """abs acos cbrt ceil cos fabs floor fma fmax frexp isfinite isinf isnan ldexp llround log
+        log10 lround pow sin sqrt trunc""",
+    "condition_variable": "condition_variable",
+    "cctype": "isalpha tolower",
+    "cstddef": "ptrdiff_t",
+    "cstdio": "FILE fclose fgets fopen remove sscanf vsnprintf",
+    "cstdlib": "abs free getenv realloc strtoul",
+    "cstring": """memchr memcmp memcpy memmove memset strchr strcmp strcspn strerror strlen strncmp
+        strrchr strspn""",
+    "deque": "deque",
+    "exception": "current_exception exception exception_ptr rethrow_exception",
+    "functional": "function",
+    "initializer_list": "initializer_list",
+    "iterator": "next prev size",
+    "limits": "numeric_limits",
+    "list": "list",
+    "map": "map",
+    "memory": "enable_shared_from_this make_shared make_unique shared_ptr unique_ptr",
+    "mutex": "lock_guard mutex recursive_mutex unique_lock",
+    "new": "bad_alloc nothrow",
+    "numbers": "numbers",
+    "numeric": "iota partial_sum",
+    "optional": "nullopt optional",
+    "queue": "priority_queue",
+    "set": "set",
+    "shared_mutex": "shared_lock shared_mutex",
+    "stdexcept": "length_error",
+    "string": "string to_string",
+    "string_view": "string_view",
+    "system_error": "errc system_error",
+    "thread": "this_thread thread",
+    "type_traits": """conditional_t is_enum_v is_floating_point_v is_integral_v is_trivially_copyable_v
+        is_void_v make_unsigned_t""",
+    "unordered_map": "unordered_map",
+    "utility": "declval exchange in_range move pair swap",
+    "variant": "variant",
+    "vector": "vector",
+}
+# What a header of the standard library is bound to include, or declares as well.
+ALSO = {
+    "string": "initializer_list string_view", "map": "initializer_list utility",
+    "charconv": "system_error", "vector": "initializer_list iterator", "array": "iterator",
+    "algorithm": "utility",
+}
+# Declared by several that everything includes: get, erase_if.
+ANYWHERE = {"get", "erase_if"}
+
+HEADERS = {}
+for header, names in NAMES.items():
+    for name in names.split():
+        HEADERS.setdefault(name, set()).add(header)
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent / "lib"
+    files = [f for f in root.rglob("*") if f.suffix in (".h", ".cpp", ".inl")]
+    by_name = {f.name: f for f in files}
+    text = {f: re.sub(r"//.*", "", f.read_text()) for f in files}
+
+    @functools.cache
+    def headers_of(file):
+        found = set(re.findall(r"#include <(\w+)>", text[file]))
+        for header in tuple(found):
+            found.update(ALSO.get(header, "").split())
+        for name in re.findall(r'#include "([\w.]+)"', text[file]):
+            if name in by_name:
+                found |= headers_of(by_name[name])
+        return found
+
+    missing = 0
+    for file in sorted(files):
+        for name in sorted(set(re.findall(r"\bstd::(\w+)", text[file])) - ANYWHERE):
+            if not HEADERS.get(name, set()) & headers_of(file):
+                where = " or ".join(f"<{h}>" for h in sorted(HEADERS.get(name, ["?"])))
+                print(f"{file.relative_to(root.parent)}: std::{name} without {where}")
+                missing += 1
+    return missing > 0
+
+
+sys.exit(main())
