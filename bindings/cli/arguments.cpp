@@ -215,15 +215,19 @@ void Parser::addStreamOptions(CLI::App* command) {
       addTableOption(command, info);
 }
 
+// What no other command takes.
+bool isOfComparison(int32_t id) {
+  return id == TETSTREAM_OPTION_SAMPLES || id == TETSTREAM_OPTION_BOUNDARY_SAMPLES ||
+         id == TETSTREAM_OPTION_CUT || id == TETSTREAM_OPTION_BOX;
+}
+
 void Parser::addSimplify() {
   CLI::App* command = addCommand("simplify", "Make a mesh smaller, following its fields",
                                  Arguments::Command::kSimplify);
   addIn(command);
   addOut(command);
   for (tetstream_option_info info : optionTable()) {
-    if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
-        info.id == TETSTREAM_OPTION_BOX)
-      continue;
+    if (isOfComparison(info.id)) continue;
     // The defaults of the two targets do not hold here: one has to be given.
     if (info.id == TETSTREAM_OPTION_RATIO || info.id == TETSTREAM_OPTION_CELLS)
       info.default_text = nullptr;
@@ -350,8 +354,7 @@ void Parser::addCompare() {
       info.text =
           "part of ORIGINAL whose fields and boundary are compared: x0:x1,y0:y1,z0:z1, whose "
           "ends may be left out (default: all of it)";
-    if (info.id == TETSTREAM_OPTION_SAMPLES || info.id == TETSTREAM_OPTION_CUT ||
-        info.id == TETSTREAM_OPTION_BOX || info.id == TETSTREAM_OPTION_SEED ||
+    if (isOfComparison(info.id) || info.id == TETSTREAM_OPTION_SEED ||
         info.id == TETSTREAM_OPTION_REGIONS || info.id == TETSTREAM_OPTION_MEMORY ||
         info.id == TETSTREAM_OPTION_TMPDIR || info.id == TETSTREAM_OPTION_SPLIT ||
         info.id == TETSTREAM_OPTION_STEP || info.id == TETSTREAM_OPTION_THREADS)

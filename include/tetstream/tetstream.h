@@ -120,6 +120,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_SAMPLES 150         /* int64, points of a comparison; 0: exact integrals */
 #define TETSTREAM_OPTION_CUT 151             /* text: plane of its picture: "none", "auto", "x=0.3" */
 #define TETSTREAM_OPTION_BOX 152             /* text: part of the original: "0:1,0.2:0.4,:"; "": all */
+#define TETSTREAM_OPTION_BOUNDARY_SAMPLES 153 /* int64, points of each boundary; 0: 200000 */
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
@@ -775,7 +776,8 @@ TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *dia
  * sampled, at up to eight places in each such cell and at the corners that are outside. With the
  * option `samples` the fields are compared at that many points, uniform by volume, instead, and
  * largest errors are those of the points. Distances between boundaries are sampled at 200 000
- * points, or at `samples` where those are fewer, uniform by area, and at all vertices. With the
+ * points, or at `samples` where those are fewer, or at as many as the option `boundary-samples`
+ * says, uniform by area, and at all vertices. With the
  * option `box` fields are compared on those cells of the original whose centres lie in it, low
  * sides included, and distances are those of the faces whose centres do, to all of the other
  * boundary; ranges of fields, topology, shapes and regions are told of the whole meshes. So

@@ -44,22 +44,10 @@ const QuadricKernels<S>& fieldKernelsFor(int n) {
   }
 }
 
+// Of one field alone: they are for comparisons with others' work.
 template <class S>
 const QuadricKernels<S>& fullKernelsFor(int n) {
-  switch (n) {
-    case 3:
-      return kFullKernels<S, 3>;
-    case 4:
-      return kFullKernels<S, 4>;
-    case 5:
-      return kFullKernels<S, 5>;
-    case 6:
-      return kFullKernels<S, 6>;
-    case 7:
-      return kFullKernels<S, 7>;
-    default:
-      return kFullKernels<S, 0>;
-  }
+  return n == 4 ? kFullKernels<S, 4> : kFullKernels<S, 0>;
 }
 
 template <class S>

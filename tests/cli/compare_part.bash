@@ -11,12 +11,12 @@ tetstream simplify in.tets out.tets --ratio 0.2 --quiet
 field() { # field TEXT NAME: of the first field
   member "${1#*'"fields": ['}" "$2"
 }
-expect 0 compare in.tets out.tets --quiet --report json
+expect 0 compare in.tets out.tets --quiet --report json "${less_boundary[@]}"
 whole=$out
 [[ $(member "$whole" compared_cells) == $(member "$whole" cells) ]] || fail "the whole is not all"
 parts=
 for box in ":0.1,:-0.05,:" ":0.1,-0.05:,:0" ":0.1,-0.05:,0:" "0.1:,:,:"; do
-  expect 0 compare in.tets out.tets --quiet --report json --box "$box"
+  expect 0 compare in.tets out.tets --quiet --report json --box "$box" "${less_boundary[@]}"
   for name in cells euler components volume topology_kept diagonal range; do
     [[ $(member "$out" $name) == $(member "$whole" $name) ]] || fail "$name is that of a part: $box"
   done
@@ -52,7 +52,7 @@ expect 0 compare in.tets out.tets --box $box
 contains "$out" "of a part of"
 contains "$out" "of the part's volume"
 contains "$out" "by about 200000 points"
-expect 0 compare in.tets out.tets --quiet --report json --box $box
+expect 0 compare in.tets out.tets --quiet --report json --box $box "${less_boundary[@]}"
 inner=$out
 [[ $(member "$inner" outside_volume) == 0 && $(member "$inner" distance) == 0 ]] ||
   fail "inside there is a boundary: $inner"
@@ -60,7 +60,8 @@ expect 0 compare in.tets out.tets --quiet --report json --box $box --samples 400
 awk -v few="$(field "$out" rms)" -v exact="$(field "$inner" rms)" \
   'BEGIN { exit few < 0.8 * exact || few > 1.2 * exact }' || fail "samples of a part: $out"
 tetstream convert in.tets - --quiet |
-  tetstream compare - out.tets --quiet --report json --box $box --memory 3M >"$logs/piped" ||
+  tetstream compare - out.tets --quiet --report json --box $box --memory 3M \
+    "${less_boundary[@]}" >"$logs/piped" ||
   fail "no comparison of a pipe"
 [[ $(field "$(<"$logs/piped")" rms_percent) == $(field "$inner" rms_percent) ]] ||
   fail "a pipe's part differs: $(<"$logs/piped")"
@@ -71,8 +72,9 @@ expect_error 1 "it lies in -1:1,-1:1,-1:1" compare in.tets out.tets --box 5:6,:,
 expect_error 1 "--box" simplify in.tets a.tets --ratio 0.5 --box :,:,:
 only_files in.tets out.tets
 [[ $(tetstream --version) == *"no cairo"* ]] && exit 0
-expect 0 compare in.tets out.tets --quiet --picture part.svg --box $box
-expect 0 compare in.tets out.tets --quiet --picture whole.svg
+expect 0 compare in.tets out.tets --quiet --picture part.svg --box $box "${less_boundary[@]}"
+expect 0 compare in.tets out.tets --quiet --picture whole.svg "${less_boundary[@]}"
 cmp -s part.svg whole.svg && fail "the picture of a part is that of the whole"
-expect 0 compare in.tets out.tets --quiet --picture part.png --box $box --cut z=0.9 # beside the part
+expect 0 compare in.tets out.tets --quiet --picture part.png "${less_boundary[@]}" --box $box \
+  --cut z=0.9 # beside the part
 only_files in.tets out.tets part.svg whole.svg part.png

@@ -7,8 +7,8 @@
 ##   members of tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
 ##
 ## Pairs: "weights", a struct of field to weight: only these are compared, those of weight 0 left out;
-##   "samples", "seed", "box", "regions", "memory", "tmpdir"; "picture": a path, .svg or .png: a cut
-##   through both meshes is drawn, at the option "cut"; "progress", a function.
+##   "samples", "boundary-samples", "seed", "box", "regions", "memory", "tmpdir"; "picture": a path,
+##   .svg or .png: a cut through both meshes is drawn, at the option "cut"; "progress", a function.
 ##
 ## See also: tetstream_simplify, tetstream_info.
 function figures = tetstream_compare (original, simplified, varargin)

@@ -35,6 +35,7 @@ class _Options(TypedDict, total=False):
     samples: int | str
     cut: str
     box: str
+    boundary_samples: int | str
     window: int | str
     memory: int | str
     tmpdir: str
@@ -154,6 +155,7 @@ class Options:
     samples: int | str
     cut: str
     box: str
+    boundary_samples: int | str
     window: int | str
     memory: int | str
     tmpdir: str

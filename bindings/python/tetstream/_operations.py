@@ -128,7 +128,8 @@ class Comparison(Record):
                 f"RMS errors: {errors or 'no fields'}>")
 
 
-@_options.documented("samples", "seed", "cut", "box", "regions", "memory", "tmpdir")
+@_options.documented("samples", "boundary_samples", "seed", "cut", "box", "regions", "memory",
+                     "tmpdir")
 def compare(original, simplified, *, weights=None, progress=None, **options):
     """Compares two meshes: a Comparison.
 
