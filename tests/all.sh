@@ -58,13 +58,14 @@ stage_format() {
 }
 
 # A second compiler, which with sanitizers takes half the time of gcc. Rooms in one piece: each header
-# is looked at once for all files that include it. -O1 builds twice as fast as -O3. Kernels once: those
-# of v3 are the same source. Octave does not run in it, and Fortran is memcheck's.
+# is looked at once for all files that include it. -O1 builds twice as fast as -O3, and without debug
+# information, which would only name lines of the stack, it takes five sixths of the time. Kernels
+# once: those of v3 are the same source. Octave does not run in it, and Fortran is memcheck's.
 configure_sanitize() {
   configure build/sanitize -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTETSTREAM_SANITIZE=ON -DTETSTREAM_WARNINGS_AS_ERRORS=ON \
     -DTETSTREAM_OCTAVE=OFF -DTETSTREAM_FORTRAN=OFF -DTETSTREAM_V3_KERNELS=OFF \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g1"
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0"
 }
 
 # What is compiled of the library, the command and the bindings, as the build itself lists it; but
@@ -75,9 +76,12 @@ compiled() {
 }
 
 stage_lint() {
-  "$python" tests/includes.py && configure_sanitize &&
-    compiled | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/sanitize 2>&1 |
-    sed '/warnings\? generated\.$/d'
+  local result=0
+  "$python" tests/includes.py || result=1
+  configure_sanitize || return
+  compiled | xargs -P "$jobs" -n 1 clang-tidy --quiet -p build/sanitize 2>&1 |
+    sed '/warnings\? generated\.$/d' || result=1
+  return "$result"
 }
 
 stage_sanitize() {

@@ -13,11 +13,11 @@ NAMES = {
         find_if find_if_not lower_bound make_heap max max_element min min_element minmax
         minmax_element move_backward none_of nth_element pop_heap push_heap remove remove_if replace
         replace_if search sort stable_sort unique upper_bound""",
-    "array": "array size",
+    "array": "array",
     "atomic": "atomic atomic_ref memory_order_relaxed",
     "bit": """bit_cast bit_ceil bit_floor bit_width countl_zero countr_zero endian has_single_bit
         popcount""",
-    "charconv": "chars_format from_chars from_chars_result to_chars",
+    "charconv": "chars_format errc from_chars from_chars_result to_chars",
     "chrono": "chrono",
     "cmath": """abs acos cbrt ceil cos fabs floor fma fmax frexp isfinite isinf isnan ldexp llround log
         log10 lround pow sin sqrt trunc""",
@@ -57,19 +57,21 @@ NAMES = {
     "variant": "variant",
     "vector": "vector",
 }
-# What a header of the standard library is bound to include, or declares as well.
-ALSO = {
-    "string": "initializer_list string_view", "map": "initializer_list utility",
-    "charconv": "system_error", "vector": "initializer_list iterator", "array": "iterator",
-    "algorithm": "utility",
-}
-# Declared by several that everything includes: get, erase_if.
-ANYWHERE = {"get", "erase_if"}
+# Of containers, each of which declares them for itself.
+CONTAINERS = {"array", "deque", "list", "map", "set", "string", "string_view", "unordered_map",
+              "vector"}
+NAMES_OF_CONTAINERS = {"erase_if", "initializer_list", "size"}
+ANYWHERE = {"get"}  # of tuples, pairs, arrays, variants
+INTEGER = re.compile(r"\bu?int(?:8|16|32|64)_t\b")
 
 HEADERS = {}
 for header, names in NAMES.items():
     for name in names.split():
         HEADERS.setdefault(name, set()).add(header)
+for name in NAMES_OF_CONTAINERS:
+    HEADERS.setdefault(name, set()).update(CONTAINERS)
+HEADERS["string_view"].add("string")  # which is made from one
+HEADERS["int64_t"] = {"cstdint"}  # and the others
 
 
 def main():
@@ -81,8 +83,6 @@ def main():
     @functools.cache
     def headers_of(file):
         found = set(re.findall(r"#include <(\w+)>", text[file]))
-        for header in tuple(found):
-            found.update(ALSO.get(header, "").split())
         for name in re.findall(r'#include "([\w.]+)"', text[file]):
             if name in by_name:
                 found |= headers_of(by_name[name])
@@ -90,7 +90,9 @@ def main():
 
     missing = 0
     for file in sorted(files):
-        for name in sorted(set(re.findall(r"\bstd::(\w+)", text[file])) - ANYWHERE):
+        used = set(re.findall(r"\bstd::(\w+)", text[file])) - ANYWHERE
+        used |= {"int64_t"} if INTEGER.search(text[file]) else set()
+        for name in sorted(used):
             if not HEADERS.get(name, set()) & headers_of(file):
                 where = " or ".join(f"<{h}>" for h in sorted(HEADERS.get(name, ["?"])))
                 print(f"{file.relative_to(root.parent)}: std::{name} without {where}")

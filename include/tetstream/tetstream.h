@@ -120,7 +120,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_SAMPLES 150         /* int64, points of a comparison; 0: exact integrals */
 #define TETSTREAM_OPTION_CUT 151             /* text: plane of its picture: "none", "auto", "x=0.3" */
 #define TETSTREAM_OPTION_BOX 152             /* text: part of the original: "0:1,0.2:0.4,:"; "": all */
-#define TETSTREAM_OPTION_BOUNDARY_SAMPLES 153 /* int64, points of each boundary; 0: 200000 */
+#define TETSTREAM_OPTION_BOUNDARY_SAMPLES 153 /* int64, points of boundaries; 0: 200000 at most */
 #define TETSTREAM_OPTION_WINDOW 200          /* int64, cells in core; 0: from the front */
 #define TETSTREAM_OPTION_MEMORY 201          /* int64, bytes that the window may take; 0: no limit */
 #define TETSTREAM_OPTION_TMPDIR 202          /* text: where temporary files go; "": $TMPDIR, /tmp */
@@ -770,18 +770,17 @@ TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *dia
  *   tetstream_comparison_get_field(comparison, 0, &field);    // field.rms, field.largest
  *
  * How the figures are made. Fields are linear on each cell. Every original cell is cut with every
- * simplified one: on their common part the difference is linear, and its squared norm is
- * integrated exactly and has its maximum at a corner. Where the original is outside the simplified
- * mesh, that one's value is the one at the nearest point of its boundary: there the error is
- * sampled, at up to eight places in each such cell and at the corners that are outside. With the
- * option `samples` the fields are compared at that many points, uniform by volume, instead, and
- * largest errors are those of the points. Distances between boundaries are sampled at 200 000
- * points, or at `samples` where those are fewer, or at as many as the option `boundary-samples`
- * says, uniform by area, and at all vertices. With the
- * option `box` fields are compared on those cells of the original whose centres lie in it, low
- * sides included, and distances are those of the faces whose centres do, to all of the other
- * boundary; ranges of fields, topology, shapes and regions are told of the whole meshes. So
- * billions of cells need no more room than a part of them: of two boxes side by side the errors'
+ * simplified one: on their common part the difference is linear, and its squared norm is integrated
+ * exactly and has its maximum at a corner. Where the original is outside the simplified mesh, that
+ * one's value is the one at the nearest point of its boundary: there the error is sampled, at up to
+ * eight places in each such cell and at the corners that are outside. With the option `samples` the
+ * fields are compared at that many points, uniform by volume, instead, and largest errors are those
+ * of the points. Distances between boundaries are sampled at 200 000 points, or at `samples` where
+ * those are fewer, or at as many as the option `boundary-samples` says, uniform by area, and at all
+ * vertices. With the option `box` fields are compared on those cells of the original whose centres
+ * lie in it, low sides included, and distances are those of the faces whose centres do, to all of
+ * the other boundary; ranges of fields, topology, shapes and regions are told of the whole meshes.
+ * So billions of cells need no more room than a part of them: of two boxes side by side the errors'
  * squares, weighted by volume, add up. Cells flatter than 1e-12 of the cube of their longest edge
  * take no part in the fields' figures. The same meshes, options and seed give the same figures. */
 typedef struct tetstream_comparison tetstream_comparison;

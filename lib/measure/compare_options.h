@@ -8,10 +8,10 @@
 namespace tetstream {
 
 struct CompareOptions {
-  int64_t samples = 0;  // 0: exact integrals
-  int64_t boundary_samples = 0;
-  std::string cut = "none";  // of the picture
-  std::string box;           // the part that is compared (part_box.h)
+  int64_t samples = 0;           // 0: exact integrals
+  int64_t boundary_samples = 0;  // 0: as below
+  std::string cut = "none";      // of the picture
+  std::string box;               // the part that is compared (part_box.h)
 
   // Points by which each boundary's distance is measured; its vertices are looked at besides.
   int64_t surfaceSamples() const {

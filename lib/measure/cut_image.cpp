@@ -122,24 +122,47 @@ void CutImage::addCell(const RowShape& shape, const double* row) {
   size_t left, right, bottom, top;
   pixelsOf(plane_.across, 0, width_, left, right);
   pixelsOf(plane_.up, 1, height_, bottom, top);
+  for (size_t y = bottom; y < top; ++y) addRow(shape, row, map, y, left, right);
+}
+
+// Coordinates in the cell are linear along the pixels: those at the first two of them tell which
+// may be in it. One more at each end, for rounding.
+static void narrow(const double first[4], const double second[4], size_t& left, size_t& right) {
+  double from = 0, to = static_cast<double>(right - left);
+  for (int j = 0; j < 4; ++j) {
+    const double slope = second[j] - first[j], border = (kInside - first[j]) / slope;
+    if (slope > 0) from = std::max(from, std::floor(border));
+    if (slope < 0) to = std::min(to, std::floor(border) + 2);
+  }
+  right = left + static_cast<size_t>(std::max(to, from));
+  left += static_cast<size_t>(from);
+}
+
+void CutImage::addRow(const RowShape& shape, const double* row, const CellMap& map, size_t y,
+                      size_t left, size_t right) {
   double place[3];
   place[plane_.axis] = plane_.at;
-  for (size_t y = bottom; y < top; ++y)
-    for (size_t x = left; x < right; ++x) {
-      double at[4];
-      place[plane_.across] = plane_.low[0] + (static_cast<double>(x) + 0.5) * pixel_[0];
-      place[plane_.up] = plane_.low[1] + (static_cast<double>(y) + 0.5) * pixel_[1];
-      map.coordinates(place, at);
-      if (*std::min_element(at, at + 4) < kInside) continue;
-      const size_t pixel = (height_ - 1 - y) * width_ + x;
-      cells_[pixel] = static_cast<uint32_t>(cut_);
-      float* values = values_.data() + pixel * shown_.components;
-      for (size_t c = 0; c < shown_.components; ++c) {
-        double value = -shown_.zero[c];
-        for (size_t j = 0; j < 4; ++j) value += at[j] * shape.value(row, j)[shown_.first + c];
-        values[c] = static_cast<float>(value);
-      }
+  place[plane_.up] = plane_.low[1] + (static_cast<double>(y) + 0.5) * pixel_[1];
+  const auto coordinatesAt = [&](size_t x, double at[4]) {
+    place[plane_.across] = plane_.low[0] + (static_cast<double>(x) + 0.5) * pixel_[0];
+    map.coordinates(place, at);
+  };
+  double first[4], second[4], at[4];
+  coordinatesAt(left, first);
+  coordinatesAt(left + 1, second);
+  narrow(first, second, left, right);
+  for (size_t x = left; x < right; ++x) {
+    coordinatesAt(x, at);
+    if (*std::min_element(at, at + 4) < kInside) continue;
+    const size_t pixel = (height_ - 1 - y) * width_ + x;
+    cells_[pixel] = static_cast<uint32_t>(cut_);
+    float* values = values_.data() + pixel * shown_.components;
+    for (size_t c = 0; c < shown_.components; ++c) {
+      double value = -shown_.zero[c];
+      for (size_t j = 0; j < 4; ++j) value += at[j] * shape.value(row, j)[shown_.first + c];
+      values[c] = static_cast<float>(value);
     }
+  }
 }
 
 }  // namespace tetstream

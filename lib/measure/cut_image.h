@@ -5,6 +5,8 @@
 
 namespace tetstream {
 
+class CellMap;
+
 // The plane where coordinate `axis` is `at`, seen against that axis' direction: `across` grows to
 // the right, `up` upwards.
 struct CutPlane {
@@ -44,6 +46,8 @@ class CutImage {
 
  private:
   void addCell(const RowShape& shape, const double* row);
+  void addRow(const RowShape& shape, const double* row, const CellMap& map, size_t y, size_t left,
+              size_t right);
 
   CutPlane plane_;
   size_t width_, height_;

@@ -1,6 +1,7 @@
 #include "column_rows.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace tetstream {
 

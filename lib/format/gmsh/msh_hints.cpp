@@ -1,5 +1,7 @@
 #include "msh_hints.h"
 
+#include <utility>
+
 #include "text_number.h"
 
 namespace tetstream {

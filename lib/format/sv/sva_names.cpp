@@ -1,7 +1,7 @@
 // format/sv: the names and types of .sva columns: the defaults, and the words that our writer adds.
-#include "status.h"
-
 #include <utility>
+
+#include "status.h"
 #include "sva_header.h"
 #include "text_number.h"
 

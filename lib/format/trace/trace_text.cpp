@@ -1,8 +1,8 @@
 // format/trace: a vertex map and a log of collapses as lines of numbers with commas between them,
 // after a line of names (RFC 4180).
-#include "text_number.h"
-
 #include <utility>
+
+#include "text_number.h"
 #include "trace_files.h"
 #include "trace_rows.h"
 

@@ -121,6 +121,7 @@ class VtkParser {
     keyword_at_ = scan_.place();
     if (lower(scan_.word()) != "dataset") fail("there is no DATASET");
     const std::string kind = scan_.word();
+    // GCC 12 takes a comparison with a literal to read over the end of a short string.
     if (lower(kind) != std::string_view("unstructured_grid"))
       tetstream::fail(Status::kUnsupported, "%s: the file holds \"%s\", no UNSTRUCTURED_GRID",
                       bytes_.name().c_str(), cutMeshName(kind).c_str());
