@@ -122,18 +122,21 @@ void CutImage::addCell(const RowShape& shape, const double* row) {
   size_t left, right, bottom, top;
   pixelsOf(plane_.across, 0, width_, left, right);
   pixelsOf(plane_.up, 1, height_, bottom, top);
+  if (right <= left) return;
   for (size_t y = bottom; y < top; ++y) addRow(shape, row, map, y, left, right);
 }
 
 // Coordinates in the cell are linear along the pixels: those at the first two of them tell which
 // may be in it. One more at each end, for rounding.
 static void narrow(const double first[4], const double second[4], size_t& left, size_t& right) {
-  double from = 0, to = static_cast<double>(right - left);
+  const auto count = static_cast<double>(right - left);
+  double from = 0, to = count;
   for (int j = 0; j < 4; ++j) {
     const double slope = second[j] - first[j], border = (kInside - first[j]) / slope;
     if (slope > 0) from = std::max(from, std::floor(border));
     if (slope < 0) to = std::min(to, std::floor(border) + 2);
   }
+  from = std::min(from, count);
   right = left + static_cast<size_t>(std::max(to, from));
   left += static_cast<size_t>(from);
 }
@@ -147,10 +150,14 @@ void CutImage::addRow(const RowShape& shape, const double* row, const CellMap& m
     place[plane_.across] = plane_.low[0] + (static_cast<double>(x) + 0.5) * pixel_[0];
     map.coordinates(place, at);
   };
-  double first[4], second[4], at[4];
-  coordinatesAt(left, first);
-  coordinatesAt(left + 1, second);
-  narrow(first, second, left, right);
+  constexpr size_t kFew = 4;  // of fewer, each is looked at
+  double at[4];
+  if (right - left > kFew) {
+    double first[4], second[4];
+    coordinatesAt(left, first);
+    coordinatesAt(left + 1, second);
+    narrow(first, second, left, right);
+  }
   for (size_t x = left; x < right; ++x) {
     coordinatesAt(x, at);
     if (*std::min_element(at, at + 4) < kInside) continue;

@@ -44,7 +44,7 @@ const QuadricKernels<S>& fieldKernelsFor(int n) {
   }
 }
 
-// Of one field alone: they are for comparisons with others' work.
+// The general ones, but for one field: full quadrics are for comparisons with others' work.
 template <class S>
 const QuadricKernels<S>& fullKernelsFor(int n) {
   return n == 4 ? kFullKernels<S, 4> : kFullKernels<S, 0>;
