@@ -192,6 +192,7 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
     end = groupEnd(first);
     sweepGroup(first, end, bound, tick);
     for (const Swept& swept : swept_) more = add(swept) || more;
+    tick();  // whichever threads have swept them
     if (mustStop()) return false;
   }
   return more;
@@ -274,10 +275,12 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
   swept_.assign(end - first, {});
   TileQueue queue(tiling_.earlier(), tiling_.ahead(), first, end);
   const std::thread::id caller = std::this_thread::get_id();
+  const bool several = end - first > 1;
   const auto work = [&](size_t tile, Lane& lane) {
     swept_[tile - first] = sweepTile(tile, bound, lane, queue);
     queue.finish(tile);
-    if (std::this_thread::get_id() == caller) tick();  // the user's callbacks know one thread
+    // The user's callbacks know one thread.
+    if (several && std::this_thread::get_id() == caller) tick();
   };
   if (core_.tracer) {  // a map and a log are told of them in their order
     for (size_t tile = first; tile < end; ++tile) work(tile, lane());

@@ -1,6 +1,7 @@
 // tests/support: workers as a caller may bring them: that refuse, that work at once, or too late.
 #pragma once
 
+#include <thread>
 #include <vector>
 
 #include "workers.h"
@@ -22,6 +23,16 @@ class HastyWorkers final : public Workers {
   size_t threads() const override { return 3; }
   bool submit(Kept<Work> work) noexcept override {
     work->run();
+    return true;
+  }
+};
+
+// All is done, on another thread, before the caller begins.
+class SwiftWorkers final : public Workers {
+ public:
+  size_t threads() const override { return 3; }
+  bool submit(Kept<Work> work) noexcept override {
+    std::thread([&work] { work->run(); }).join();
     return true;
   }
 };

@@ -164,8 +164,9 @@ TEST(SweepThreads, GiveTheSameBytesWhateverTheWorkersThatWereBrought) {
   const Outcomes one = ran(mesh, toRatio(0.2, 2500), 1);
   NoWorkers none;
   HastyWorkers hasty;
+  SwiftWorkers swift;
   LazyWorkers lazy;
-  for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &lazy}) {
+  for (Workers* workers : std::initializer_list<Workers*>{&none, &hasty, &swift, &lazy}) {
     const Tasks tasks(3, workers);
     EXPECT_TRUE(ran(mesh, toRatio(0.2, 2500), tasks).out.allBytes() == one.out.allBytes());
   }
@@ -254,9 +255,8 @@ TEST(SweepThreads, GiveTheSameBytesWhereAMapAndALogAreTold) {
 }
 
 // Callbacks come on the caller's thread; one that fails ends the run, and nobody waits for ever.
-TEST(SweepThreads, StopWhenACallbackFails) {
+void expectToStopAtCalls(const Tasks& tasks) {
   const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
-  const Tasks tasks(4);
   const std::thread::id caller = std::this_thread::get_id();
   for (int last = 1; last < 6; ++last) {
     SimplifyOptions options = toRatio(0.1);
@@ -271,6 +271,16 @@ TEST(SweepThreads, StopWhenACallbackFails) {
     MeshStream stream(mesh, Cut{});
     EXPECT_EQ(thrownBy([&] { copyStream(stream, simplifier); }).second, "enough");
   }
+}
+
+TEST(SweepThreads, StopWhenACallbackFails) {
+  expectToStopAtCalls(Tasks(4));
+}
+
+// The caller is told as the run goes on, though it has no part in the work.
+TEST(SweepThreads, StopWhenACallbackFailsWhereOthersDoAllTheWork) {
+  SwiftWorkers swift;
+  expectToStopAtCalls(Tasks(4, &swift));
 }
 
 // With a memory budget there is one patch at a time, and no more memory than one takes.
