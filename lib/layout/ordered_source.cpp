@@ -121,6 +121,28 @@ class OrderedSource::Reading final : public Source {
   uint64_t place_ = 0, introduced_ = 0, face_ = 0;
 };
 
+// The vertices in the order of their ranks, which is that of what holds them.
+class OrderedSource::Places final : public Source {
+ public:
+  explicit Places(OrderedSource& ordered) : ordered_(ordered), batch_(ordered.schema_) {}
+  const Schema& schema() const override { return ordered_.schema_; }
+
+  bool next(BatchView& batch) override {
+    RankedVertices& vertices = *ordered_.vertices_;
+    if (rank_ == vertices.count()) return false;
+    batch_.clear(rank_);
+    for (; rank_ < vertices.count() && batch_.vertexCount() < kBatchCells; ++rank_)
+      vertices.copyTo(rank_, batch_, batch_.addVertices(1));
+    batch = batch_.view();
+    return true;
+  }
+
+ private:
+  OrderedSource& ordered_;
+  Batch batch_;
+  uint64_t rank_ = 0;
+};
+
 OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
     : source_(&source),
       schema_(source.schema()),
@@ -246,7 +268,8 @@ bool OrderedSource::next(BatchView& batch) {
   return reading_->next(batch);
 }
 
-std::unique_ptr<Source> OrderedSource::again() {
+std::unique_ptr<Source> OrderedSource::again(Part part) {
+  if (part == Part::kPositions) return std::make_unique<Places>(*this);
   return std::make_unique<Reading>(*this, true);
 }
 

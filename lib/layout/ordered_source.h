@@ -42,7 +42,7 @@ class OrderedSource : public Source {
   ~OrderedSource() override;
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
-  std::unique_ptr<Source> again() override;
+  std::unique_ptr<Source> again(Part part) override;
 
   int64_t unusedVertices() const { return unused_; }
   const std::string& chosen() const { return chosen_; }  // "spatial, along z"
@@ -51,6 +51,7 @@ class OrderedSource : public Source {
 
  private:
   class Reading;
+  class Places;
 
   VertexKey placeKey(Order order, const Survey& survey, const std::string& axis);
   VertexKey narrowestKey(const VertexKey& sweep, const Tell& tell);

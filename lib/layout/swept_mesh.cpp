@@ -14,7 +14,7 @@ SweptMesh::SweptMesh(IndexedSource& source, Order order, const OrderOptions& opt
     OrderedSource swept(source, by_place);
     unused_ = swept.unusedVertices();
     if (!is_spectral)
-      rank(*swept.again(), memory_bytes, account, options.temp_dir,
+      rank(*swept.again(Part::kAll), memory_bytes, account, options.temp_dir,
            [&](double share) { tell(0.4 + 0.4 * share); });
     mesh_ = spoolStream(swept, options.temp_dir, [&](double share) { tell(0.8 + 0.1 * share); });
     disk_ = swept.diskBytes() + mesh_->diskBytes() + (ranks_ ? ranks_->diskBytes() : 0);

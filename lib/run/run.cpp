@@ -144,15 +144,15 @@ struct SimplifyRun::State {
     if (followsPaper(o.mode) || o.pilot != PilotUse::kAuto || cells <= window) return;
     const bool has_budget = o.memory_bytes > 0;
     if (!has_budget && cells <= kPilotCells)
-      readAgain(stream, [&](Source& source) { fly(source); });
+      readAgain(stream, Part::kAll, [&](Source& source) { fly(source); });
     else if (o.error == 0 && Sampler::serves(schema, o) &&
              (!has_budget || isSampledWithin(schema, o, window)))
       sample(stream);
   }
   // False where the stream can be read but once.
   template <class Use>
-  bool readAgain(Ordering& stream, Use use) {
-    const std::unique_ptr<Source> again = stream.source().again();
+  bool readAgain(Ordering& stream, Part part, Use use) {
+    const std::unique_ptr<Source> again = stream.source().again(part);
     if (!again) return false;
     const auto before = ahead(*again, stream);
     use(before ? *before : *again);
@@ -175,13 +175,21 @@ struct SimplifyRun::State {
   // Of a long stream, which is read twice for it.
   void sample(Ordering& stream) {
     Sampler sampler(stream.source().schema(), options.simplify);
-    const bool counted = readAgain(stream, [&](Source& source) {
-      readSampling(source, 0, [&](const BatchView& batch) { sampler.count(batch); });
+    const bool counted = readAgain(stream, Part::kPositions, [&](Source& source) {
+      const auto all = static_cast<double>(source.schema().vertex_count);
+      readSampling(source, 0, [&, seen = 0.0](const BatchView& batch) mutable {
+        sampler.count(batch);
+        return (seen += static_cast<double>(batch.vertex_count)) / all;
+      });
     });
     if (!counted) return;
     sampler.takeBricks();
-    const bool sampled = readAgain(stream, [&](Source& source) {
-      readSampling(source, kSampleShare / 2, [&](const BatchView& batch) { sampler.put(batch); });
+    const bool sampled = readAgain(stream, Part::kAll, [&](Source& source) {
+      const auto all = static_cast<double>(source.schema().cell_count);
+      readSampling(source, kSampleShare / 2, [&, seen = 0.0](const BatchView& batch) mutable {
+        sampler.put(batch);
+        return (seen += static_cast<double>(batch.cell_count)) / all;
+      });
     });
     if (!sampled) return;
     try {
@@ -191,6 +199,7 @@ struct SimplifyRun::State {
     }
     pilot_share = kSampleShare;
   }
+  // use(batch) returns how much of the stream has been read with it, of 1.
   template <class Use>
   void readSampling(Source& source, double share_before, Use use) {
     Progress p;
@@ -198,10 +207,9 @@ struct SimplifyRun::State {
     p.cells_total = source.schema().cell_count;
     BatchView batch;
     while (source.next(batch)) {
-      use(batch);
-      p.cells_read += static_cast<int64_t>(batch.cell_count);
-      const double part = static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total);
-      p.fraction = share_before + kSampleShare / 2 * std::min(part, 1.0);
+      const double part = std::min(use(batch), 1.0);
+      p.cells_read = static_cast<int64_t>(part * static_cast<double>(p.cells_total));
+      p.fraction = share_before + kSampleShare / 2 * part;
       tell(p);
     }
   }
@@ -328,7 +336,7 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
 // The schema with the box and the counts, from a first reading if need be.
 static Schema sweptSchema(Source& source, const ProgressFunction& progress) {
   if (SweepViews::serves(source.schema())) return source.schema();
-  const std::unique_ptr<Source> first = source.again();
+  const std::unique_ptr<Source> first = source.again(Part::kAll);
   if (!first)
     fail(Status::kUnsupported,
          "a sweep is drawn to the measure of the mesh's box and number of cells, which this stream "

@@ -83,7 +83,8 @@ static double sampleOf(const Schema& schema, const SimplifyOptions& options) {
 }
 
 bool Sampler::serves(const Schema& schema, const SimplifyOptions& options) {
-  if (schema.cell_count <= 0 || schema.front_span < 0 || schema.front_span > kLargestSpan)
+  if (schema.cell_count <= 0 || schema.vertex_count <= 0 || schema.front_span < 0 ||
+      schema.front_span > kLargestSpan)
     return false;
   const auto is_float = [](const Column& c) { return isFloat(c.type); };
   if (!schema.hasBox() || std::none_of(schema.fields.begin(), schema.fields.end(), is_float))

@@ -17,7 +17,7 @@ namespace tetstream {
 
 class Sampler {
  public:
-  // Whether a stream tells what a sampler must know, its count, box and span, and has a field: the
+  // Whether a stream tells what a sampler must know, its counts, box and span, and has a field: the
   // shape of the boundary alone asks for many cells where few samples are. And whether a memory
   // budget has room for a sample of some size, with all that it takes.
   static bool serves(const Schema& schema, const SimplifyOptions& options);

@@ -115,8 +115,8 @@ void RoundingIndexedSource::readField(size_t column, uint64_t first, size_t coun
   in_.readField(column, first, count, out);
 }
 
-std::unique_ptr<Source> RoundingSource::again() {
-  std::unique_ptr<Source> in = in_.again();
+std::unique_ptr<Source> RoundingSource::again(Part part) {
+  std::unique_ptr<Source> in = in_.again(part);
   return in ? std::unique_ptr<Source>(new RoundingSource(std::move(in))) : nullptr;
 }
 

@@ -37,7 +37,7 @@ class RoundingSource final : public Source {
   explicit RoundingSource(Source& in) : in_(in), rounding_(in.schema()) {}
   const Schema& schema() const override { return rounding_.schema(); }
   bool next(BatchView& batch) override;
-  std::unique_ptr<Source> again() override;
+  std::unique_ptr<Source> again(Part part) override;
 
  private:
   explicit RoundingSource(std::unique_ptr<Source> in)

@@ -4,6 +4,7 @@
 // to a Sink. All of them throw Error; messages of sources name the place in the input.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,6 +13,10 @@
 namespace tetstream {
 
 constexpr size_t kBatchCells = 4096;  // what our own sources put into a batch, about
+
+// What a reading is for. kPositions: the places of the vertices alone, in any order; fields, cells
+// and whatever else there is may be left out, and what is wrong with it is not found.
+enum class Part : uint8_t { kAll, kPositions };
 
 // A mesh as a stream of events.
 class Source {
@@ -23,7 +28,7 @@ class Source {
   virtual bool next(BatchView& batch) = 0;
   // Another reading of the same stream, from its first event on, while this one has not begun and
   // as long as it lives; null where the input cannot be read twice.
-  virtual std::unique_ptr<Source> again() { return nullptr; }
+  virtual std::unique_ptr<Source> again(Part) { return nullptr; }
 };
 
 // A mesh whose points and cells can be read by range, as often as wanted; sequential ranges are

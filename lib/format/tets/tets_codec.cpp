@@ -20,6 +20,10 @@ struct Codec::State {
   ZSTD_CCtx* to = nullptr;
   ZSTD_DCtx* from = nullptr;
   std::vector<unsigned char> filtered;
+  void makeDecompressor() {
+    if (!from && !(from = ZSTD_createDCtx()))
+      fail(Status::kNoMemory, "no memory for zstd's decompression");
+  }
   ~State() {
     ZSTD_freeCCtx(to);
     ZSTD_freeDCtx(from);
@@ -159,14 +163,31 @@ size_t Codec::compress(const ChunkShape& shape, size_t payload_at,
 bool Codec::decompress(const ChunkShape& shape, const unsigned char* stored, size_t stored_bytes,
                        unsigned char* payload) {
   State& s = *state_;
-  if (!s.from && !(s.from = ZSTD_createDCtx()))
-    fail(Status::kNoMemory, "no memory for zstd's decompression");
+  s.makeDecompressor();
   const size_t bytes = filteredBytes(shape);
   if (ZSTD_getFrameContentSize(stored, stored_bytes) != bytes) return false;
   makeZeros(s.filtered, bytes);
   const size_t got = ZSTD_decompressDCtx(s.from, s.filtered.data(), bytes, stored, stored_bytes);
   if (ZSTD_isError(got) || got != bytes) return false;
   unfilter(shape, s.filtered.data(), payload);
+  return true;
+}
+
+bool Codec::decompressFirst(const ChunkShape& shape, const unsigned char* stored,
+                            size_t stored_bytes, unsigned char* column) {
+  State& s = *state_;
+  s.makeDecompressor();
+  if (ZSTD_getFrameContentSize(stored, stored_bytes) != filteredBytes(shape)) return false;
+  makeZeros(s.filtered, shape[0].bytes);
+  ZSTD_DCtx_reset(s.from, ZSTD_reset_session_only);
+  ZSTD_inBuffer in{stored, stored_bytes, 0};
+  ZSTD_outBuffer out{s.filtered.data(), shape[0].bytes, 0};
+  while (out.pos < out.size) {
+    const size_t before = in.pos + out.pos;
+    const size_t more = ZSTD_decompressStream(s.from, &out, &in);
+    if (ZSTD_isError(more) || in.pos + out.pos == before) return false;
+  }
+  filterBack(shape[0], s.filtered.data(), column);
   return true;
 }
 
@@ -182,6 +203,9 @@ size_t Codec::compress(const ChunkShape&, size_t, std::vector<unsigned char>&) {
   return 0;
 }
 bool Codec::decompress(const ChunkShape&, const unsigned char*, size_t, unsigned char*) {
+  return false;
+}
+bool Codec::decompressFirst(const ChunkShape&, const unsigned char*, size_t, unsigned char*) {
   return false;
 }
 

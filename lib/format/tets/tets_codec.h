@@ -25,6 +25,9 @@ class Codec {
   // False if the bytes are not what compress made of columns of that shape.
   bool decompress(const ChunkShape& shape, const unsigned char* stored, size_t stored_bytes,
                   unsigned char* payload);
+  // The same of the first column alone, without a look at the others.
+  bool decompressFirst(const ChunkShape& shape, const unsigned char* stored, size_t stored_bytes,
+                       unsigned char* column);
 
  private:
   struct State;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "status.h"
+#include "tets_codec.h"
 
 namespace tetstream::tets {
 
@@ -103,6 +104,59 @@ void SectionReader::skipBody() {
     left -= count;
   }
   checkBody(sum);
+}
+
+// ----------------------------------------------------------------------- of header and chunks
+
+Schema readHeader(SectionReader& in) {
+  const SectionHead& head = in.next();
+  if (!head.is(kHeader))
+    fail(Status::kBadData, "%s: is not a .tets stream: the first section is no header",
+         in.name().c_str());
+  checkVersion(head, in.name());
+  if (head.length > kMaxHeaderBytes)
+    fail(Status::kBadData, "%s: the header claims %llu bytes, at most %zu are possible",
+         in.name().c_str(), ull{head.length}, kMaxHeaderBytes);
+  return decodeHeader(head, in.body(), in.bodyBytes(), in.name());
+}
+
+static void checkKnown(const SectionReader& in, uint32_t codec) {
+  constexpr uint32_t known =
+      kMustUnderstand | kChunkLocked | kChunkLastUses | kChunkWideCells | kCodecMask;
+  const uint32_t flags = in.head().flags;
+  if (flags & ~known)
+    fail(Status::kUnsupported, "%s: it has flags 0x%08x, which this library does not know",
+         in.place().c_str(), flags & ~known);
+  if (codec != kCodecNone && codec != kCodecZstd)
+    fail(Status::kUnsupported,
+         "%s: it is compressed by method %u, which this library does not know", in.place().c_str(),
+         codec);
+  if (codec == kCodecZstd && !Codec::builtIn())
+    fail(Status::kUnsupported,
+         "%s: it is compressed with zstd, and this library was built without zstd",
+         in.place().c_str());
+}
+
+uint32_t setShape(const SectionReader& in, const Schema& schema, ChunkShape& shape) {
+  const SectionHead& head = in.head();
+  const auto counts = head.get<ChunkOwn>();
+  const uint32_t codec = (head.flags & kCodecMask) >> kCodecShift;
+  shape.set(counts, head.flags);
+  checkKnown(in, codec);
+  const uint32_t most = std::max({counts.vertices, counts.cells, counts.finalized, counts.faces});
+  if (most > kMaxRows || most == 0 || shape.payloadBytes() > kMaxPayload)
+    fail(Status::kBadData,
+         "%s: it claims %u vertices, %u cells, %u finalizations and %u faces in %zu bytes; each is "
+         "at most %u, not all are 0, the bytes at most %zu",
+         in.place().c_str(), counts.vertices, counts.cells, counts.finalized, counts.faces,
+         shape.payloadBytes(), kMaxRows, kMaxPayload);
+  const bool stored_fits =
+      codec == kCodecNone ? head.value == shape.payloadBytes() : head.value <= kMaxPayload;
+  if (!stored_fits || head.length != sizeof head + chunkStartBytes(schema) + alignUp(head.value))
+    fail(Status::kBadData,
+         "%s: it has %llu bytes, %u of them columns, which does not fit its counts",
+         in.place().c_str(), ull{head.length}, head.value);
+  return codec;
 }
 
 // ---------------------------------------------------------------------------- after damage

@@ -1,4 +1,5 @@
-// format/tets: sections of a `.tets` file as they come. Depends on tets_layout.h, bytes.h.
+// format/tets: sections of a `.tets` file as they come. Depends on tets_layout.h, bytes.h,
+// tets_codec.h.
 #pragma once
 
 #include <memory>
@@ -49,6 +50,13 @@ class SectionReader {
   Account account_;
   Array<unsigned char> body_;
 };
+
+// The schema that the first section tells. Throws kBadData, and kUnsupported for versions to come.
+Schema readHeader(SectionReader& in);
+
+// Before a chunk's body is read: sets the shape to what the head tells of it, and returns by which
+// codec it is stored. Throws for what the head claims that cannot be, or that nobody here knows.
+uint32_t setShape(const SectionReader& in, const Schema& schema, ChunkShape& shape);
 
 // What the end of a seekable file tells before its events are read: the totals and the box, where
 // the header does not have them. Throws kBadData, naming the place, if the file has no end.

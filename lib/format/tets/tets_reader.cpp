@@ -1,4 +1,4 @@
-// format/tets: reads `.tets`. Depends on tets_input.h, tets_codec.h.
+// format/tets: reads `.tets`. Depends on tets_input.h, tets_codec.h, tets_places.h.
 //
 // A chunk is read whole and checked, then handed out in batches whose arrays point into it; only
 // 32-bit ids are widened, a batch at a time. What sizes a chunk may have is known before it is
@@ -10,6 +10,7 @@
 #include "status.h"
 #include "tets_codec.h"
 #include "tets_input.h"
+#include "tets_places.h"
 #include "tets_recovery.h"
 
 namespace tetstream {
@@ -25,9 +26,10 @@ class Reader final : public Source {
   explicit Reader(std::unique_ptr<ByteSource> bytes, Losses* losses = nullptr);
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
-  std::unique_ptr<Source> again() override {
-    return in_.bytes().seekable() && !losses_ ? std::make_unique<Reader>(readAgain(in_.bytes()))
-                                              : nullptr;
+  std::unique_ptr<Source> again(Part part) override {
+    if (!in_.bytes().seekable() || losses_) return nullptr;
+    if (part == Part::kPositions) return openPlaces(readAgain(in_.bytes()));
+    return std::make_unique<Reader>(readAgain(in_.bytes()));
   }
 
  private:
@@ -35,7 +37,7 @@ class Reader final : public Source {
   bool nextWholeChunk();
   void readChunk();
   void goPastLostRows(uint64_t first_cell);
-  void checkChunkHead(uint32_t codec);
+  void checkPlace() const;
   void unpack(uint32_t codec, const unsigned char* stored);
   void checkChunkColumns();
   void checkRange(size_t column, const char* what) const;
@@ -86,15 +88,7 @@ class Reader final : public Source {
 
 Reader::Reader(std::unique_ptr<ByteSource> bytes, Losses* losses)
     : in_(std::move(bytes)), losses_(losses), unpacked_(account_) {
-  const SectionHead& head = in_.next();
-  if (!head.is(kHeader))
-    fail(Status::kBadData, "%s: is not a .tets stream: the first section is no header",
-         in_.name().c_str());
-  checkVersion(head, in_.name());
-  if (head.length > kMaxHeaderBytes)
-    fail(Status::kBadData, "%s: the header claims %llu bytes, at most %zu are possible",
-         in_.name().c_str(), ull{head.length}, kMaxHeaderBytes);
-  schema_ = decodeHeader(head, in_.body(), in_.bodyBytes(), in_.name());
+  schema_ = readHeader(in_);
   if (in_.bytes().seekable() && !losses_) completeFromEnd(in_.bytes(), schema_);
   shape_ = std::make_unique<ChunkShape>(schema_);
   box_ = std::make_unique<Box>(schema_.boxSize());
@@ -151,36 +145,8 @@ void Reader::skipUnknown() {
   in_.skipBody();
 }
 
-// Everything that can be known before the body is read.
-void Reader::checkChunkHead(uint32_t codec) {
-  const SectionHead& head = in_.head();
-  constexpr uint32_t known =
-      kMustUnderstand | kChunkLocked | kChunkLastUses | kChunkWideCells | kCodecMask;
-  if (flags_ & ~known)
-    fail(Status::kUnsupported, "%s: it has flags 0x%08x, which this library does not know",
-         in_.place().c_str(), flags_ & ~known);
-  if (codec != kCodecNone && codec != kCodecZstd)
-    fail(Status::kUnsupported,
-         "%s: it is compressed by method %u, which this library does not know", in_.place().c_str(),
-         codec);
-  if (codec == kCodecZstd && !Codec::builtIn())
-    fail(Status::kUnsupported,
-         "%s: it is compressed with zstd, and this library was built without zstd",
-         in_.place().c_str());
-  const uint32_t most =
-      std::max({counts_.vertices, counts_.cells, counts_.finalized, counts_.faces});
-  if (most > kMaxRows || most == 0 || shape_->payloadBytes() > kMaxPayload)
-    fail(Status::kBadData,
-         "%s: it claims %u vertices, %u cells, %u finalizations and %u faces in %zu bytes; each is "
-         "at most %u, not all are 0, the bytes at most %zu",
-         in_.place().c_str(), counts_.vertices, counts_.cells, counts_.finalized, counts_.faces,
-         shape_->payloadBytes(), kMaxRows, kMaxPayload);
-  const bool stored_fits =
-      codec == kCodecNone ? head.value == shape_->payloadBytes() : head.value <= kMaxPayload;
-  if (!stored_fits || head.length != sizeof head + chunkStartBytes(schema_) + alignUp(head.value))
-    fail(Status::kBadData,
-         "%s: it has %llu bytes, %u of them columns, which does not fit its counts",
-         in_.place().c_str(), ull{head.length}, head.value);
+// What the head tells of the chunk's place in the file.
+void Reader::checkPlace() const {
   if (!losses_ && counts_.first_vertex != static_cast<uint64_t>(seen_.vertices))
     fail(Status::kBadData, "%s: it begins with vertex %llu, but %lld vertices stand before",
          in_.place().c_str(), ull{counts_.first_vertex}, static_cast<long long>(seen_.vertices));
@@ -198,11 +164,10 @@ void Reader::unpack(uint32_t codec, const unsigned char* stored) {
 
 void Reader::readChunk() {
   const SectionHead& head = in_.head();
+  const uint32_t codec = setShape(in_, schema_, *shape_);
   counts_ = head.get<ChunkOwn>();
   flags_ = head.flags;
-  const uint32_t codec = (flags_ & kCodecMask) >> kCodecShift;
-  shape_->set(counts_, flags_);
-  checkChunkHead(codec);
+  checkPlace();
   const unsigned char* body = in_.body();
   ChunkStart start;
   std::memcpy(&start, body, sizeof start);

@@ -404,7 +404,7 @@ TEST(Tets, WritesAnIndexAfterEvery1024Chunks) {
 void expectReadAgain(std::unique_ptr<ByteSource> bytes, const Events& events) {
   const Input input = openTets(std::move(bytes), {});
   for (const int batches : {0, 1, 1 << 20}) {
-    const std::unique_ptr<Source> second = input.stream->again();
+    const std::unique_ptr<Source> second = input.stream->again(Part::kAll);
     ASSERT_NE(second, nullptr);
     EXPECT_EQ(second->schema().cell_count, input.schema().cell_count);
     Events again;
@@ -439,7 +439,7 @@ TEST(Tets, CanBeReadAgainWhereBytesCan) {
     expectReadAgain(openDescriptor(::fileno(file), "file"), events);
     std::fclose(file);
     const Input piped = openTets(std::make_unique<PipeSource>(bytes, 0), {});
-    EXPECT_EQ(piped.stream->again(), nullptr);
+    EXPECT_EQ(piped.stream->again(Part::kAll), nullptr);
   }
 }
 

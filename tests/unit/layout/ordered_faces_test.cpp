@@ -50,7 +50,7 @@ void expectFaces(IndexedSource& source, const OrderOptions& options, const FaceL
   SCOPED_TRACE(options.order + ", memory " + std::to_string(options.memory_bytes));
   OrderedSource ordered(source, options);
   EXPECT_EQ(ordered.schema().face_count, static_cast<int64_t>(expected.size()));
-  const std::unique_ptr<Source> again = ordered.again();
+  const std::unique_ptr<Source> again = ordered.again(Part::kAll);
   for (Source* reading : {static_cast<Source*>(&ordered), again.get()}) {
     Recorder out;
     copyStream(*reading, out);

@@ -1,4 +1,6 @@
 // An indexed mesh as a stream: the same mesh, in a coherent order, with its front told exactly.
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "ordered_testing.h"
@@ -63,13 +65,13 @@ TEST(OrderedSource, CanBeReadAgain) {
     SequentialSource sequential(memory);
     OrderedSource source(spooled ? static_cast<IndexedSource&>(sequential) : memory, {});
     {
-      const std::unique_ptr<Source> second = source.again();
+      const std::unique_ptr<Source> second = source.again(Part::kAll);
       ASSERT_NE(second, nullptr);
       EXPECT_EQ(second->schema().front_cells, source.schema().front_cells);
       EXPECT_TRUE(recorded(*second).allBytes() == once.out.allBytes());
     }
     {
-      const std::unique_ptr<Source> second = source.again();
+      const std::unique_ptr<Source> second = source.again(Part::kAll);
       BatchView batch;
       EXPECT_TRUE(second->next(batch));
     }
@@ -77,6 +79,31 @@ TEST(OrderedSource, CanBeReadAgain) {
     EXPECT_EQ(first.problem, "");
     EXPECT_TRUE(first.allBytes() == once.out.allBytes());
   }
+}
+
+// Each vertex once, and nothing else.
+TEST(OrderedSource, TellsPlacesAlone) {
+  const int n = slowRun() ? 4 : 18;  // several batches
+  TestMesh mesh = shuffled(fullGrid(n, n, n, 0.1), 7);
+  MemorySource memory(mesh.schema, mesh.view());
+  OrderedSource source(memory, {});
+  const auto sorted = [](Source& in) {
+    std::vector<std::array<double, 3>> places;
+    BatchView batch;
+    while (in.next(batch))
+      for (size_t row = 0; row < batch.vertex_count; ++row) {
+        const double* place = static_cast<const double*>(batch.positions) + 3 * row;
+        places.push_back({place[0], place[1], place[2]});
+      }
+    std::sort(places.begin(), places.end());
+    return places;
+  };
+  const std::unique_ptr<Source> alone = source.again(Part::kPositions);
+  ASSERT_NE(alone, nullptr);
+  const auto places = sorted(*alone);
+  EXPECT_EQ(places.size(), mesh.vertexCount());
+  EXPECT_TRUE(places == sorted(source));
+  EXPECT_TRUE(sorted(*alone).empty());
 }
 
 // Larger than what is read and spooled at once.

@@ -42,6 +42,7 @@ TEST(SamplerMemory, IsOfItsBudget) {
   addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
                    [](double x, double y, double z) { return std::sin(x) * y * z; });
   Schema schema = mesh.schema;
+  schema.vertex_count = static_cast<int64_t>(mesh.vertexCount());
   schema.cell_count = static_cast<int64_t>(mesh.cellCount());
   schema.box_min = {0, 0, 0, -256};
   schema.box_max = {slowRun() ? 30.0 : 60.0, 16, 16, 256};

@@ -40,7 +40,7 @@ struct Swept {
 // Both readings, of which `use` gets the second one's batches.
 template <class Use>
 void read(Swept& swept, Sampler& sampler, Use use) {
-  const std::unique_ptr<Source> first = swept.stream.again();
+  const std::unique_ptr<Source> first = swept.stream.again(Part::kAll);
   BatchView batch;
   while (first->next(batch)) sampler.count(batch);
   sampler.takeBricks();

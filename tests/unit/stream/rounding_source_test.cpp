@@ -106,7 +106,9 @@ class OneBatch final : public Source {
     batch = mesh_.view();
     return done_ = true;
   }
-  std::unique_ptr<Source> again() override {
+  Part part() const { return part_; }  // asked for last
+  std::unique_ptr<Source> again(Part part) override {
+    part_ = part;
     return twice_ ? std::make_unique<OneBatch>(mesh_, false) : nullptr;
   }
 
@@ -114,15 +116,17 @@ class OneBatch final : public Source {
   test::SmallMesh& mesh_;
   Schema schema_;
   bool twice_, done_ = false;
+  Part part_ = Part::kAll;
 };
 
 TEST(RoundingSource, CanBeReadAgainIfItsSourceCan) {
   test::SmallMesh mesh = thirds();
   OneBatch once(mesh, false), twice(mesh, true);
-  EXPECT_EQ(RoundingSource(once).again(), nullptr);
+  EXPECT_EQ(RoundingSource(once).again(Part::kAll), nullptr);
   RoundingSource first(twice);
-  const std::unique_ptr<Source> second = first.again();
+  const std::unique_ptr<Source> second = first.again(Part::kPositions);
   ASSERT_NE(second, nullptr);
+  EXPECT_EQ(twice.part(), Part::kPositions);
   for (Source* source : {second.get(), static_cast<Source*>(&first)}) {
     EXPECT_EQ(source->schema().fields[0].type, ScalarType::kFloat32);
     BatchView batch;
