@@ -1,28 +1,27 @@
-// layout: the cells of a mesh in memory in the order of their last vertices, by counting. What a
-// sort of records takes, 48 bytes a cell and as much again while it grows, becomes 4 bytes a cell
-// and 8 a point. Depends on mesh_reading.h, memory.h.
+// layout: the order of records by small keys, by counting: 4 bytes a record and 4 a key. Depends on
+// memory.h.
 #pragma once
 
 #include "memory.h"
-#include "mesh_reading.h"
 
 namespace tetstream {
 
-class CountedCells {
+// Keys are below `keys`; equal ones stay as they came. First every record's key is counted, then
+// each is put, in the same order.
+class CountedOrder {
  public:
-  // Whether this can do it: single rows are cheap, and it fits the memory.
-  static bool serves(const IndexedSource& source, size_t memory_bytes);
+  CountedOrder(uint64_t records, uint64_t keys, Account& account);
+  static uint64_t bytesFor(uint64_t records, uint64_t keys);
 
-  // `ranks` of all points, below `vertices`. By the highest rank, equal ones as they are in the
-  // mesh.
-  CountedCells(IndexedSource& source, const Array<uint32_t>& ranks, uint64_t vertices,
-               Account& account, const Tell& tell);
+  void count(uint32_t key) { ++starts_[key]; }
+  void beginPutting();
+  void put(uint32_t key, uint32_t record) { records_[starts_[key]++] = record; }
 
-  size_t count() const { return cells_.size(); }
-  uint32_t operator[](size_t place) const { return cells_[place]; }
+  size_t size() const { return records_.size(); }
+  uint32_t operator[](size_t place) const { return records_[place]; }
 
  private:
-  Array<uint32_t> cells_;
+  Array<uint32_t> starts_, records_;  // of a key: the place of the next record that has it
 };
 
 }  // namespace tetstream

@@ -1,13 +1,14 @@
 #include "ordered_cells.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <limits>
-
-#include "counted_cells.h"
 
 namespace tetstream {
 
 constexpr uint64_t kLeastPart = 1 << 14;  // points
+constexpr size_t kCellsAhead = 12;        // whose memory is asked for
 
 static size_t dataBytes(const IndexedSource& source) {
   if (source.randomAccess()) return source.schema().cell_data.empty() ? 0 : sizeof(uint64_t);
@@ -17,13 +18,20 @@ static size_t dataBytes(const IndexedSource& source) {
 }
 
 OrderedCells::OrderedCells(IndexedSource& source, RankedVertices& vertices, bool sorts,
-                           RankedVertices::Budget budget, const Tell& tell)
+                           RankedVertices::Budget budget, CellFront* front, const Tell& tell)
     : source_(source),
       data_bytes_(dataBytes(source)),
       rows_(kCorners + data_bytes_, budget.temp_dir),
       last_uses_(1, budget.temp_dir) {
   sortCells(vertices, sorts, budget, [&](double share) { tell(0.8 * share); });
-  findLastUses(vertices.count(), budget.account, [&](double share) { tell(0.8 + 0.2 * share); });
+  const Tell listing = [&](double share) { tell(0.8 + 0.2 * share); };
+  const auto takeLast = [front](const uint32_t corners[4], uint64_t place) {
+    return front->takeLast(corners, static_cast<uint32_t>(place));
+  };
+  if (front)
+    listLastUses(takeLast, listing);
+  else
+    findLastUses(vertices.count(), budget.account, listing);
   disk_ += rows_.diskBytes() + last_uses_.diskBytes();
 }
 
@@ -196,18 +204,41 @@ class OrderedCells::Passage {
   std::unique_ptr<RowSpool> waiting_;  // null in the last part
 };
 
+// Whether the cells can be sorted in memory by counting, those of a source that is no memory itself
+// with all of their rows.
+bool OrderedCells::fits(const RankedVertices& vertices, size_t memory_bytes) const {
+  const auto cells = static_cast<uint64_t>(source_.schema().cell_count);
+  const auto points = static_cast<uint64_t>(source_.schema().vertex_count);
+  const uint64_t rows = source_.randomAccess() ? 0 : cells * (kCorners + data_bytes_);
+  const uint64_t order = CountedOrder::bytesFor(cells, vertices.count());
+  return cells <= std::numeric_limits<uint32_t>::max() &&
+         rows + order + points * sizeof(uint32_t) <= memory_bytes;
+}
+
 void OrderedCells::sortCells(RankedVertices& vertices, bool sorts,
                              const RankedVertices::Budget& budget, const Tell& tell) {
-  if (sorts && CountedCells::serves(source_, budget.memory_bytes))
-    return countCells(vertices, budget, tell);
-  constexpr size_t kAhead = 12;
+  if (!sorts || !fits(vertices, budget.memory_bytes))
+    return passCells(vertices, sorts, budget, tell);
+  Array<uint32_t> ranks(budget.account, static_cast<size_t>(source_.schema().vertex_count));
+  vertices.tellRanks(0, ranks);
+  CountedOrder order(static_cast<uint64_t>(source_.schema().cell_count), vertices.count(),
+                     budget.account);
+  if (source_.randomAccess())
+    countCells(ranks, order, tell);
+  else
+    countRows(ranks, order, budget.account, tell);
+  rows_.finish();
+}
+
+void OrderedCells::passCells(RankedVertices& vertices, bool sorts,
+                             const RankedVertices::Budget& budget, const Tell& tell) {
   Passage passage(*this, vertices, sorts, budget);
   DataRows data(source_, data_bytes_);
   const Tell reading = [&](double share) { tell(0.6 * share); };
   readAllCells(source_, reading, [&](uint64_t first, size_t count, const int64_t* corners) {
     data.read(first, count);
     for (size_t i = 0; i < count; ++i) {
-      if (i + kAhead < count) passage.prefetch(corners + 4 * (i + kAhead));
+      if (i + kCellsAhead < count) passage.prefetch(corners + 4 * (i + kCellsAhead));
       data.copy(i, passage.data());
       passage.take(corners + 4 * i);
     }
@@ -215,49 +246,118 @@ void OrderedCells::sortCells(RankedVertices& vertices, bool sorts,
   passage.finish([&](double share) { tell(0.6 + 0.4 * share); });
 }
 
+static uint32_t highestOf(const uint32_t ranks[4]) {
+  return std::max(std::max(ranks[0], ranks[1]), std::max(ranks[2], ranks[3]));
+}
+
 // Of a mesh in memory, whose cells need not be carried to where they belong: their order is enough.
-void OrderedCells::countCells(RankedVertices& vertices, const RankedVertices::Budget& budget,
-                              const Tell& tell) {
-  Array<uint32_t> ranks(budget.account, static_cast<size_t>(source_.schema().vertex_count));
-  vertices.tellRanks(0, ranks);
-  const CountedCells order(source_, ranks, vertices.count(), budget.account,
-                           [&](double share) { tell(0.6 * share); });
+void OrderedCells::countCells(const Array<uint32_t>& ranks, CountedOrder& order, const Tell& tell) {
+  const auto translate = [&ranks](const int64_t points[4], uint32_t corners[4]) {
+    for (size_t j = 0; j < 4; ++j) corners[j] = ranks[static_cast<size_t>(points[j])];
+  };
+  uint32_t corners[4];
+  readAllCells(
+      source_, [&](double share) { tell(0.3 * share); },
+      [&](uint64_t, size_t count, const int64_t* points) {
+        for (size_t i = 0; i < count; ++i) {
+          translate(points + 4 * i, corners);
+          order.count(highestOf(corners));
+        }
+      });
+  order.beginPutting();
+  readAllCells(
+      source_, [&](double share) { tell(0.3 + 0.3 * share); },
+      [&](uint64_t first, size_t count, const int64_t* points) {
+        for (size_t i = 0; i < count; ++i) {
+          translate(points + 4 * i, corners);
+          order.put(highestOf(corners), static_cast<uint32_t>(first + i));
+        }
+      });
   std::vector<unsigned char> row(kCorners + data_bytes_);
   const Tell writing = [&](double share) { tell(0.6 + 0.4 * share); };
-  readInPieces(order.count(), writing, [&](uint64_t first, size_t count) {
+  readInPieces(order.size(), writing, [&](uint64_t first, size_t count) {
     for (size_t i = 0; i < count; ++i) {
       const uint64_t number = order[static_cast<size_t>(first) + i];
       int64_t points[4];
-      uint32_t corners[4];
       source_.readCells(number, 1, points);
-      for (size_t j = 0; j < 4; ++j) corners[j] = ranks[static_cast<size_t>(points[j])];
+      translate(points, corners);
       std::memcpy(row.data(), corners, kCorners);
       if (data_bytes_ > 0) std::memcpy(row.data() + kCorners, &number, sizeof number);
       rows_.append(row.data(), 1);
     }
   });
-  rows_.finish();
 }
 
-// From the last cell to the first: the first that has a vertex is the last to use it.
-void OrderedCells::findLastUses(uint64_t vertices, Account& account, const Tell& tell) {
-  Array<uint64_t> seen(account, static_cast<size_t>(vertices / 64 + 1));
-  std::fill_n(seen.data(), seen.size(), uint64_t{0});
+// Of another source, which is read once more: its rows are held as they come, and written in order.
+void OrderedCells::countRows(const Array<uint32_t>& ranks, CountedOrder& order, Account& account,
+                             const Tell& tell) {
+  const size_t row_bytes = kCorners + data_bytes_;
+  Array<unsigned char> rows(account, checkedMultiply(order.size(), row_bytes));
+  DataRows data(source_, data_bytes_);
+  const auto corners = [&](size_t row) {
+    std::array<uint32_t, 4> ranks_of;
+    std::memcpy(ranks_of.data(), rows.data() + row * row_bytes, kCorners);
+    return ranks_of;
+  };
+  readAllCells(
+      source_, [&](double share) { tell(0.5 * share); },
+      [&](uint64_t first, size_t count, const int64_t* points) {
+        data.read(first, count);
+        for (size_t i = 0; i < count; ++i) {
+          if (i + kCellsAhead < count)
+            for (size_t j = 0; j < 4; ++j)
+              __builtin_prefetch(&ranks[static_cast<size_t>(points[4 * (i + kCellsAhead) + j])]);
+          uint32_t ranks_of[4];
+          for (size_t j = 0; j < 4; ++j)
+            ranks_of[j] = ranks[static_cast<size_t>(points[4 * i + j])];
+          unsigned char* const row = rows.data() + (static_cast<size_t>(first) + i) * row_bytes;
+          std::memcpy(row, ranks_of, kCorners);
+          data.copy(i, row + kCorners);
+          order.count(highestOf(ranks_of));
+        }
+      });
+  order.beginPutting();
+  for (size_t i = 0; i < order.size(); ++i)
+    order.put(highestOf(corners(i).data()), static_cast<uint32_t>(i));
+  const Tell writing = [&](double share) { tell(0.6 + 0.4 * share); };
+  readInPieces(order.size(), writing, [&](uint64_t first, size_t count) {
+    const auto at = [&](size_t i) { return rows.data() + order[first + i] * row_bytes; };
+    for (size_t i = 0; i < count; ++i) {
+      if (i + kCellsAhead < count) __builtin_prefetch(at(i + kCellsAhead));
+      rows_.append(at(i), 1);
+    }
+  });
+}
+
+// From the last cell to the first. usesOf(corners, place)
+template <class UsesOf>
+void OrderedCells::listLastUses(UsesOf usesOf, const Tell& tell) {
   for (uint64_t left = rows_.rows(); left-- > 0;) {
     uint32_t corners[4];
     std::memcpy(corners, rows_.row(left), kCorners);
-    unsigned char uses = 0;
-    for (unsigned j = 0; j < 4; ++j) {
-      uint64_t& word = seen[corners[j] / 64];
-      const uint64_t bit = uint64_t{1} << (corners[j] % 64);
-      if (!(word & bit)) uses |= static_cast<unsigned char>(1u << j);
-      word |= bit;
-    }
+    const auto uses = static_cast<unsigned char>(usesOf(corners, left));
     last_uses_.append(&uses, 1);
     if (left % kRowsAtOnce == 0)
       tell(1 - static_cast<double>(left) / static_cast<double>(rows_.rows()));
   }
   last_uses_.finish();
+}
+
+// The first that has a vertex is the last to use it.
+void OrderedCells::findLastUses(uint64_t vertices, Account& account, const Tell& tell) {
+  Array<uint64_t> seen(account, static_cast<size_t>(vertices / 64 + 1));
+  std::fill_n(seen.data(), seen.size(), uint64_t{0});
+  const auto usesOf = [&seen](const uint32_t corners[4], uint64_t) {
+    unsigned uses = 0;
+    for (unsigned j = 0; j < 4; ++j) {
+      uint64_t& word = seen[corners[j] / 64];
+      const uint64_t bit = uint64_t{1} << (corners[j] % 64);
+      if (!(word & bit)) uses |= 1u << j;
+      word |= bit;
+    }
+    return uses;
+  };
+  listLastUses(usesOf, tell);
 }
 
 OrderedCell OrderedCells::cell(uint64_t place) {

@@ -1,6 +1,9 @@
-// layout: the cells of a mesh in the order of their last vertices. Depends on ranked_vertices.h.
+// layout: the cells of a mesh in the order of their last vertices. Depends on ranked_vertices.h,
+// counted_order.h, cell_front.h.
 #pragma once
 
+#include "cell_front.h"
+#include "counted_order.h"
 #include "ranked_vertices.h"
 
 namespace tetstream {
@@ -15,8 +18,9 @@ struct OrderedCell {
 class OrderedCells {
  public:
   // `sorts`: by the highest rank, equal ones as they are in the mesh; otherwise as they are.
+  // `front`: takes them from the last to the first; may be null.
   OrderedCells(IndexedSource& source, RankedVertices& vertices, bool sorts,
-               RankedVertices::Budget budget, const Tell& tell);
+               RankedVertices::Budget budget, CellFront* front, const Tell& tell);
 
   uint64_t count() const { return rows_.rows(); }
   OrderedCell cell(uint64_t place);  // its data live until the next call
@@ -30,9 +34,16 @@ class OrderedCells {
   class Translation;
   class Passage;
 
+  bool fits(const RankedVertices& vertices, size_t memory_bytes) const;
   void sortCells(RankedVertices& vertices, bool sorts, const RankedVertices::Budget& budget,
                  const Tell& tell);
-  void countCells(RankedVertices& vertices, const RankedVertices::Budget& budget, const Tell& tell);
+  void countCells(const Array<uint32_t>& ranks, CountedOrder& order, const Tell& tell);
+  void countRows(const Array<uint32_t>& ranks, CountedOrder& order, Account& account,
+                 const Tell& tell);
+  void passCells(RankedVertices& vertices, bool sorts, const RankedVertices::Budget& budget,
+                 const Tell& tell);
+  template <class UsesOf>
+  void listLastUses(UsesOf usesOf, const Tell& tell);
   void findLastUses(uint64_t vertices, Account& account, const Tell& tell);
 
   IndexedSource& source_;

@@ -67,25 +67,29 @@ class OrderedSource::Reading final : public Source {
  public:
   // Without values only the connectivity is there, and the faces are told the vertices' numbers.
   Reading(OrderedSource& ordered, bool with_values)
-      : ordered_(ordered), with_values_(with_values), batch_(ordered.schema_), ids_(account_) {}
+      : ordered_(ordered),
+        with_values_(with_values),
+        numbers_(ordered.front_ ? &*ordered.front_ : nullptr),
+        ids_(account_),
+        batch_(ordered.schema_) {}
   const Schema& schema() const override { return ordered_.schema_; }
 
   bool next(BatchView& batch) override {
     OrderedCells& cells = *ordered_.cells_;
     if (place_ == cells.count()) return false;
     batch_.clear(introduced_);
-    for (; place_ < cells.count() && batch_.cellCount() < kBatchCells; ++place_)
-      addCell(cells.cell(place_));
+    const size_t count = std::min<uint64_t>(kBatchCells, cells.count() - place_);
+    batch_.addCells(count);
+    for (size_t row = 0; row < count; ++row) fillCell(row, cells.cell(place_++));
     if (with_values_) addFaces();
     batch = batch_.view();
     return true;
   }
 
  private:
-  void addCell(const OrderedCell& cell) {
-    const size_t row = batch_.addCells(1);
+  void fillCell(size_t row, const OrderedCell& cell) {
     for (int j = 0; j < 4; ++j) batch_.cell(row)[j] = idOf(cell.corners[j]);
-    for (unsigned j = 0; j < 4; ++j)
+    for (unsigned j = 0; !numbers_ && j < 4; ++j)
       if (cell.last_uses >> j & 1) ids_.remove(cell.corners[j]);
     batch_.lastUses(row) = static_cast<uint8_t>(cell.last_uses);
     if (with_values_) ordered_.cells_->copyData(cell, batch_, row);
@@ -98,9 +102,14 @@ class OrderedSource::Reading final : public Source {
       batch_.addFace(face.vertices, face.label);
     }
   }
+  // kNoSlot: it is new, the next one.
+  uint32_t numberOf(uint32_t rank) const {
+    const uint32_t number = numbers_->number(rank);
+    return number < introduced_ ? number : kNoSlot;
+  }
   // Ranks get ids in the order of their first use.
   int64_t idOf(uint32_t rank) {
-    const uint32_t known = ids_.find(rank);
+    const uint32_t known = numbers_ ? numberOf(rank) : ids_.find(rank);
     if (known != kNoSlot) return known;
     const size_t row = batch_.addVertices(1);
     if (with_values_) {
@@ -109,15 +118,16 @@ class OrderedSource::Reading final : public Source {
     } else if (!ordered_.faces_->empty()) {
       ordered_.faces_->number(ordered_.vertices_->pointAt(rank), static_cast<int64_t>(introduced_));
     }
-    ids_.add(rank, static_cast<uint32_t>(introduced_));
+    if (!numbers_) ids_.add(rank, static_cast<uint32_t>(introduced_));
     return static_cast<int64_t>(introduced_++);
   }
 
   OrderedSource& ordered_;
   bool with_values_;
-  Batch batch_;
+  const CellFront* numbers_;  // or, where there are none:
   Account account_;
   IdHash ids_;  // of the active vertices
+  Batch batch_;
   uint64_t place_ = 0, introduced_ = 0, face_ = 0;
 };
 
@@ -175,13 +185,19 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
   }
   unused_ += schema_.vertex_count - static_cast<int64_t>(vertices_->count());
   schema_.vertex_count = static_cast<int64_t>(vertices_->count());
-  cells_ = std::make_unique<OrderedCells>(*source_, *vertices_, order != Order::kNone, budget,
-                                          part(keyed + 0.1, 0.9));
+  RankedVertices::Budget for_cells = budget;
+  if (hasRoomForFront(budget.memory_bytes)) {
+    front_.emplace(vertices_->count(), account_);
+    for_cells.memory_bytes -= CellFront::bytesFor(vertices_->count());
+  }
+  cells_ = std::make_unique<OrderedCells>(*source_, *vertices_, order != Order::kNone, for_cells,
+                                          front_ ? &*front_ : nullptr, part(keyed + 0.1, 0.9));
   disk_ += std::max(vertices_->mostDiskBytes(), vertices_->diskBytes() + cells_->mostDiskBytes());
   faces_ = std::make_unique<OrderedFaces>(*source_, budget);
   measureFront(part(0.9, faces_->empty() ? 1 : 0.95));
   faces_->finish(part(0.95, 1));
   disk_ += faces_->mostDiskBytes();
+  if (options.memory_bytes > 0) front_.reset();  // the rest of the budget is for what reads this
   reading_ = std::make_unique<Reading>(*this, true);
 }
 
@@ -251,7 +267,20 @@ VertexKey OrderedSource::placeKey(Order order, const Survey& survey, const std::
   }
 }
 
+bool OrderedSource::hasRoomForFront(size_t memory_bytes) const {
+  const auto cells = static_cast<uint64_t>(schema_.cell_count);
+  return cells < std::numeric_limits<uint32_t>::max() &&
+         CellFront::bytesFor(vertices_->count()) <= memory_bytes / 4;
+}
+
 void OrderedSource::measureFront(const Tell& tell) {
+  const FrontStatistics found = front_ ? takeFront(tell) : meterFront(tell);
+  schema_.front_cells = found.cells;
+  schema_.front_width = found.width;
+  schema_.front_span = found.span;
+}
+
+FrontStatistics OrderedSource::meterFront(const Tell& tell) {
   Reading reading(*this, false);
   FrontMeter meter(account_);
   BatchView batch;
@@ -259,9 +288,21 @@ void OrderedSource::measureFront(const Tell& tell) {
     meter.put(batch);
     tell(static_cast<double>(meter.cellsSeen()) / static_cast<double>(cells_->count()));
   }
-  schema_.front_cells = meter.statistics().cells;
-  schema_.front_width = meter.statistics().width;
-  schema_.front_span = meter.statistics().span;
+  return meter.statistics();
+}
+
+FrontStatistics OrderedSource::takeFront(const Tell& tell) {
+  front_->turnRound();
+  readInPieces(cells_->count(), tell, [&](uint64_t first, size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      const OrderedCell cell = cells_->cell(first + i);
+      front_->takeFirst(cell.corners, cell.last_uses);
+    }
+  });
+  front_->finish();
+  for (uint64_t rank = 0; !faces_->empty() && rank < vertices_->count(); ++rank)
+    faces_->number(vertices_->pointAt(rank), front_->number(static_cast<uint32_t>(rank)));
+  return front_->statistics();
 }
 
 bool OrderedSource::next(BatchView& batch) {

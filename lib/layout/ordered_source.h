@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "ordered_cells.h"
@@ -58,7 +59,10 @@ class OrderedSource : public Source {
   VertexKey rankKey();
   VertexKey graphKey(Order order, const OrderOptions& options, size_t memory_bytes,
                      const Tell& tell);
+  bool hasRoomForFront(size_t memory_bytes) const;
   void measureFront(const Tell& tell);
+  FrontStatistics meterFront(const Tell& tell);
+  FrontStatistics takeFront(const Tell& tell);
 
   IndexedSource* source_;
   Schema schema_;
@@ -66,6 +70,7 @@ class OrderedSource : public Source {
   std::unique_ptr<SweptMesh> swept_;  // in place of a source too large for its graph
   Array<uint32_t> graph_rank_;        // of points, while vertices are sorted by it
   std::unique_ptr<RankedVertices> vertices_;
+  std::optional<CellFront> front_;  // where there is room for it; knows the vertices' numbers
   std::unique_ptr<OrderedCells> cells_;
   std::unique_ptr<OrderedFaces> faces_;
   std::unique_ptr<Reading> reading_;
