@@ -191,18 +191,27 @@ struct Core {
     return several && options.memory_bytes == 0 ? options.tasks : nullptr;
   }
 
-  // Calls work(first, end, half) for the first cells of the window and for the others: half is 0
-  // and 1. Where one thread works, as where there are so few that another would come too late, all
-  // are of the first half.
-  template <class Work>
-  void forHalves(Work work) const {
+  // For what is done to all of the window; null as well where that is so little that another thread
+  // would come too late.
+  const Tasks* tasksForAll() const {
     constexpr int64_t kLeastTiles = 8;  // fewer cells than these have vertices are few
-    const uint32_t end = window.mesh.cellEnd();
     const int64_t tile = options.tile_vertices > 0 ? options.tile_vertices : kTileVertices;
-    const Tasks* const both = end < kLeastTiles * tile ? nullptr : tasks();
+    return window.mesh.cellEnd() < kLeastTiles * tile ? nullptr : tasks();
+  }
+
+  // Calls work(first, end, half) for the first of so many and for the others: half is 0 and 1.
+  // Where one thread works all are of the first half.
+  template <class Work>
+  void forHalvesOf(uint32_t end, Work work) const {
+    const Tasks* const both = tasksForAll();
     const uint32_t middle = both ? end / 2 : end;
     doBoth(
         both, [&] { work(0u, middle, 0u); }, [&] { work(middle, end, 1u); });
+  }
+  // The same for the cells of the window.
+  template <class Work>
+  void forHalves(Work work) const {
+    forHalvesOf(window.mesh.cellEnd(), work);
   }
 
   // Whether some collapses have more than the price of their error.

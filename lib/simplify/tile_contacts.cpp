@@ -1,7 +1,5 @@
 #include "tile_contacts.h"
 
-#include <algorithm>
-
 namespace tetstream {
 
 // A tile of a cube's eight shares a twentieth as many cells with those across an edge or a corner
@@ -13,6 +11,8 @@ void TileContacts::reset(size_t tiles) {
   of_.resize(tiles);
   for (std::vector<Contact>& contacts : of_) contacts.clear();
   side_.assign(tiles, 0);
+  apart_.resize(tiles);
+  for (std::vector<uint32_t>& others : apart_) others.clear();
 }
 
 auto TileContacts::between(uint32_t a, uint32_t b) -> Contact& {
@@ -52,16 +52,15 @@ void TileContacts::divide(const std::vector<size_t>& sizes) {
     changes = false;
     for (uint32_t tile = 0; tile < tiles; ++tile) changes |= takeBetterSide(tile, tiles);
   }
-  for (uint32_t tile = 0; tile < tiles; ++tile)
-    for (Contact& contact : of_[tile])
+  for (uint32_t tile = 0; tile < tiles; ++tile) {
+    apart_[tile].clear();
+    for (Contact& contact : of_[tile]) {
       contact.apart =
           side_[tile] == side_[contact.tile] &&
           contact.cells <= std::min(sizes[tile], sizes[contact.tile]) / kVerticesPerShared;
-}
-
-bool TileContacts::areApart(uint32_t a, uint32_t b) const {
-  return std::any_of(of_[a].begin(), of_[a].end(),
-                     [b](const Contact& contact) { return contact.tile == b && contact.apart; });
+      if (contact.apart) apart_[tile].push_back(contact.tile);
+    }
+  }
 }
 
 }  // namespace tetstream

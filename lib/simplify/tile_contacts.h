@@ -2,6 +2,7 @@
 // nothing.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -27,7 +28,9 @@ class TileContacts {
 
   const std::vector<Contact>& of(uint32_t tile) const { return of_[tile]; }
   int side(uint32_t tile) const { return side_[tile]; }
-  bool areApart(uint32_t a, uint32_t b) const;
+  bool areApart(uint32_t a, uint32_t b) const {
+    return std::find(apart_[a].begin(), apart_[a].end(), b) != apart_[a].end();
+  }
 
  private:
   Contact& between(uint32_t a, uint32_t b);
@@ -35,6 +38,7 @@ class TileContacts {
 
   std::vector<std::vector<Contact>> of_;
   std::vector<int> side_;
+  std::vector<std::vector<uint32_t>> apart_;  // of each tile, when they are divided
 };
 
 }  // namespace tetstream

@@ -41,17 +41,26 @@ template <class S>
 void Tiling<S>::markVertices(float bound) {
   const Topology& mesh = core_.window.mesh;
   uint32_t* const mark = core_.window.scratch();
-  others_wait_ = false;
-  looking_ = 0;
-  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
-    const float least = settledOf(core_.window, v).least;
-    const bool free = mesh.isFree(v);
-    mark[v] = free && least <= bound;
-    looking_ += mark[v];
-    others_wait_ |= free && least > bound && least < std::numeric_limits<float>::infinity();
-  }
-  for (Part& part : parts_)
+  for (Part& part : parts_) {
+    part.looking = 0;
+    part.others_wait = false;
     if (part.near.size() < mesh.vertexEnd()) part.near.resize(mesh.vertexCapacity());
+  }
+  core_.forHalvesOf(mesh.vertexEnd(), [&](uint32_t first, uint32_t end, unsigned half) {
+    int64_t looking = 0;
+    bool others_wait = false;
+    for (uint32_t v = first; v < end; ++v) {
+      const float least = settledOf(core_.window, v).least;
+      const bool free = mesh.isFree(v);
+      mark[v] = free && least <= bound;
+      looking += mark[v];
+      others_wait |= free && least > bound && least < std::numeric_limits<float>::infinity();
+    }
+    parts_[half].looking = looking;
+    parts_[half].others_wait = others_wait;
+  });
+  looking_ = parts_[0].looking + parts_[1].looking;
+  others_wait_ = parts_[0].others_wait || parts_[1].others_wait;
   core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
     uint8_t* const near = parts_[half].near.data();
     std::fill_n(near, mesh.vertexEnd(), uint8_t{0});
@@ -195,6 +204,17 @@ void Tiling<S>::leaveOut(uint32_t cell, uint32_t tile) {
   }
 }
 
+// Whether two of its tiles are to be kept apart.
+template <class S>
+bool Tiling<S>::isTorn(uint32_t cell) const {
+  uint32_t tiles[4];
+  const size_t count = tilesOf(cell, tiles);
+  for (size_t k = 1; k < count; ++k)
+    for (size_t l = 0; l < k; ++l)
+      if (contacts_.areApart(tiles[k], tiles[l])) return true;
+  return false;
+}
+
 // Leaves out what the cell has of all but one of the tiles that are to be kept apart: of two the
 // one with fewer corners.
 template <class S>
@@ -223,36 +243,49 @@ void Tiling<S>::dropLeftOut() {
   }
 }
 
-// In the order of the cells, whichever half they are of.
+// Few cells are torn: they are found by halves, and parted in the order of the cells.
 template <class S>
 void Tiling<S>::keepApart() {
   std::vector<size_t> sizes;
   for (const TilePiece& tile : tiles_) sizes.push_back(tile.vertexCount());
   contacts_.divide(sizes);
+  const auto find = [this](Part& part) {
+    part.torn.clear();
+    for (size_t i = 0; i < part.between_count; ++i)
+      if (isTorn(part.between[i])) part.torn.push_back(part.between[i]);
+  };
+  doBoth(
+      core_.tasksForAll(), [&] { find(parts_[0]); }, [&] { find(parts_[1]); });
   for (const Part& part : parts_)
-    for (size_t i = 0; i < part.between_count; ++i) this->part(part.between[i]);
+    for (uint32_t cell : part.torn) this->part(cell);
   dropLeftOut();
 }
 
 template <class S>
 void Tiling<S>::addBetween() {
-  between_.reset(tiles_.size());
-  uint32_t tiles[4];
-  for (const Part& part : parts_)
+  const auto add = [this](Part& part) {
+    part.shared.reset(tiles_.size());
+    uint32_t tiles[4];
     for (size_t i = 0; i < part.between_count; ++i) {
       const size_t count = tilesOf(part.between[i], tiles);
-      for (size_t k = 0; k < count; ++k) between_.add(tiles[k], part.between[i]);
+      for (size_t k = 0; k < count; ++k) part.shared.add(tiles[k], part.between[i]);
     }
-  for (uint32_t tile = 0; tile < tiles_.size(); ++tile)
-    tiles_[tile].cell_count =
-        parts_[0].cells.count(tile) + parts_[1].cells.count(tile) + between_.count(tile);
+  };
+  doBoth(
+      core_.tasksForAll(), [&] { add(parts_[0]); }, [&] { add(parts_[1]); });
+  for (uint32_t tile = 0; tile < tiles_.size(); ++tile) {
+    tiles_[tile].cell_count = 0;
+    for (const Part& part : parts_)
+      tiles_[tile].cell_count += part.cells.count(tile) + part.shared.count(tile);
+  }
 }
 
 template <class S>
 const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) const {
   if (room.size() < t.cell_count) room.resize(t.cell_count + t.cell_count / 4);
   uint32_t* to = room.data();
-  for (const TileCells* cells : {&parts_[0].cells, &parts_[1].cells, &between_}) {
+  for (const TileCells* cells :
+       {&parts_[0].cells, &parts_[1].cells, &parts_[0].shared, &parts_[1].shared}) {
     cells->copy(t.number, to);
     to += cells->count(t.number);
   }

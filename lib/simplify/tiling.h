@@ -50,7 +50,7 @@ template <class S>
 class Tiling {
  public:
   Tiling(Core<S>& core, Account& account)
-      : core_(core), vertices_(account), parts_{Part(account), Part(account)}, between_(account) {}
+      : core_(core), vertices_(account), parts_{Part(account), Part(account)} {}
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
@@ -82,18 +82,24 @@ class Tiling {
   void cut(size_t count, unsigned round, TileLayout layout);
   // What was found in a part of the window's cells.
   struct Part {
-    explicit Part(Account& account) : near(account), cells(account), between(account) {}
+    explicit Part(Account& account)
+        : near(account), cells(account), shared(account), between(account) {}
     void addBetween(uint32_t cell);
-    Array<uint8_t> near;      // of each vertex: whether a cell has it and one to be looked at
+    Array<uint8_t> near;  // of each vertex: whether a cell has it and one to be looked at
+    int64_t looking = 0;
+    bool others_wait = false;
     TileCells cells;          // of one tile, or of any if no vertices are to be left out
-    Array<uint32_t> between;  // others, of several
+    TileCells shared;         // others, of the tiles that have them when all are left out
+    Array<uint32_t> between;  // the same cells
     size_t between_count = 0;
+    std::vector<uint32_t> torn;  // of these: those of tiles that are to be kept apart
     TileContacts contacts;
   };
 
   void sortCells(uint32_t first, uint32_t end, bool whole, Part& part) const;
   void sortCells(bool whole);
   void keepApart();
+  bool isTorn(uint32_t cell) const;
   void part(uint32_t cell);
   void leaveOut(uint32_t cell, uint32_t tile);
   void dropLeftOut();
@@ -106,7 +112,6 @@ class Tiling {
   Core<S>& core_;
   Array<uint32_t> vertices_;
   Part parts_[2];  // the second is empty where one thread works
-  TileCells between_;
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
   float bound_ = 0;
