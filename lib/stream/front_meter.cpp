@@ -49,9 +49,9 @@ void FrontMeter::introduceUpTo(uint64_t vertex) {
   }
 }
 
-uint32_t FrontMeter::addCell(const int64_t corners[4]) {
+// One by one, to say what is wrong.
+void FrontMeter::findCorners(const int64_t corners[4], uint32_t slots[4]) {
   const auto number = static_cast<unsigned long long>(cells_seen_);
-  uint32_t slots[4];
   for (int j = 0; j < 4; ++j) {
     if (corners[j] < 0 || static_cast<uint64_t>(corners[j]) >= declared_)
       fail(Status::kBadData, "cell %llu: vertex %lld is not declared before it", number,
@@ -66,6 +66,16 @@ uint32_t FrontMeter::addCell(const int64_t corners[4]) {
         fail(Status::kBadData, "cell %llu: vertex %lld is there twice", number,
              static_cast<long long>(corners[j]));
   }
+}
+
+static bool areFour(const uint32_t s[4]) {
+  return s[0] != s[1] && s[0] != s[2] && s[0] != s[3] && s[1] != s[2] && s[1] != s[3] &&
+         s[2] != s[3];
+}
+
+uint32_t FrontMeter::addCell(const int64_t corners[4]) {
+  uint32_t slots[4];
+  if (!front_.findFour(corners, slots) || !areFour(slots)) findCorners(corners, slots);
   const uint32_t cell = takeCell();
   pending_[cell] = 4;
   for (uint32_t j = 0; j < 4; ++j) {
@@ -115,9 +125,9 @@ void FrontMeter::put(const BatchView& batch) {
   for (size_t i = 0; i < batch.cell_count; ++i) {
     const int64_t* corners = batch.cells + 4 * i;
     addCell(corners);
-    for (unsigned uses = batch.last_uses ? batch.last_uses[i] : 0, j = 0; j < 4; ++j)
+    for (unsigned uses = batch.last_uses ? batch.last_uses[i] & 15u : 0, j = 0; uses >> j; ++j)
       if (uses >> j & 1) finalize(corners[j]);
-    note();
+    statistics_.cells = std::max(statistics_.cells, live_cells_);
   }
   for (size_t i = 0; i < batch.finalized_count; ++i) finalize(batch.finalized[i]);
   note();

@@ -38,6 +38,7 @@ class FrontMeter {
  private:
   static constexpr uint32_t kNone = 0xffffffffu;
   void introduceUpTo(uint64_t vertex);
+  void findCorners(const int64_t corners[4], uint32_t slots[4]);
   uint32_t takeVertex();
   uint32_t takeCell();
 
