@@ -58,6 +58,7 @@ class Sampler {
   uint32_t rowOf(int64_t vertex) const;
   void addCell(const BatchView& batch, size_t row);
   double ratioFor(double left) const;
+  static std::vector<double> ratesFrom(const double* left, const double* met, size_t bricks);
   Pilot pilot(double ratio) const;
 
   Schema schema_;

@@ -166,6 +166,34 @@ TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   EXPECT_GT(pilot.shareOf(0.5), 0.65);
 }
 
+// As if no brick lay where these cells do: what they should keep is told by the cells before and
+// after them, which have detail, too, not by all.
+TEST(Sampler, TellsOfPartsThatItHasNotMet) {
+  TestMesh mesh = halfDetailed(slowRun() ? 30 : 60, slowRun() ? 14 : 16);
+  SimplifyOptions options;
+  options.ratio = 0.2;
+  Swept swept(mesh);
+  Sampler sampler(swept.stream.schema(), options);
+  const std::unique_ptr<Source> first = swept.stream.again(Part::kAll);
+  BatchView batch;
+  while (first->next(batch)) sampler.count(batch);
+  sampler.takeBricks();
+  constexpr double kFrom = 0.1, kTo = 0.3;
+  const auto all = static_cast<double>(mesh.cellCount());
+  const std::vector<int64_t> nowhere(4 * mesh.cellCount(), int64_t{1} << 40);
+  double seen = 0;
+  while (swept.stream.next(batch)) {
+    BatchView cells = batch;
+    if (seen >= kFrom * all && seen < kTo * all) cells.cells = nowhere.data();
+    sampler.put(cells);
+    seen += static_cast<double>(batch.cell_count);
+  }
+  const Pilot pilot = sampler.fly();
+  ASSERT_TRUE(pilot.known());
+  const double unmet = (pilot.shareOf(0.28) - pilot.shareOf(0.14)) / 0.14;
+  EXPECT_GT(unmet, 0.8 * pilot.shareOf(0.5) / 0.5);  // 0.5, were it told by all
+}
+
 // The sample keeps a quarter of its free vertices. Where more are wanted no part can keep more than
 // all of them, and one of which nothing was left there is not given up.
 TEST(Sampler, SpreadsTheCellsForAnyTarget) {
