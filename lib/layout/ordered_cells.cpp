@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "status.h"
+
 namespace tetstream {
 
 constexpr uint64_t kLeastPart = 1 << 14;  // points
@@ -36,6 +38,15 @@ OrderedCells::OrderedCells(IndexedSource& source, RankedVertices& vertices, bool
 }
 
 // ------------------------------------------------------------------------- points become ranks
+
+// Every point of a cell has a rank, unless somebody writes the file meanwhile.
+static uint32_t highestOf(const uint32_t ranks[4]) {
+  const uint32_t highest = std::max(std::max(ranks[0], ranks[1]), std::max(ranks[2], ranks[3]));
+  if (highest == RankedVertices::kNoRank)
+    fail(Status::kBadData,
+         "the mesh has changed while it was read: a cell has a point that none had before");
+  return highest;
+}
 
 // Part by part, as many points as fit the memory: cells with points of other parts wait in a spool
 // for theirs.
@@ -170,11 +181,13 @@ class OrderedCells::Passage {
     translation_.translate(corners, known);
     std::memcpy(row_.data(), corners, kCorners);
     std::memcpy(row_.data() + row_bytes_, &known, sizeof known);
-    if (waiting_)
+    if (waiting_) {
       waiting_->append(row_.data(), 1);
-    else if (sorts_)
-      std::memcpy(sort_.add(std::max({corners[0], corners[1], corners[2], corners[3]})),
-                  row_.data(), row_bytes_);
+      return;
+    }
+    const uint32_t highest = highestOf(corners);
+    if (sorts_)
+      std::memcpy(sort_.add(highest), row_.data(), row_bytes_);
     else
       to_.rows_.append(row_.data(), 1);
   }
@@ -244,10 +257,6 @@ void OrderedCells::passCells(RankedVertices& vertices, bool sorts,
     }
   });
   passage.finish([&](double share) { tell(0.6 + 0.4 * share); });
-}
-
-static uint32_t highestOf(const uint32_t ranks[4]) {
-  return std::max(std::max(ranks[0], ranks[1]), std::max(ranks[2], ranks[3]));
 }
 
 // Of a mesh in memory, whose cells need not be carried to where they belong: their order is enough.

@@ -1,5 +1,6 @@
 #include "ranked_vertices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -113,6 +114,7 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
 }
 
 void RankedVertices::tellRanks(uint64_t first, Array<uint32_t>& ranks) {
+  std::fill_n(ranks.data(), ranks.size(), kNoRank);
   for (uint64_t rank = 0; rank < rows_.rows(); ++rank) {
     uint64_t head;
     std::memcpy(&head, rows_.row(rank), kHead);

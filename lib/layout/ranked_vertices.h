@@ -24,7 +24,8 @@ class RankedVertices {
                  Schema& schema, const Tell& tell);
 
   uint64_t count() const { return rows_.rows(); }
-  // ranks[i] becomes the rank of point first + i, where that is used.
+  static constexpr uint32_t kNoRank = 0xffffffffu;
+  // ranks[i] becomes the rank of point first + i, or kNoRank where no cell used it.
   void tellRanks(uint64_t first, Array<uint32_t>& ranks);
   uint64_t pointAt(uint64_t rank);
   // The values of a vertex into a row of a batch; returns its origin.

@@ -67,6 +67,53 @@ std::string refusalOf(const std::function<void(TestMesh&)>& damage, bool spooled
   return "";
 }
 
+// Somebody writes the file meanwhile: from the second reading on a cell has a point that no cell
+// had, and that therefore has no place among the others.
+class Rewritten final : public IndexedSource {
+ public:
+  Rewritten(IndexedSource& in, int64_t unused) : in_(in), unused_(unused) {}
+  const Schema& schema() const override { return in_.schema(); }
+  bool randomAccess() const override { return in_.randomAccess(); }
+  void readPositions(uint64_t first, size_t count, void* out) override {
+    in_.readPositions(first, count, out);
+  }
+  void readField(size_t column, uint64_t first, size_t count, void* out) override {
+    in_.readField(column, first, count, out);
+  }
+  void readCells(uint64_t first, size_t count, int64_t* out) override {
+    in_.readCells(first, count, out);
+    if (first == 0 && readings_++ > 0) out[2] = unused_;
+  }
+  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
+    in_.readCellData(column, first, count, out);
+  }
+
+ private:
+  IndexedSource& in_;
+  int64_t unused_;
+  int readings_ = 0;
+};
+
+TEST(OrderedSource, RefusesCellsThatChangeWhileTheyAreRead) {
+  TestMesh mesh =
+      makeMesh(ScalarType::kFloat64, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 9, 9, 9},
+               {0, 1, 2, 3, 1, 2, 3, 4});
+  for (bool spooled : {false, true})
+    for (const char* order : {"spatial", "none"})
+      for (size_t memory_bytes : {0, 1}) {
+        MemorySource memory(mesh.schema, mesh.view());
+        SequentialSource sequential(memory);
+        Rewritten source(spooled ? static_cast<IndexedSource&>(sequential) : memory, 5);
+        try {
+          OrderedSource ordered(source, inOrder(order, memory_bytes));
+          ADD_FAILURE() << order << ", " << memory_bytes << (spooled ? ", spooled" : "");
+        } catch (const Error& error) {
+          EXPECT_EQ(error.status(), Status::kBadData);
+          EXPECT_NE(error.text().find("changed"), std::string::npos) << error.text();
+        }
+      }
+}
+
 TEST(OrderedSource, NamesBadIds) {
   for (bool spooled : {false, true})
     for (int64_t bad : {int64_t{27}, int64_t{-1}, int64_t{1} << 32, int64_t{1} << 62}) {
