@@ -293,16 +293,25 @@ FrontStatistics OrderedSource::meterFront(const Tell& tell) {
 
 FrontStatistics OrderedSource::takeFront(const Tell& tell) {
   front_->turnRound();
-  readInPieces(cells_->count(), tell, [&](uint64_t first, size_t count) {
+  const double counted = faces_->empty() ? 1 : 0.8;
+  const Tell counting = [&](double share) { tell(counted * share); };
+  readInPieces(cells_->count(), counting, [&](uint64_t first, size_t count) {
     for (size_t i = 0; i < count; ++i) {
       const OrderedCell cell = cells_->cell(first + i);
       front_->takeFirst(cell.corners, cell.last_uses);
     }
   });
   front_->finish();
-  for (uint64_t rank = 0; !faces_->empty() && rank < vertices_->count(); ++rank)
-    faces_->number(vertices_->pointAt(rank), front_->number(static_cast<uint32_t>(rank)));
+  if (!faces_->empty()) numberFaces([&](double share) { tell(counted + (1 - counted) * share); });
   return front_->statistics();
+}
+
+// Tells the labelled faces the numbers of their vertices, where the front has them.
+void OrderedSource::numberFaces(const Tell& tell) {
+  readInPieces(vertices_->count(), tell, [&](uint64_t first, size_t count) {
+    for (uint64_t rank = first; rank < first + count; ++rank)
+      faces_->number(vertices_->pointAt(rank), front_->number(static_cast<uint32_t>(rank)));
+  });
 }
 
 bool OrderedSource::next(BatchView& batch) {

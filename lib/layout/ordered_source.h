@@ -63,6 +63,7 @@ class OrderedSource : public Source {
   void measureFront(const Tell& tell);
   FrontStatistics meterFront(const Tell& tell);
   FrontStatistics takeFront(const Tell& tell);
+  void numberFaces(const Tell& tell);
 
   IndexedSource* source_;
   Schema schema_;
