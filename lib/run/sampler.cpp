@@ -248,9 +248,13 @@ std::vector<double> Sampler::ratesFrom(const double* left, const double* met, si
   std::vector<double> rates;
   for (size_t k = 0; k < kParts; ++k) {
     double kept = left[k], all = met[k];
-    for (size_t away = 1; away <= reach || !(all > 0); ++away) {
-      if (away <= k) kept += left[k - away], all += met[k - away];
-      if (k + away < kParts) kept += left[k + away], all += met[k + away];
+    const auto add = [&](size_t part) {
+      kept += left[part];
+      all += met[part];
+    };
+    for (size_t away = 1; away < kParts && (away <= reach || !(all > 0)); ++away) {
+      if (away <= k) add(k - away);
+      if (k + away < kParts) add(k + away);
     }
     rates.push_back(kept / all);
   }
