@@ -31,8 +31,11 @@ Bounds boundsAt(const tetstream_stream_info& info, int32_t first, int32_t count)
 
 std::string boundsText(const Bounds& bounds) {
   std::string text;
-  for (int32_t i = 0; i < bounds.count; ++i)
-    text += textOf("%s%.9g .. %.9g", i == 0 ? "" : ", ", bounds.low[i], bounds.high[i]);
+  for (int32_t i = 0; i < bounds.count; ++i) {
+    if (i > 0) text += ", ";
+    text += bounds.low[i] <= bounds.high[i] ? textOf("%.9g .. %.9g", bounds.low[i], bounds.high[i])
+                                            : "nothing finite";
+  }
   return bounds.count == 0 ? "unknown" : text;
 }
 

@@ -226,7 +226,9 @@ typedef struct tetstream_column {
   const char *name;    /* 1 to 255 bytes, UTF-8 */
   int32_t components;  /* 1 to 9 */
   int32_t type;        /* TETSTREAM_TYPE_...; floats are interpolated (fields) or averaged by volume
-                          (cell data), integers are picked */
+                          (cell data), integers are picked. Values that are not finite are carried:
+                          what would be a mean with one is picked. Those of measured and compared
+                          fields are BAD_DATA */
 } tetstream_column;
 
 #define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
@@ -253,7 +255,9 @@ typedef struct tetstream_stream_info {
   int64_t front_span;                /* highest minus lowest of their ids, plus 1, at most */
   int64_t front_cells;               /* cells that touch a vertex not yet finalized, at most. It
                                         sets the window. */
-  const double *box_min; /* x y z and each component of each field, in order; NULL: not known */
+  const double *box_min; /* x y z and each component of each field, in order, of what is finite (of a
+                            component that has nothing finite infinity, in box_max -infinity); NULL:
+                            not known */
   const double *box_max;
   int64_t face_count;    /* labelled faces; with the option `memory` their place is kept free */
 } tetstream_stream_info;
@@ -378,7 +382,8 @@ TETSTREAM_API void tetstream_reader_destroy(tetstream_reader *reader);
  * reader. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reader,
                                                          tetstream_stream_info *info);
-/* What the reader left out or assumed, as sentences: note `index`, or NULL if there are fewer.
+/* What the reader left out or assumed, and after tetstream_inspect which fields have values that
+ * are not finite, as sentences: note `index`, or NULL if there are fewer.
  * Lives as long as the reader. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_note(const tetstream_reader *reader, int32_t index);
 /* The sentence for the last failure with this handle. Since 0.1. */

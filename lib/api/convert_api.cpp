@@ -95,6 +95,11 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     const Inspection found =
         readNamed(input, [&] { return inspect(input, run, progressOf(progress, user)); });
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
+    for (size_t f = 0; f < found.not_finite.size(); ++f)
+      if (found.not_finite[f] > 0)
+        r.notes.push_back(textOf("values of the field \"%s\" that are not finite: %lld",
+                                 found.schema.fields[f].name.c_str(),
+                                 static_cast<long long>(found.not_finite[f])));
     r.front = publicFront(found);
     r.face_labels.clear();
     for (const auto& [label, figures] : found.face_labels.labels())

@@ -1,6 +1,7 @@
 #include "structs.h"
 
 #include <cmath>
+#include <limits>
 
 namespace tetstream {
 
@@ -39,14 +40,20 @@ static int64_t knownOrMinusOne(int64_t count) {
   return count > 0 ? count : -1;
 }
 
+// A component of a field may have no value that is finite.
+static bool isBound(double low, double high, bool may_be_none) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (may_be_none && low == kInfinity && high == -kInfinity) return true;
+  return std::isfinite(low) && std::isfinite(high) && low <= high;
+}
+
 static void takeBox(const tetstream_stream_info& info, Schema& schema) {
   if (!info.box_min && !info.box_max) return;
   if (!info.box_min || !info.box_max)
     fail(Status::kBadArgument, "info: of box_min and box_max one is NULL");
   const size_t size = schema.boxSize();
   for (size_t i = 0; i < size; ++i)
-    if (!(std::isfinite(info.box_min[i]) && std::isfinite(info.box_max[i]) &&
-          info.box_min[i] <= info.box_max[i]))
+    if (!isBound(info.box_min[i], info.box_max[i], i >= 3))
       fail(Status::kBadArgument, "info: entry %zu of the box is not finite or upside down", i);
   schema.box_min.assign(info.box_min, info.box_min + size);
   schema.box_max.assign(info.box_max, info.box_max + size);

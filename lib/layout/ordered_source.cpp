@@ -179,8 +179,8 @@ OrderedSource::OrderedSource(IndexedSource& source, const OrderOptions& options)
     if (!key) key = placeKey(order, survey, options.axis);
     if (seeks && bytesFor(Order::kSpectral, schema_) <= memory)
       key = narrowestKey(key, part(begin + 0.1, keyed));
-    vertices_ = std::make_unique<RankedVertices>(*source_, survey, key, budget, schema_,
-                                                 part(keyed, keyed + 0.1));
+    vertices_ = std::make_unique<RankedVertices>(*source_, survey, key, budget, options.measured,
+                                                 schema_, part(keyed, keyed + 0.1));
     graph_rank_.resize(0);
   }
   unused_ += schema_.vertex_count - static_cast<int64_t>(vertices_->count());

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ordered_cells.h"
 #include "ordered_faces.h"
@@ -17,9 +18,10 @@ struct OrderOptions {
   bool narrowest = false;      // and the mesh fits the memory
   std::string axis = "auto";   // of "spatial": "x", "y", "z"; auto: the direction of fewest cuts
   std::string temp_dir;
-  size_t memory_bytes = 0;  // 0: kDefaultLayoutMemory
-  bool origins = false;     // vertices tell their ranks in the source, or its origins
-  Tell tell;                // how much of the ordering is done; may be empty
+  size_t memory_bytes = 0;     // 0: kDefaultLayoutMemory
+  bool origins = false;        // vertices tell their ranks in the source, or its origins
+  std::vector<bool> measured;  // fields whose values have to be finite; empty: none
+  Tell tell;                   // how much of the ordering is done; may be empty
 };
 
 constexpr size_t kDefaultLayoutMemory = size_t{512} << 20;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
 
 #include "status.h"
 
@@ -17,12 +18,13 @@ size_t RankedVertices::valueBytes(const IndexedSource& source) {
 }
 
 RankedVertices::RankedVertices(IndexedSource& source, const Survey& survey, const VertexKey& key,
-                               Budget budget, Schema& schema, const Tell& tell)
+                               Budget budget, const std::vector<bool>& measured, Schema& schema,
+                               const Tell& tell)
     : source_(source),
       holds_values_(!source.randomAccess()),
       rows_(rowBytes(source), budget.temp_dir) {
   ExternalSort sort(rowBytes(source), budget.memory_bytes, budget.account, budget.temp_dir);
-  sortPoints(survey, key, sort, schema, [&](double share) { tell(0.7 * share); });
+  sortPoints(survey, key, sort, measured, schema, [&](double share) { tell(0.7 * share); });
   sort.finish();
   const auto all = static_cast<double>(std::max<uint64_t>(survey.usedCount(), 1));
   uint64_t sorted_key;
@@ -41,15 +43,16 @@ struct PieceColumn {
   std::vector<double> values;  // of any type
   size_t bytes, components, place, in_box;
   ScalarType type;
-  const char* name;
+  const Column* measured;  // its field, where that is
 };
 
 void growBox(const PieceColumn& column, size_t row, uint64_t point, Schema& schema) {
   for (size_t k = 0; k < column.components; ++k) {
     const double value = valueAt(column.values.data(), column.type, row * column.components + k);
-    if (!std::isfinite(value))
-      fail(Status::kBadData, "point %llu: its %s is not finite",
-           static_cast<unsigned long long>(point), column.name);
+    if (!std::isfinite(value)) {
+      if (column.measured) failNotFinite("point " + std::to_string(point), *column.measured);
+      continue;
+    }
     double& low = schema.box_min[column.in_box + k];
     double& high = schema.box_max[column.in_box + k];
     low = std::min(low, value);
@@ -57,29 +60,34 @@ void growBox(const PieceColumn& column, size_t row, uint64_t point, Schema& sche
   }
 }
 
-std::vector<PieceColumn> columnsOf(const Schema& schema) {
+// Places are checked as such.
+std::vector<PieceColumn> columnsOf(const Schema& schema, const std::vector<bool>& measured) {
   std::vector<PieceColumn> columns;
   size_t place = 0, in_box = 0;
-  const auto add = [&](size_t components, ScalarType type, const char* name) {
-    PieceColumn column{{}, components * sizeOf(type), components, place, in_box, type, name};
+  const auto add = [&](size_t components, ScalarType type, const Column* field) {
+    PieceColumn column{{}, components * sizeOf(type), components, place, in_box, type, field};
     column.values.resize(components * kRowsAtOnce);
     place += column.bytes;
     in_box += components;
     columns.push_back(std::move(column));
   };
-  add(3, schema.position_type, "position");
-  for (const Column& c : schema.fields)
-    add(static_cast<size_t>(c.components), c.type, c.name.c_str());
+  add(3, schema.position_type, nullptr);
+  for (size_t f = 0; f < schema.fields.size(); ++f) {
+    const Column& c = schema.fields[f];
+    const bool is_measured = !measured.empty() && measured[f];
+    add(static_cast<size_t>(c.components), c.type, is_measured ? &c : nullptr);
+  }
   return columns;
 }
 
 }  // namespace
 
 void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, ExternalSort& sort,
-                                Schema& schema, const Tell& tell) {
+                                const std::vector<bool>& measured, Schema& schema,
+                                const Tell& tell) {
   schema.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
   schema.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
-  std::vector<PieceColumn> columns = columnsOf(schema);
+  std::vector<PieceColumn> columns = columnsOf(schema, measured);
   std::vector<int64_t> origins(source_.hasOrigins() ? kRowsAtOnce : 0);
   readInPieces(static_cast<uint64_t>(schema.vertex_count), tell, [&](uint64_t first, size_t count) {
     source_.readPositions(first, count, columns[0].values.data());
@@ -93,6 +101,7 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
       double place[3];
       for (size_t k = 0; k < 3; ++k)
         place[k] = valueAt(columns[0].values.data(), columns[0].type, 3 * i + k);
+      checkPlace(point, place);
       unsigned char* row = sort.add(key(point, place));
       const bool locked = source_.locked() && source_.locked()[point];
       const uint64_t head = point | (locked ? kLockedBit : 0);

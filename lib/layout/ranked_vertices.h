@@ -19,9 +19,10 @@ class RankedVertices {
     const std::string& temp_dir;
   };
   // Reads the points once. Fills the box of `schema`, which is the source's, over the used points;
-  // values that are not finite are kBadData. Equal keys rank as the points do.
+  // values of `measured` fields (empty: of none) that are not finite are kBadData. Equal keys rank
+  // as the points do.
   RankedVertices(IndexedSource& source, const Survey& survey, const VertexKey& key, Budget budget,
-                 Schema& schema, const Tell& tell);
+                 const std::vector<bool>& measured, Schema& schema, const Tell& tell);
 
   uint64_t count() const { return rows_.rows(); }
   static constexpr uint32_t kNoRank = 0xffffffffu;
@@ -44,8 +45,8 @@ class RankedVertices {
     return kHead + valueBytes(source) + (source.hasOrigins() ? sizeof(int64_t) : 0);
   }
 
-  void sortPoints(const Survey& survey, const VertexKey& key, ExternalSort& sort, Schema& schema,
-                  const Tell& tell);
+  void sortPoints(const Survey& survey, const VertexKey& key, ExternalSort& sort,
+                  const std::vector<bool>& measured, Schema& schema, const Tell& tell);
 
   IndexedSource& source_;
   bool holds_values_;

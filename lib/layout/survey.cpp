@@ -60,13 +60,17 @@ void Survey::readPoints(const Tell& tell) {
                });
 }
 
+void checkPlace(uint64_t point, const double place[3]) {
+  if (std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2])) return;
+  fail(Status::kBadData, "point %llu: its position is not finite",
+       static_cast<unsigned long long>(point));
+}
+
 void Survey::takePoint(uint64_t point, const double place[3]) {
+  checkPlace(point, place);
   if (used_count_++ == 0) std::copy_n(place, 3, first_);
   double d[3];
   for (int k = 0; k < 3; ++k) {
-    if (!std::isfinite(place[k]))
-      fail(Status::kBadData, "point %llu: its position is not finite",
-           static_cast<unsigned long long>(point));
     low_[k] = std::min(low_[k], place[k]);
     high_[k] = std::max(high_[k], place[k]);
     d[k] = place[k] - first_[k];

@@ -10,6 +10,9 @@
 
 namespace tetstream {
 
+// Throws kBadData where it is not finite.
+void checkPlace(uint64_t point, const double place[3]);
+
 class Survey {
  public:
   Survey(IndexedSource& source, Account& account, const Tell& tell);

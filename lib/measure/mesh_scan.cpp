@@ -71,6 +71,14 @@ uint32_t MeshScan::takeNumber(Array<uint32_t>& links, uint32_t& first_free, uint
 
 // ---------------------------------------------------------------------------------- vertices
 
+static bool allFinite(const double* values, size_t count) {
+  return std::all_of(values, values + count, [](double x) { return std::isfinite(x); });
+}
+
+std::string MeshScan::rowText(uint64_t vertex) const {
+  return plan_.mesh + ": vertex " + std::to_string(vertex);
+}
+
 void MeshScan::takeVertices(const BatchView& batch) {
   if (batch.vertex_count == 0) return;
   positions_.resize(3 * batch.vertex_count);
@@ -88,15 +96,17 @@ void MeshScan::takeVertices(const BatchView& batch) {
     if (data_.size() < vertex_link_.size() * stride_) data_.resize(vertex_link_.size() * stride_);
     front_.introduce(number);
     double* to = data_.data() + number * stride_;
-    to = std::copy_n(positions_.data() + 3 * v, 3, to);
-    for (const std::vector<double>& column : columns_) {
-      const size_t components = column.size() / batch.vertex_count;
-      to = std::copy_n(column.data() + v * components, components, to);
+    const double* const position = positions_.data() + 3 * v;
+    if (!allFinite(position, 3))
+      fail(Status::kBadData, "%s: its position is not finite", rowText(id).c_str());
+    to = std::copy_n(position, 3, to);
+    for (size_t f = 0; f < columns_.size(); ++f) {
+      const size_t components = columns_[f].size() / batch.vertex_count;
+      const double* const values = columns_[f].data() + v * components;
+      if (!allFinite(values, components))
+        failNotFinite(rowText(id), schema_.fields[plan_.fields[f]]);
+      to = std::copy_n(values, components, to);
     }
-    for (size_t k = 0; k < stride_; ++k)
-      if (!std::isfinite(dataOf(number)[k]))
-        fail(Status::kBadData, "%s: vertex %llu: its %s is not finite", plan_.mesh.c_str(),
-             static_cast<unsigned long long>(id), k < 3 ? "position" : "value of a field");
   }
 }
 

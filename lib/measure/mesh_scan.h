@@ -61,6 +61,7 @@ class MeshScan {
  private:
   static constexpr uint32_t kNone = 0xffffffffu;
   FaceFront::Events events();
+  std::string rowText(uint64_t vertex) const;
   void takeVertices(const BatchView& batch);
   void takeCells(const BatchView& batch);
   void takeFaces(const BatchView& batch);

@@ -1,24 +1,32 @@
 #include "stream_facts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <vector>
 
 namespace tetstream {
 
-StreamFacts::StreamFacts(const Schema& schema) : schema_(schema), diagram_(schema, 1, 1) {
+StreamFacts::StreamFacts(const Schema& schema)
+    : schema_(schema), diagram_(schema, 1, 1), not_finite_(schema.fields.size()) {
   schema_.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
   schema_.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
 }
 
-static void growColumn(const void* rows, ScalarType type, size_t components, size_t count,
-                       double* low, double* high) {
+// Returns how many values are not finite.
+static int64_t growColumn(const void* rows, ScalarType type, size_t components, size_t count,
+                          double* low, double* high) {
   std::vector<double> values(components * count);
   convertScalars(rows, type, values.data(), ScalarType::kFloat64, values.size());
+  int64_t strange = 0;
   for (size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) {
+      ++strange;
+      continue;
+    }
     low[i % components] = std::min(low[i % components], values[i]);
     high[i % components] = std::max(high[i % components], values[i]);
   }
+  return strange;
 }
 
 void StreamFacts::growBox(const BatchView& batch) {
@@ -27,8 +35,9 @@ void StreamFacts::growBox(const BatchView& batch) {
   size_t at = 3;
   for (size_t f = 0; f < schema_.fields.size(); ++f) {
     const Column& c = schema_.fields[f];
-    growColumn(batch.fields[f], c.type, static_cast<size_t>(c.components), batch.vertex_count,
-               schema_.box_min.data() + at, schema_.box_max.data() + at);
+    not_finite_[f] +=
+        growColumn(batch.fields[f], c.type, static_cast<size_t>(c.components), batch.vertex_count,
+                   schema_.box_min.data() + at, schema_.box_max.data() + at);
     at += static_cast<size_t>(c.components);
   }
 }

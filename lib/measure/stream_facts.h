@@ -2,6 +2,8 @@
 // face_labels.h.
 #pragma once
 
+#include <vector>
+
 #include "face_labels.h"
 #include "layout_diagram.h"
 
@@ -16,7 +18,8 @@ class StreamFacts {
   // After finish:
   Schema schema() const;  // the stream's, with everything known
   const DiagramFigures& figures() const { return diagram_.figures(); }
-  const FaceLabels& faceLabels() const { return face_labels_; }  // without areas
+  const std::vector<int64_t>& notFinite() const { return not_finite_; }  // values of each field
+  const FaceLabels& faceLabels() const { return face_labels_; }          // without areas
 
  private:
   void growBox(const BatchView& batch);
@@ -24,6 +27,7 @@ class StreamFacts {
   Schema schema_;
   LayoutDiagram diagram_;  // of a single place
   FaceLabels face_labels_;
+  std::vector<int64_t> not_finite_;
   uint64_t vertices_ = 0;
 };
 

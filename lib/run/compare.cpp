@@ -1,6 +1,7 @@
 #include "compare.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "named_input.h"
 #include "ordering.h"
@@ -19,6 +20,13 @@ ComparePlan comparePlanOf(const RunOptions& options) {
   plan.memory_bytes = static_cast<size_t>(options.simplify.memory_bytes);
   plan.temp_dir = options.temp_dir;
   return plan;
+}
+
+static std::vector<bool> comparedFields(const Comparison& comparison, const Schema& schema) {
+  std::vector<bool> compared(schema.fields.size());
+  for (const FieldComparison& field : comparison.fields())
+    compared[static_cast<size_t>(findColumn(schema.fields, field.name))] = true;
+  return compared;
 }
 
 std::unique_ptr<Comparison> compareInputs(Input& original, Input& simplified,
@@ -48,7 +56,7 @@ std::unique_ptr<Comparison> compareInputs(Input& original, Input& simplified,
       tell(std::max(o.fraction, 0.0));
     })
                                                : ProgressFunction();
-    Ordering stream(input, order, ordering);
+    Ordering stream(input, order, ordering, comparedFields(*comparison, input.schema()));
     const Done done = part(phase, ordered, end);
     if (first)
       comparison->readOriginal(stream.source(), done);

@@ -39,7 +39,8 @@ IndexedSource* Ordering::indexedOf(Input& input, const RunOptions& options, cons
   return spooled_.get();
 }
 
-Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFunction& progress) {
+Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFunction& progress,
+                   std::vector<bool> measured) {
   Progress p;
   p.cells_total = input.schema().cell_count;
   p.phase = "order";
@@ -56,6 +57,7 @@ Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFuncti
   order.narrowest = options.automatic == RunOptions::Auto::kNarrows;
   order.temp_dir = options.temp_dir;
   order.origins = options.origins;
+  order.measured = std::move(measured);
   order.memory_bytes = static_cast<size_t>(options.simplify.memory_bytes);
   p.temporary_bytes = static_cast<int64_t>(plannedDisk(input.schema(), order));
   const double spooling = input.indexed ? 0 : 0.3;

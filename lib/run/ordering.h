@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "ordered_source.h"
 #include "run.h"
@@ -13,7 +14,10 @@ namespace tetstream {
 class Ordering {
  public:
   // Orders, which may take long; `progress` is told, with the temporary files' bytes to come.
-  Ordering(Input& input, const RunOptions& options, const ProgressFunction& progress);
+  // `measured`: fields whose values have to be finite, which is seen to where points are ordered;
+  // empty: none.
+  Ordering(Input& input, const RunOptions& options, const ProgressFunction& progress,
+           std::vector<bool> measured = {});
 
   Source& source() const { return *source_; }
   bool isOrdered() const { return ordered_ != nullptr; }

@@ -126,7 +126,8 @@ struct SimplifyRun::State {
   Report report;
 
   void simplify(Input& input) {
-    Ordering stream(input, options, progress);
+    Ordering stream(input, options, progress,
+                    Simplifier::measuredFields(input.schema(), options.simplify));
     order_share = stream.share();
     readBefore(stream);
     const auto before = ahead(stream.source(), stream);
@@ -330,7 +331,8 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
   simplify.memory_bytes = options.simplify.memory_bytes;
   for (const Column& c : schema.fields)  // carried: there may be too many to be measured
     if (isFloat(c.type)) simplify.fields.emplace_back(c.name, 0);
-  return {schema, facts.figures(), Simplifier::windowCells(schema, simplify), facts.faceLabels()};
+  return {schema, facts.figures(), Simplifier::windowCells(schema, simplify), facts.notFinite(),
+          facts.faceLabels()};
 }
 
 // The schema with the box and the counts, from a first reading if need be.

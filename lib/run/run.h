@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "compare_options.h"
 #include "face_labels.h"
@@ -74,10 +75,11 @@ LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
 
 // What a mesh is like, as it would be streamed.
 struct Inspection {
-  Schema schema;           // with everything known: counts, box, front
-  DiagramFigures figures;  // means and lifetimes
-  int64_t window_cells;    // that a simplification takes
-  FaceLabels face_labels;  // without areas
+  Schema schema;                    // with everything known: counts, box, front
+  DiagramFigures figures;           // means and lifetimes
+  int64_t window_cells;             // that a simplification takes
+  std::vector<int64_t> not_finite;  // values of each field
+  FaceLabels face_labels;           // without areas
 };
 // Reads the whole input.
 Inspection inspect(Input& input, const RunOptions& options, const ProgressFunction& progress);

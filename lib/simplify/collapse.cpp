@@ -1,6 +1,7 @@
 #include "collapse.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "barycentric.h"
 #include "curve_area.h"
@@ -294,8 +295,8 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
                               float most_price) {
   price_ = 1;
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
-  for (S value : merged_)
-    if (!std::isfinite(value)) return Outcome::kNotFinite;
+  for (int i = 0; i < core_.plan.dimension; ++i)
+    if (!std::isfinite(merged_[static_cast<size_t>(i)])) return Outcome::kNotFinite;
   // Where no cell is thin none may become so: the first one tells.
   ThinAngle angle = core_.thin;
   angle.barred = sound_.has(u) && sound_.has(v);
@@ -445,7 +446,8 @@ void Collapser<Mesh>::trace(uint32_t u, uint32_t v, double error) {
                            merged_.data(), error, traced_before_, traced_after_});
 }
 
-// Carried fields take the value that the old cells have at the new position.
+// Carried fields take the value that the old cells have at the new position. One that is not finite
+// has no part in a mean: there the nearest corner's is taken, so that such places do not grow.
 template <class Mesh>
 void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
   double x[3], best = -1e301, weights[4] = {1, 0, 0, 0};
@@ -466,11 +468,14 @@ void Collapser<Mesh>::interpolateCarried(uint32_t u, uint32_t v) {
   for (int k = 0; k < 4; ++k)
     for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(corners[k])[i]);
   clampedWeights(p, x, weights);
+  const auto nearest = static_cast<size_t>(std::max_element(weights, weights + 4) - weights);
   for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
     double sum = 0;
     for (int k = 0; k < 4; ++k)
       sum += weights[k] * static_cast<double>(mesh_.values(corners[k])[i]);
-    merged_[static_cast<size_t>(i)] = static_cast<S>(sum);
+    const S mean = static_cast<S>(sum);
+    merged_[static_cast<size_t>(i)] =
+        std::isfinite(mean) ? mean : mesh_.values(corners[nearest])[i];
   }
 }
 

@@ -1,6 +1,15 @@
 #include "heirs.h"
 
+#include <cmath>
+
 namespace tetstream {
+
+// A value that is not finite has no part in a mean: the one that weighs more stays.
+static double meanOf(double to, double from, double share) {
+  const double mean = to + (from - to) * share;
+  if (std::isfinite(mean)) return mean;
+  return share > 0.5 ? from : to;
+}
 
 template <class Mesh>
 void Heirs::handOver(Mesh& mesh, uint32_t v, const Stars& stars, int means) {
@@ -10,7 +19,7 @@ void Heirs::handOver(Mesh& mesh, uint32_t v, const Stars& stars, int means) {
     for (uint32_t k = 0; k < h.count; ++k) {
       double* to = mesh.cellMeans(h.cell[k]);
       const double share = from[0] / h.count, sum = to[0] + share;
-      for (int i = 1; i <= means && sum > 0; ++i) to[i] += (from[i] - to[i]) * (share / sum);
+      for (int i = 1; i <= means && sum > 0; ++i) to[i] = meanOf(to[i], from[i], share / sum);
       to[0] = sum;
     }
   }

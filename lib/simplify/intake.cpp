@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 #include "status.h"
 
@@ -104,9 +105,8 @@ void Intake<S>::readColumn(size_t column, size_t row, uint32_t slot) {
   }
   S* out = core_.window.values(slot) + place.offset;
   readFloats(batch_.fields[column], c.type, row, c.components, out);
-  if (!allFinite(out, c.components))
-    fail(Status::kBadData, "vertex %llu: field \"%s\" is not finite",
-         static_cast<unsigned long long>(batch_.first_vertex + row), c.name.c_str());
+  if (place.treatment == Treatment::kMeasured && !allFinite(out, c.components))
+    failNotFinite("vertex " + std::to_string(batch_.first_vertex + row), c);
 }
 
 template <class S>
@@ -174,11 +174,8 @@ void Intake<S>::takeCellData(size_t row, uint32_t cell) {
                    core_.window.cellPicks(cell) + offset);
       continue;
     }
-    double* means = core_.window.cellMeans(cell) + 1 + offset;
-    readFloats(batch_.cell_data[i], c.type, row, c.components, means);
-    if (!allFinite(means, c.components))
-      fail(Status::kBadData, "cell %llu: cell array \"%s\" is not finite",
-           static_cast<unsigned long long>(cells_read_), c.name.c_str());
+    readFloats(batch_.cell_data[i], c.type, row, c.components,
+               core_.window.cellMeans(cell) + 1 + offset);
   }
 }
 

@@ -438,6 +438,14 @@ int64_t Simplifier::targetCells(const Schema& schema, const SimplifyOptions& opt
   return targetOf(schema, options).cellsOf(schema.cell_count);
 }
 
+std::vector<bool> Simplifier::measuredFields(const Schema& schema, const SimplifyOptions& options) {
+  const Plan plan = makePlan(schema, options);
+  std::vector<bool> measured;
+  for (const ColumnPlan& field : plan.fields)
+    measured.push_back(field.treatment == Treatment::kMeasured);
+  return measured;
+}
+
 Pilot Simplifier::pilot() const {
   return engine_->pilot();
 }

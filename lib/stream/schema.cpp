@@ -34,6 +34,13 @@ void checkSchema(const Schema& schema) {
   checkColumns(schema.cell_data, "cell array");
 }
 
+void failNotFinite(const std::string& row, const Column& field) {
+  fail(Status::kBadData,
+       "%s: its %s is not finite: name the fields that are to be measured, others may have such "
+       "values",
+       row.c_str(), field.name.c_str());
+}
+
 int findColumn(const std::vector<Column>& columns, const std::string& name) {
   for (size_t i = 0; i < columns.size(); ++i)
     if (columns[i].name == name) return static_cast<int>(i);

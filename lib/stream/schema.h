@@ -32,7 +32,9 @@ struct Schema {
   int64_t front_width = -1;  // vertices active at once, at most
   int64_t front_span = -1;   // highest minus lowest active vertex + 1, at most
   int64_t front_cells = -1;  // cells read that touch a vertex not yet finalized, at most
-  std::vector<double> box_min, box_max;  // x y z, then every component of every field in order
+  // x y z, then every component of every field in order: bounds of the values that are finite; inf
+  // and -inf of a component that has none.
+  std::vector<double> box_min, box_max;
 
   size_t fieldComponents() const;  // of all fields together
   size_t boxSize() const { return 3 + fieldComponents(); }
@@ -42,6 +44,9 @@ struct Schema {
 // Throws kBadArgument, naming the column: names empty, repeated or longer than 255 bytes,
 // components outside 1..9, unknown types, positions that are not floats.
 void checkSchema(const Schema& schema);
+
+// Of "point 7": one of its values of a measured field is not finite.
+[[noreturn]] void failNotFinite(const std::string& row, const Column& field);
 
 // Index of the column of that name, or -1.
 int findColumn(const std::vector<Column>& columns, const std::string& name);

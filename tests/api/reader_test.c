@@ -1,4 +1,5 @@
 /* Readers: callbacks that behave badly, meshes in arrays, files that are none. */
+#include <math.h>
 #include <stdlib.h>
 
 #include "check.h"
@@ -221,6 +222,33 @@ static void wrong_stream_infos_are_refused(void) {
   }
 }
 
+/* Of two fields: of the first nothing is finite; the second has half a bound in two rows. */
+static double low[5] = {0, 0, 0, INFINITY, 0}, high[5] = {1, 1, 1, -INFINITY, 1};
+
+static int32_t open_with_bounds(void* user, tetstream_stream_info* info) {
+  wrong = 99;
+  if (open_wrongly(user, info) != 99) return 1;
+  info->box_min = low;
+  info->box_max = high;
+  return 0;
+}
+
+static void a_box_tells_where_nothing_is_finite(void) {
+  const tetstream_reader_callbacks reads = {sizeof reads, NULL, open_with_bounds, next_never, NULL};
+  for (int row = 0; row < 3; ++row) {
+    tetstream_stream_info info = {0};
+    tetstream_reader* reader = NULL;
+    info.struct_size = sizeof info;
+    low[4] = row == 1 ? INFINITY : 0;
+    high[4] = row == 2 ? -INFINITY : 1;
+    CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
+    const tetstream_status status = tetstream_reader_get_info(reader, &info);
+    CHECK_EQUAL(status, row == 0 ? TETSTREAM_OK : TETSTREAM_BAD_ARGUMENT);
+    if (row == 0) CHECK(info.box_min[3] > info.box_max[3] && info.box_max[4] == 1);
+    tetstream_reader_destroy(reader);
+  }
+}
+
 static void info_of_a_callback_reader_opens_it_once(void) {
   hostile_reader hostile = {0};
   tetstream_reader* reader = NULL;
@@ -434,6 +462,7 @@ int main(void) {
   RUN_CASE(a_failure_at_any_call_stops_the_run_and_closes_once);
   RUN_CASE(spoilt_batches_are_named_and_refused);
   RUN_CASE(wrong_stream_infos_are_refused);
+  RUN_CASE(a_box_tells_where_nothing_is_finite);
   RUN_CASE(info_of_a_callback_reader_opens_it_once);
   RUN_CASE(a_reader_that_was_never_opened_is_not_closed);
   RUN_CASE(tables_of_other_sizes_are_told_apart);

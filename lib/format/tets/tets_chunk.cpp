@@ -34,15 +34,16 @@ static bool appendFlags(std::vector<unsigned char>& out, const uint8_t* flags, s
   return any != 0;
 }
 
-// A comparison with NaN is false, so NaN never gets into a box.
+// A comparison with NaN is false, so NaN never gets into a box; nor does what is infinite.
 template <class T>
 static void growTo(const void* rows, size_t components, size_t count, double* min, double* max) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const T* row = static_cast<const T*>(rows);
   for (size_t i = 0; i < count; ++i, row += components)
     for (size_t j = 0; j < components; ++j) {
       const double x = static_cast<double>(row[j]);
-      if (x < min[j]) min[j] = x;
-      if (x > max[j]) max[j] = x;
+      if (x < min[j] && x > -kInfinity) min[j] = x;
+      if (x > max[j] && x < kInfinity) max[j] = x;
     }
 }
 

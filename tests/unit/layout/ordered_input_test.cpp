@@ -1,4 +1,5 @@
 // What of an indexed mesh is left out of its stream or refused, and how far its ordering is.
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -58,8 +59,11 @@ std::string refusalOf(const std::function<void(TestMesh&)>& damage, bool spooled
                       const std::string& axis = "auto") {
   TestMesh mesh = withColumns(fullGrid(2, 2, 2));
   damage(mesh);
+  OrderOptions options;
+  options.axis = axis;
+  options.measured.assign(mesh.schema.fields.size(), true);
   try {
-    ordered(mesh, axis, spooled);
+    ordered(mesh, options, spooled);
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), wanted);
     return error.text();
@@ -137,6 +141,26 @@ TEST(OrderedSource, NamesValuesThatAreNotFinite) {
                   spooled, Status::kBadData)
                   .find("point 9: its position"),
               std::string::npos);
+  }
+}
+
+// Fields that nobody measures keep what they have; the box is of what is finite.
+TEST(OrderedSource, CarriesValuesThatAreNotFinite) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  TestMesh mesh = withColumns(fullGrid(2, 2, 2));
+  for (int i = 0; i < 9; ++i) mesh.setField(2, 7, i % 2 ? kInf : -kInf, i);
+  mesh.setField(2, 7, std::numeric_limits<double>::quiet_NaN(), 8);
+  for (bool spooled : {false, true}) {
+    const Ordered result = ordered(mesh, OrderOptions(), spooled);
+    const size_t at = result.schema.boxSize() - 9;
+    for (size_t i = at; i < result.schema.boxSize(); ++i) {
+      EXPECT_TRUE(std::isfinite(result.schema.box_min[i]));
+      EXPECT_TRUE(std::isfinite(result.schema.box_max[i]));
+    }
+    size_t strange = 0;
+    for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
+      for (int i = 0; i < 9; ++i) strange += !std::isfinite(result.out.mesh.field(2, v, i));
+    EXPECT_EQ(strange, 9u);
   }
 }
 

@@ -136,6 +136,54 @@ TEST(SimplifierValues, OfCarriedLinearFieldsStayLinear) {
   }
 }
 
+// Below x = 3 a carried field and what the cells hold are `unknown`.
+TestMesh makeHalfKnown(double unknown) {
+  TestMesh mesh = fullGrid(6, 6, 6, 0.1);
+  addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
+  addPositionField(mesh, {"mask", 2, ScalarType::kFloat64},
+                   [=](double x, double, double) { return x < 3 ? unknown : 5; });
+  mesh.addCellData({"density", 1, ScalarType::kFloat64}, [&](size_t c, int) {
+    return mesh.position(static_cast<size_t>(mesh.cells[4 * c]), 0) < 3 ? unknown : 3;
+  });
+  return mesh;
+}
+
+// The unknown part stays about where it was, and what is known as it was.
+void expectHalfKnown(const TestMesh& out) {
+  for (size_t v = 0; v < out.vertexCount(); ++v)
+    for (int i = 0; i < 2; ++i) {
+      const double x = out.position(v, 0), value = out.field(1, v, i);
+      EXPECT_TRUE(x > 1.5 || !std::isfinite(value)) << x;
+      EXPECT_TRUE(x < 4.5 || std::isfinite(value)) << x;
+      EXPECT_TRUE(!std::isfinite(value) || std::fabs(value - 5 * (i + 1)) < 1e-9) << value;
+    }
+  size_t known = 0;
+  for (size_t c = 0; c < out.cellCount(); ++c) {
+    const double value = out.cellValue(0, c);
+    EXPECT_TRUE(!std::isfinite(value) || std::fabs(value - 3) < 1e-9) << value;
+    known += std::isfinite(value);
+  }
+  EXPECT_GT(known, out.cellCount() / 4);
+  EXPECT_LT(known, 3 * out.cellCount() / 4);
+}
+
+// No collapse is another for what is carried.
+TEST(SimplifierValues, ThatAreNotFiniteAreCarried) {
+  for (auto [mode, window] : kModesAndWindows) {
+    SimplifyOptions options = toRatio(0.2, window, mode);
+    options.fields = {{"a", 1}};
+    const Result known = simplified(makeHalfKnown(2), options);
+    for (double unknown :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+      const Result result = simplified(makeHalfKnown(unknown), options);
+      EXPECT_EQ(result.out.mesh.positions.bytes, known.out.mesh.positions.bytes);
+      EXPECT_EQ(result.out.mesh.fields[0].bytes, known.out.mesh.fields[0].bytes);
+      EXPECT_EQ(result.out.mesh.cells, known.out.mesh.cells);
+      expectHalfKnown(result.out.mesh);
+    }
+  }
+}
+
 // A linear field lies in the hyperplane of every cell: the metric keeps it, to rounding.
 TEST(SimplifierValues, OfMeasuredLinearFieldsStayLinear) {
   TestMesh mesh = fullGrid(5, 5, 5, 0.1);
