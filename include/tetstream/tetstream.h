@@ -116,6 +116,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges "paper" draws for one collapse */
 #define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input before; "none" */
 #define TETSTREAM_OPTION_RELEASE 136         /* text: what leaves the window first: "order", "error" */
+#define TETSTREAM_OPTION_EFFORT 137          /* text: "normal"; "high": more time, less error */
 #define TETSTREAM_OPTION_SHAPE 140           /* text: "field", "solver": no thin cells */
 #define TETSTREAM_OPTION_SAMPLES 150         /* int64, points of a comparison; 0: exact integrals */
 #define TETSTREAM_OPTION_CUT 151             /* text: plane of its picture: "none", "auto", "x=0.3" */

@@ -23,9 +23,9 @@ constexpr double kFirstError = 0.7, kBackOff = 0.6;
 constexpr double kDamping = 0.7, kLargestChange = 4;
 
 // A bound is approached in so many passes for reductions stronger than this, where it takes 10 % of
-// the RMS error and 5 % more time, and changes nothing at 0.1.
+// the RMS error and 5 % more time, and changes little at 0.1, for which it takes effort.
 constexpr int kApproaches = 4;
-constexpr double kStrong = 12;
+constexpr double kStrong = 12, kStrongWithEffort = 4;
 // And where nobody knows what is to come, since a window may be far simpler than the one before:
 // there every window is, in fewer and larger steps. With four by twos errors were within 2 %, for
 // 6 to 20 % more time; but as flips come between the passes, fewer of those leave more cells flat.
@@ -118,7 +118,8 @@ bool CommonBound::spreads(const Ledger& ledger) const {
 
 void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
   if (is_tight_) return;
-  const bool is_strong = total(ledger) > kStrong * wanted(ledger);
+  const double strong = effort_ == Effort::kHigh ? kStrongWithEffort : kStrong;
+  const bool is_strong = total(ledger) > strong * wanted(ledger);
   const bool is_blind = !pilot_.known() && spreads(ledger);
   if (!is_blind && (!countsCells() || !is_strong)) return;
   const bool is_long = !pilot_.known() && !ledger.flips;

@@ -81,8 +81,9 @@ class CommonBound final : public Budget {
   // `is_tight`: memory is bounded. Then no bound is approached: patches of the few vertices that
   // have an edge below a low one have more of a rim than a budget foresees; and one of few windows
   // may keep more than its share.
-  CommonBound(const Target& target, int64_t total, const Pilot& pilot, bool is_tight = false)
-      : Budget(target, total), pilot_(pilot), is_tight_(is_tight) {}
+  CommonBound(const Target& target, int64_t total, const Pilot& pilot, bool is_tight = false,
+              Effort effort = Effort::kNormal)
+      : Budget(target, total), pilot_(pilot), is_tight_(is_tight), effort_(effort) {}
 
   Goal goalOf(const Ledger& ledger) override;
   Goal lastGoal(const Ledger& ledger) override;
@@ -103,6 +104,7 @@ class CommonBound final : public Budget {
 
   Pilot pilot_;
   bool is_tight_;
+  Effort effort_;
   double pilot_bound_ = 0;  // in normalised units
   double error_room_ = 1;   // error allowed / error made, after the last window
   bool limit_met_ = false;  // by the last window

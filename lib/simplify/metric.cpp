@@ -20,7 +20,7 @@ constexpr double kShareBelow = 0.01;
 // it takes twice the time.
 constexpr double kPoor = 1.5;
 // Where the input has more than this share of cells below one of these, making the share larger has
-// its price. Other meshes are spared the time.
+// its price. Other meshes are spared the time, unless effort is asked for: then the first counts.
 constexpr double kDear[] = {10, 1.01};
 constexpr double kShareToSpare = 0.002;
 constexpr int64_t kCellsPerSample = 16;
@@ -276,7 +276,8 @@ void Metric<S>::chooseFloor() {
   for (size_t k = 0; k < dear_.size(); ++k) {
     const bool is_above = dear_[k].cos2 < core_.thin.cos2;
     const auto below = static_cast<double>(below_dear_[k]);
-    if (is_above && below > kShareToSpare * static_cast<double>(sampled_))
+    const bool is_asked_for = k == 0 && core_.options.effort == Effort::kHigh;
+    if (is_above && (is_asked_for || below > kShareToSpare * static_cast<double>(sampled_)))
       core_.dear.push_back(dear_[k]);
   }
   const bool to_dear = !core_.shapesFirst() && !core_.dear.empty();

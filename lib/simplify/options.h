@@ -23,6 +23,7 @@ enum class PilotUse { kAuto, kNever };
 enum class ReleaseOrder { kArrival, kError };
 enum class FieldRange { kFree, kKeep };
 enum class Shape { kField, kSolver };
+enum class Effort { kNormal, kHigh };
 
 struct SimplifyOptions {
   // Targets, of which the first that is reached ends the run; 0: not given. Without any, a ratio of
@@ -42,6 +43,8 @@ struct SimplifyOptions {
   int64_t seed = 1;
   int64_t candidates = 8;
   Shape shape = Shape::kField;
+  // High: smaller steps of the bound, flips and prices for thin cells whatever the input has.
+  Effort effort = Effort::kNormal;
   int64_t window_cells = 0;      // 0: from the front
   int64_t memory_bytes = 0;      // 0: no limit
   const Tasks* tasks = nullptr;  // for a sweep; null: the caller's thread alone

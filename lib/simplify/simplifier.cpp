@@ -31,6 +31,8 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
     fail(Status::kUnsupported, "mode \"%s\" knows no bound on the error", mode);
   if (options.shape == Shape::kSolver && followsPaper(options.mode))
     fail(Status::kUnsupported, "mode \"%s\" knows no shapes for solvers", mode);
+  if (options.effort == Effort::kHigh && followsPaper(options.mode))
+    fail(Status::kUnsupported, "mode \"%s\" knows no effort", mode);
   return target;
 }
 
@@ -39,7 +41,8 @@ std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& 
   const Target target = targetOf(schema, options);
   if (followsPaper(options.mode) || options.uniform_ratio)
     return std::make_unique<UniformRatio>(target, schema.cell_count);
-  return std::make_unique<CommonBound>(target, schema.cell_count, pilot, options.memory_bytes > 0);
+  return std::make_unique<CommonBound>(target, schema.cell_count, pilot, options.memory_bytes > 0,
+                                       options.effort);
 }
 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:

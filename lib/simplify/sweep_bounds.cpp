@@ -15,6 +15,9 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // While the law of kDecay says that the goal is farther. A pass that leaves less than a third of
 // the cells leaves fine seams between coarse tiles.
 constexpr double kLargestStride = 16;
+// Both with high effort: the smaller they are, the more nearly edges are taken in the order of
+// their errors, and the more often quadrics are made anew.
+constexpr double kCarefulStep = 2;
 // The same for the first pass, which still finds all cells that cost next to nothing.
 constexpr double kLargestStart = 40;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
@@ -85,8 +88,9 @@ double SweepBounds<S>::next(double bound, const Goal& goal) {
       core_.tally.error > 0
           ? std::pow(std::min(goal.most_error, core_.error_limit) / core_.tally.error, 7.0 / 4)
           : std::numeric_limits<double>::infinity();
-  double step = std::min({by_count, by_error, kLargestStep});
-  if (!std::isfinite(core_.error_limit))
+  const bool is_careful = core_.options.effort == Effort::kHigh;
+  double step = std::min({by_count, by_error, is_careful ? kCarefulStep : kLargestStep});
+  if (!is_careful && !std::isfinite(core_.error_limit))
     step = std::max(step, std::min({distance(1, goal), by_error, kLargestStride}));
   return std::min(bound * std::max(step, kLeastStep), kLargestBound);
 }

@@ -31,6 +31,7 @@ class _Options(TypedDict, total=False):
     candidates: int | str
     pilot: Literal["auto", "none"]
     release: Literal["order", "error"]
+    effort: Literal["normal", "high"]
     shape: Literal["field", "solver"]
     samples: int | str
     cut: str
@@ -151,6 +152,7 @@ class Options:
     candidates: int | str
     pilot: str
     release: str
+    effort: str
     shape: str
     samples: int | str
     cut: str

@@ -3,33 +3,10 @@
 #include <cmath>
 
 #include "simplify_testing.h"
-#include "star_kernels.h"
+#include "thin_cells.h"
 
 namespace tetstream::test {
 namespace {
-
-// Of the cells, those with a dihedral angle below, in degrees.
-double shareBelow(const TestMesh& mesh, double degrees) {
-  std::vector<double> places;
-  for (size_t v = 0; v < mesh.vertexCount(); ++v)
-    for (int i = 0; i < 4; ++i) places.push_back(i < 3 ? mesh.position(v, i) : 0);
-  size_t thin = 0;
-  for (size_t c = 0; c < mesh.cellCount(); ++c) {
-    StarCell cell{};
-    uint32_t v[4];
-    for (size_t j = 0; j < 4; ++j) v[j] = static_cast<uint32_t>(mesh.cells[4 * c + j]);
-    std::copy_n(v + 1, 3, cell.t);
-    const ThinAngle angle(degrees);
-    StarShape shape = starShape(&places[size_t{4} * v[0]], places.data(), 4, 1, &cell, 1, angle);
-    if (!shape.positive) {
-      std::swap(cell.t[0], cell.t[1]);
-      shape = starShape(&places[size_t{4} * v[0]], places.data(), 4, 1, &cell, 1, angle);
-    }
-    EXPECT_TRUE(shape.positive);
-    thin += shape.thin;
-  }
-  return static_cast<double>(thin) / static_cast<double>(mesh.cellCount());
-}
 
 // A box in cubes of 1, of whose layers one in `period` is flat: 1 / flatness high.
 TestMesh layered(int n, int period, double flatness) {

@@ -120,6 +120,14 @@ TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
   }
 }
 
+TEST(SweepThreads, GiveTheSameBytesWithHighEffort) {
+  for (double ratio : {0.05, 0.3}) {
+    SimplifyOptions options = toRatio(ratio);
+    options.effort = Effort::kHigh;
+    expectSame(wavyAtOneSide(side()), options);
+  }
+}
+
 // Of fewer cells than eight tiles, which are cut into slices while the goal is far.
 TEST(SweepThreads, GiveTheSameBytesWhereTilesAreSlices) {
   for (double ratio : {0.05, 0.2}) {

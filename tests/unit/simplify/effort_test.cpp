@@ -1,0 +1,80 @@
+// More time gives smaller errors and fewer thin cells.
+#include <algorithm>
+#include <cmath>
+
+#include "field_error.h"
+#include "simplify_testing.h"
+#include "thin_cells.h"
+
+namespace tetstream::test {
+namespace {
+
+// A layer across the mesh, steep along a sphere.
+TestMesh withALayer(int n) {
+  TestMesh mesh = fullGrid(n, n, n, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [n](double x, double y, double z) {
+    return std::tanh(std::hypot(x, y, z) - 0.8 * n) + 0.05 * x;
+  });
+  return mesh;
+}
+
+SimplifyOptions with(Effort effort, double ratio, int64_t window = 0) {
+  SimplifyOptions options = toRatio(ratio, window);
+  options.effort = effort;
+  return options;
+}
+
+TEST(Effort, LowersTheErrorAndLeavesFewerThinCells) {
+  const TestMesh mesh = withALayer(slowRun() ? 14 : 20);
+  for (const int64_t window : {int64_t{0}, static_cast<int64_t>(mesh.cellCount()) / 3}) {
+    const Result normal = simplified(mesh, with(Effort::kNormal, 0.05, window));
+    const Result high = simplified(mesh, with(Effort::kHigh, 0.05, window));
+    expectSound(mesh, high);
+    expectReached(high);
+    EXPECT_LT(fieldErrors(mesh, high.out.mesh)[0], 0.95 * fieldErrors(mesh, normal.out.mesh)[0])
+        << window;
+    EXPECT_LT(shareBelow(high.out.mesh, 10), 0.7 * shareBelow(normal.out.mesh, 10)) << window;
+  }
+}
+
+TEST(Effort, GoesWithShapesForSolvers) {
+  const TestMesh mesh = withALayer(slowRun() ? 6 : 12);
+  SimplifyOptions options = with(Effort::kHigh, 0.1);
+  options.shape = Shape::kSolver;
+  const Result result = simplified(mesh, options);
+  expectSound(mesh, result);
+  EXPECT_EQ(shareBelow(result.out.mesh, 9.99), 0);
+}
+
+double rangeOf(const TestMesh& mesh) {
+  double low = mesh.field(0, 0), high = low;
+  for (size_t v = 1; v < mesh.vertexCount(); ++v) {
+    low = std::min(low, mesh.field(0, v));
+    high = std::max(high, mesh.field(0, v));
+  }
+  return high - low;
+}
+
+TEST(Effort, KeepsALimitOfTheError) {
+  const TestMesh mesh = withALayer(12);
+  SimplifyOptions options;
+  options.error = 1;
+  options.effort = Effort::kHigh;
+  const Result result = simplified(mesh, options);
+  EXPECT_EQ(result.report.reached, "error");
+  EXPECT_LT(result.out.mesh.cellCount(), mesh.cellCount() / 2);
+  EXPECT_LE(100 * fieldErrors(mesh, result.out.mesh)[0], rangeOf(mesh));
+}
+
+TEST(Effort, IsForSweepsAlone) {
+  for (Mode mode : {Mode::kPaper, Mode::kQueue}) {
+    SimplifyOptions options = with(Effort::kHigh, 0.5);
+    options.mode = mode;
+    const auto [status, text] = thrownBy([&] { simplified(withALayer(2), options); });
+    EXPECT_EQ(status, Status::kUnsupported);
+    EXPECT_NE(text.find("effort"), std::string::npos) << text;
+  }
+}
+
+}  // namespace
+}  // namespace tetstream::test
