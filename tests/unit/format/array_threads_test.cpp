@@ -92,13 +92,13 @@ std::string xdmfText() {
          xdmfItem("Float", kPoints, 1, a.values) + "</Attribute>\n</Grid></Domain></Xdmf>\n";
 }
 
-const TextFormat kFormats[] = {{"vtk 3.0", openVtk, oldVtkText()},
-                               {"vtk 5.1", openVtk, newVtkText()},
-                               {"vtu", openVtu, vtuText()},
-                               {"xdmf", openXdmf, xdmfText()}};
+const TextFormat kArrayFormats[] = {{"vtk 3.0", openVtk, oldVtkText()},
+                                    {"vtk 5.1", openVtk, newVtkText()},
+                                    {"vtu", openVtu, vtuText()},
+                                    {"xdmf", openXdmf, xdmfText()}};
 
 TEST(ArrayThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kArrayFormats) {
     SCOPED_TRACE(format.name);
     const OpenIt open = format.opening();
     const std::string mesh = expectSame(open, {40, 1000, 100000});
@@ -109,7 +109,7 @@ TEST(ArrayThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
 }
 
 TEST(ArrayThreads, KnowEveryBlank) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kArrayFormats) {
     SCOPED_TRACE(format.name);
     const std::vector<std::string> all = linesOf(format.text);
     const std::string mesh = outcomeOf(format.opening());
@@ -121,7 +121,7 @@ TEST(ArrayThreads, KnowEveryBlank) {
 }
 
 TEST(ArrayThreads, FindTheFirstBadValueOfOneThread) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kArrayFormats) {
     SCOPED_TRACE(format.name);
     const std::vector<std::string> all = linesOf(format.text);
     size_t errors = 0, tried = 0;
@@ -137,11 +137,11 @@ TEST(ArrayThreads, FindTheFirstBadValueOfOneThread) {
 }
 
 TEST(ArrayThreads, StopWhereATextIsCutOff) {
-  expectSameWhereverCutOff(kFormats);
+  expectSameWhereverCutOff(kArrayFormats);
 }
 
 TEST(ArrayThreads, NeedNobodyWhoComes) {
-  expectSameWhoeverComes(kFormats);
+  expectSameWhoeverComes(kArrayFormats);
 }
 
 }  // namespace

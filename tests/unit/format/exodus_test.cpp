@@ -3,27 +3,17 @@
 
 #include "netcdf_testing.h"
 #include "status.h"
-#include "vtu_read.h"
+#include "vtu_mesh_testing.h"
 
 namespace tetstream {
 namespace {
 
 using namespace test;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TestVariable& variable(NetcdfMaker& m, const std::string& name) {
   for (TestVariable& v : m.variables)
     if (v.name == name) return v;
   throw std::runtime_error(name);
-}
-
-bool hasNote(const VtuMesh& mesh, const std::string& text) {
-  for (const std::string& note : mesh.notes)
-    if (has(note, text)) return true;
-  return false;
 }
 
 TEST(Exodus, IsReadInEachLayout) {

@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr hsize_t kRows = 1000, kColumns = 3;
+constexpr hsize_t kDatasetRows = 1000, kDatasetColumns = 3;
 
 struct Kind {
   const char* name;
@@ -23,7 +23,7 @@ struct Kind {
 };
 
 std::vector<int64_t> numbers() {
-  std::vector<int64_t> all(kRows * kColumns);
+  std::vector<int64_t> all(kDatasetRows * kDatasetColumns);
   for (size_t i = 0; i < all.size(); ++i) all[i] = static_cast<int64_t>(i * i % 7919) - 4000;
   return all;
 }
@@ -40,7 +40,7 @@ void deflate(const Hdf5Library& h, hid_t plan) {
 }
 
 // A file with the dataset "a" of `numbers()`.
-std::string makeFile(const Kind& kind) {
+std::string makeDataset(const Kind& kind) {
   std::string bytes;
   Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
   {
@@ -48,7 +48,7 @@ std::string makeFile(const Kind& kind) {
     const Hdf5Library h;
     const Hdf5Id plan(hdf5().Pcreate(hdf5().P_CLS_DATASET_CREATE_ID), hdf5().Pclose);
     kind.plan(h, plan);
-    const hsize_t sizes[2] = {kRows, kColumns};
+    const hsize_t sizes[2] = {kDatasetRows, kDatasetColumns};
     const Hdf5Id space(hdf5().Screate_simple(2, sizes, nullptr), hdf5().Sclose);
     const Hdf5Id set = file.create("a", h.number(kind.type), space, plan);
     EXPECT_GE(
@@ -64,7 +64,7 @@ std::shared_ptr<Hdf5File> open(const std::string& bytes) {
 }
 
 std::vector<int64_t> readWhole(const std::string& bytes) {
-  std::vector<int64_t> all(kRows * kColumns);
+  std::vector<int64_t> all(kDatasetRows * kDatasetColumns);
   openHdf5Values(open(bytes), "a", 0)->read(0, all.size(), all.data(), ScalarType::kInt64);
   return all;
 }
@@ -86,9 +86,10 @@ const Kind kKinds[] = {
        h.call<herr_t(hid_t, H5D_layout_t)>("H5Pset_layout")(plan, H5D_COMPACT);
      },
      "H5T_STD_I16LE_g"},
-    {"whole rows", [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, 64, kColumns); }},
+    {"whole rows", [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, 64, kDatasetColumns); }},
     {"some columns", [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, 129, 2); }},
-    {"one chunk", [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, kRows, kColumns); }},
+    {"one chunk",
+     [](const Hdf5Library& h, hid_t plan) { chunks(h, plan, kDatasetRows, kDatasetColumns); }},
     {"deflate",
      [](const Hdf5Library& h, hid_t plan) {
        chunks(h, plan, 100, 3);
@@ -118,7 +119,7 @@ const Kind kKinds[] = {
 
 TEST(Hdf5Bytes, ReadsWhatTheLibraryWrote) {
   for (const Kind& kind : kKinds) {
-    const std::string bytes = makeFile(kind);
+    const std::string bytes = makeDataset(kind);
     const std::vector<int64_t> expected = numbers();
     for (const size_t step : {size_t{7}, size_t{1000}, expected.size()}) {
       const auto values = openHdf5Values(open(bytes), "a", 0);
@@ -142,28 +143,29 @@ TEST(Hdf5Bytes, FillsChunksThatWereNeverWritten) {
       const Hdf5Turn turn;
       const Hdf5Library h;
       const Hdf5Id plan(hdf5().Pcreate(hdf5().P_CLS_DATASET_CREATE_ID), hdf5().Pclose);
-      chunks(h, plan, 10, kColumns);
+      chunks(h, plan, 10, kDatasetColumns);
       const int32_t fill = -5;
       h.call<herr_t(hid_t, hid_t, const void*)>("H5Pset_fill_value")(plan, hdf5().T_NATIVE_INT32,
                                                                      &fill);
-      const hsize_t sizes[2] = {kRows, kColumns}, start[2] = {500, 0}, some[2] = {20, kColumns};
+      const hsize_t sizes[2] = {kDatasetRows, kDatasetColumns}, start[2] = {500, 0},
+                    some[2] = {20, kDatasetColumns};
       const Hdf5Id space(hdf5().Screate_simple(2, sizes, nullptr), hdf5().Sclose);
       const Hdf5Id part(hdf5().Screate_simple(2, some, nullptr), hdf5().Sclose);
       hdf5().Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, some, nullptr);
       const Hdf5Id set = file.create("a", hdf5().T_NATIVE_INT32, space, plan);
-      const std::vector<int64_t> ones(20 * kColumns, 1);
+      const std::vector<int64_t> ones(20 * kDatasetColumns, 1);
       hdf5().Dwrite(set, hdf5().T_NATIVE_INT64, part, space, H5P_DEFAULT, ones.data());
     }
     file.close();
   }
-  std::vector<int64_t> expected(kRows * kColumns, -5);
-  std::fill_n(expected.begin() + 500 * kColumns, 20 * kColumns, 1);
+  std::vector<int64_t> expected(kDatasetRows * kDatasetColumns, -5);
+  std::fill_n(expected.begin() + 500 * kDatasetColumns, 20 * kDatasetColumns, 1);
   EXPECT_EQ(readWhole(bytes), expected);
 }
 
 TEST(Hdf5Bytes, NamesTheChunkThatIsDamaged) {
   for (const size_t kind : {6, 8}) {  // deflate, fletcher32
-    std::string bytes = makeFile(kKinds[kind]);
+    std::string bytes = makeDataset(kKinds[kind]);
     // Most of the file is chunks; in the middle there is nothing else.
     for (size_t i = 0; i < 16; ++i) bytes[bytes.size() / 2 + i] ^= 0x55;
     EXPECT_NE(refusal(bytes).find("made: dataset \"a\": the chunk of row "), std::string::npos)
@@ -172,10 +174,10 @@ TEST(Hdf5Bytes, NamesTheChunkThatIsDamaged) {
 }
 
 TEST(Hdf5Bytes, RefusesFiltersThatItCannotUndo) {
-  const std::string bytes = makeFile({"scale and offset", [](const Hdf5Library& h, hid_t plan) {
-                                        chunks(h, plan, 100, 3);
-                                        filter(h, plan, "H5Pset_nbit");
-                                      }});
+  const std::string bytes = makeDataset({"scale and offset", [](const Hdf5Library& h, hid_t plan) {
+                                           chunks(h, plan, 100, 3);
+                                           filter(h, plan, "H5Pset_nbit");
+                                         }});
   EXPECT_EQ(refusal(bytes),
             "made: dataset \"a\" has HDF5's filter 5 (\"nbit\"); deflate, shuffle and fletcher32 "
             "are read");
@@ -184,7 +186,7 @@ TEST(Hdf5Bytes, RefusesFiltersThatItCannotUndo) {
 // What the head of the chunks says of the size of an element is not what the type says: libhdf5
 // makes room for the one and copies the other.
 TEST(Hdf5Bytes, DoesNotBelieveTheHeadOfTheChunks) {
-  std::string bytes = makeFile(kKinds[3]);
+  std::string bytes = makeDataset(kKinds[3]);
   const std::string head("\x40\0\0\0\x03\0\0\0\x04\0\0\0", 12);  // rows, columns, element
   size_t changed = 0;
   for (size_t at = bytes.find(head); at != std::string::npos; at = bytes.find(head, at + 1)) {

@@ -24,7 +24,7 @@ class Folder {
   std::string path_;
 };
 
-const char kText[] =
+const char kMeditText[] =
     "MeshVersionFormatted 2 # two cells\nDimension\n3\n"
     "Triangles 1\n1 2 3 7\n"  // before the vertices that they use
     "Vertices\n5\n0 0 0 0\n1.0D+00 0 0 2\n0 1 0 0\n0 0 1 0\n1 1 1 0\n"
@@ -58,7 +58,7 @@ SvMesh readFrom(const std::string& path) {
 
 TEST(Medit, ReadsTextWithReferencesFacesAndLocks) {
   std::vector<std::string> notes;
-  Input input = openText(openMedit, kText, {}, &notes);
+  Input input = openText(openMedit, kMeditText, {}, &notes);
   const SvMesh m = readAll(input);
   EXPECT_EQ(m.positions, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
   EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
@@ -179,7 +179,7 @@ TEST(Medit, RefusesASolutionOfAnotherMesh) {
 }
 
 TEST(Medit, SurvivesEveryCutAndEveryFlippedBit) {
-  expectSurvives(openMedit, bytesOf(kText));
+  expectSurvives(openMedit, bytesOf(kMeditText));
   Bytes file;
   Schema schema;
   schema.position_type = ScalarType::kFloat64;

@@ -10,7 +10,7 @@
 
 namespace tetstream::test {
 
-inline constexpr int kPoints = 60, kCells = 40;
+inline constexpr int kPlacedPoints = 60, kPlacedCells = 40;
 
 class BinaryFile {
  public:
@@ -52,7 +52,7 @@ inline double coordinate(int point, int axis) {
 }
 
 inline int64_t cornerOf(int cell, int k) {
-  return (cell * 3 + k * 5) % kPoints;
+  return (cell * 3 + k * 5) % kPlacedPoints;
 }
 
 // ------------------------------------------------------------------------------------------ MEDIT
@@ -89,8 +89,8 @@ class MeditFile : public BinaryFile {
   void real(double value) { BinaryFile::real(value, real_bytes_); }
   void vertices() {
     begin(4);
-    rows(kPoints);
-    for (int i = 0; i < kPoints; ++i) {
+    rows(kPlacedPoints);
+    for (int i = 0; i < kPlacedPoints; ++i) {
       for (int k = 0; k < 3; ++k) real(coordinate(i, k));
       integer(kind_.labelled && i > 40 ? i : 0);
     }
@@ -126,14 +126,14 @@ inline Bytes wholeMedit(const MeditKind& kind) {
   MeditFile file(kind);
   file.cells(6, 1, 3);
   file.vertices();
-  file.cells(8, kCells - 10, 4);
+  file.cells(8, kPlacedCells - 10, 4);
   file.begin(5);  // edges, which are passed over
   file.rows(1);
   for (int i = 0; i < 3; ++i) file.integer(1);
   file.cells(10, 2, 8, 3);
-  file.cells(30, 10, 10, kCells - 10);
+  file.cells(30, 10, 10, kPlacedCells - 10);
   file.cells(6, 2, 3, 35);
-  file.solution(62, kPoints);
+  file.solution(62, kPlacedPoints);
   return file.end();
 }
 
@@ -165,22 +165,22 @@ class MshFile : public BinaryFile {
     text("\n$EndEntities\n");
   }
   void nodes() {
-    text(is_4_ ? "$Nodes\n" : "$Nodes\n" + std::to_string(kPoints) + "\n");
+    text(is_4_ ? "$Nodes\n" : "$Nodes\n" + std::to_string(kPlacedPoints) + "\n");
     if (is_4_) {
-      for (int64_t count : {2, kPoints, 1, 999}) put(count);
+      for (int64_t count : {2, kPlacedPoints, 1, 999}) put(count);
       nodeBlock(0, 20, 2, true);
-      nodeBlock(20, kPoints, 3, false);
+      nodeBlock(20, kPlacedPoints, 3, false);
     }
-    for (int i = 0; i < kPoints && !is_4_; ++i) {
+    for (int i = 0; i < kPlacedPoints && !is_4_; ++i) {
       put(static_cast<int32_t>(tagOf(i)));
       position(i);
     }
     text("\n$EndNodes\n");
   }
   void elements() {
-    text(is_4_ ? "$Elements\n" : "$Elements\n" + std::to_string(kCells + 2) + "\n");
+    text(is_4_ ? "$Elements\n" : "$Elements\n" + std::to_string(kPlacedCells + 2) + "\n");
     if (is_4_)
-      for (int64_t count : {4, kCells + 2, 1, 999}) put(count);
+      for (int64_t count : {4, kPlacedCells + 2, 1, 999}) put(count);
     block({2, 4, 2, 2, 3}, 0, 2);
     block({3, 1, 4, 2, 4}, 0, 20);
     block({3, 2, 11, 3, 10}, 20, 10);
@@ -246,12 +246,13 @@ inline Bytes wholeMsh(const char* version, bool swapped) {
   if (version[0] == '4') file.entities();
   file.nodes();
   file.elements();
-  file.data({"NodeData", "in order", kPoints, 1}, [](int i) { return tagOf(i); });
-  file.data({"NodeData", "narrow", kPoints, 3}, [](int i) { return tagOf(i); });
-  file.data({"NodeData", "reversed", kPoints, 1}, [](int i) { return tagOf(kPoints - 1 - i); });
+  file.data({"NodeData", "in order", kPlacedPoints, 1}, [](int i) { return tagOf(i); });
+  file.data({"NodeData", "narrow", kPlacedPoints, 3}, [](int i) { return tagOf(i); });
+  file.data({"NodeData", "reversed", kPlacedPoints, 1},
+            [](int i) { return tagOf(kPlacedPoints - 1 - i); });
   file.data({"NodeData", "some", 7, 1}, [](int i) { return tagOf(3 * i); });
-  file.data({"ElementData", "of cells", kCells, 2}, [](int i) { return 300 + i; });
-  file.data({"ElementData", "of faces, too", kCells + 2, 1},
+  file.data({"ElementData", "of cells", kPlacedCells, 2}, [](int i) { return 300 + i; });
+  file.data({"ElementData", "of faces, too", kPlacedCells + 2, 1},
             [](int i) { return i < 2 ? 900 + i : 298 + i; });
   // A second part of what had all rows.
   file.data({"NodeData", "in order", 2, 1}, [](int i) { return tagOf(7 + i); });

@@ -30,7 +30,7 @@ Reading readWhole(Open open, std::unique_ptr<ByteSource> bytes, size_t step,
   return r;
 }
 
-void expectSame(const Reading& a, const Reading& b) {
+void expectSameReading(const Reading& a, const Reading& b) {
   EXPECT_EQ(a.mesh.positions, b.mesh.positions);
   EXPECT_EQ(a.mesh.cells, b.mesh.cells);
   EXPECT_EQ(a.mesh.fields, b.mesh.fields);
@@ -56,7 +56,8 @@ Reading expectSameAsOfAPipe(Open open, const Bytes& file) {
   for (size_t step : {1, 7, 1000})
     for (const Tasks* tasks : {static_cast<const Tasks*>(nullptr), &two}) {
       SCOPED_TRACE(std::to_string(step) + " rows at once");
-      expectSame(readWhole(open, openMemory(file.data(), file.size(), "mesh"), step, tasks), piped);
+      expectSameReading(readWhole(open, openMemory(file.data(), file.size(), "mesh"), step, tasks),
+                        piped);
     }
   return piped;
 }
@@ -68,15 +69,15 @@ TEST(PlacedRows, OfMeditAreThoseOfAPipe) {
         SCOPED_TRACE("version " + std::to_string(version) + (swapped ? ", swapped" : "") +
                      (labelled ? ", labelled" : ""));
         const Reading r = expectSameAsOfAPipe(openMedit, wholeMedit({version, swapped, labelled}));
-        EXPECT_EQ(r.mesh.vertexCount(), size_t{kPoints});
-        EXPECT_GT(r.mesh.cells.size(), size_t{kCells});
-        EXPECT_EQ(r.mesh.cells.back()[3], cornerOf(kCells - 1, 3));
+        EXPECT_EQ(r.mesh.vertexCount(), size_t{kPlacedPoints});
+        EXPECT_GT(r.mesh.cells.size(), size_t{kPlacedCells});
+        EXPECT_EQ(r.mesh.cells.back()[3], cornerOf(kPlacedCells - 1, 3));
         EXPECT_EQ(r.mesh.positions[3 * 50 + 1], coordinate(50, 1));
         ASSERT_EQ(r.mesh.schema.fields.size(), labelled ? 3u : 2u);
         EXPECT_EQ(r.mesh.fields.back()[50], 0.5 * (4 * 50 + 3));
         ASSERT_EQ(r.mesh.cell_data.size(), labelled ? 1u : 0u);
         if (!labelled) continue;
-        EXPECT_EQ(r.mesh.cell_data[0].back(), kCells - 1);
+        EXPECT_EQ(r.mesh.cell_data[0].back(), kPlacedCells - 1);
         EXPECT_EQ(r.mesh.fields[0][50], 50);
       }
 }
@@ -86,7 +87,7 @@ TEST(PlacedRows, OfGmshAreThoseOfAPipe) {
     for (bool swapped : {false, true}) {
       SCOPED_TRACE(std::string(version) + (swapped ? ", swapped" : ""));
       const Reading r = expectSameAsOfAPipe(openMsh, wholeMsh(version, swapped));
-      ASSERT_EQ(r.mesh.cells.size(), size_t{kCells});
+      ASSERT_EQ(r.mesh.cells.size(), size_t{kPlacedCells});
       EXPECT_EQ(r.mesh.cells[25][2], cornerOf(25, 2));
       EXPECT_EQ(r.mesh.positions[3 * 50 + 2], coordinate(50, 2));
       EXPECT_EQ(r.mesh.schema.position_type, ScalarType::kFloat32);
@@ -134,7 +135,7 @@ TEST(PlacedRows, OfElementsAfterDataHaveTheirValues) {
   MshFile file("4.1", false);
   file.nodes();
   file.elements();
-  file.data({"ElementData", "early", kCells, 1}, [](int i) { return 300 + i; });
+  file.data({"ElementData", "early", kPlacedCells, 1}, [](int i) { return 300 + i; });
   file.text("$Elements\n");
   for (int64_t count : {1, 2, 1, 999}) file.put(count);
   for (int32_t value : {3, 1, 4}) file.put(value);
@@ -144,9 +145,9 @@ TEST(PlacedRows, OfElementsAfterDataHaveTheirValues) {
   file.data({"ElementData", "late", 3, 1}, [](int i) { return i < 2 ? 290 + i : 300; });
   const Reading r = expectSameAsOfAPipe(openMsh, file.bytes);
   ASSERT_EQ(r.mesh.cell_data.size(), 3u);
-  EXPECT_EQ(r.mesh.cell_data[1][kCells - 1], 1.5 * (kCells - 1));
-  EXPECT_EQ(r.mesh.cell_data[2][kCells], 0.0);
-  EXPECT_EQ(r.mesh.cell_data[2][kCells + 1], 1.5);
+  EXPECT_EQ(r.mesh.cell_data[1][kPlacedCells - 1], 1.5 * (kPlacedCells - 1));
+  EXPECT_EQ(r.mesh.cell_data[2][kPlacedCells], 0.0);
+  EXPECT_EQ(r.mesh.cell_data[2][kPlacedCells + 1], 1.5);
   EXPECT_EQ(r.mesh.cell_data[2][0], 3.0);
 }
 
@@ -158,7 +159,7 @@ TEST(PlacedRows, TellTheByteOfWhatIsWrong) {
   MeditFile medit({2, false, true});
   medit.vertices();
   const size_t points_end = medit.bytes.size();
-  medit.cells(8, kCells, 4);
+  medit.cells(8, kPlacedCells, 4);
   const size_t row = medit.bytes.size() - 20;
   const auto meditWith = [&](size_t place, auto value) {
     MeditFile broken = medit;

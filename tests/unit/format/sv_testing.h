@@ -26,11 +26,13 @@ struct Event {
   int64_t rank;  // of the vertex or the cell
 };
 
+using Cell = std::array<int64_t, 4>;
+
 struct SvMesh {
   Schema schema;
   std::vector<double> positions;
   std::vector<std::vector<double>> fields, cell_data;
-  std::vector<std::array<int64_t, 4>> cells;
+  std::vector<Cell> cells;
   std::vector<uint8_t> last_uses;
   std::vector<Event> events;
   std::vector<int64_t> final_at;  // number of cells read when the vertex became final; -1: never

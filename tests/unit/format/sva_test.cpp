@@ -12,13 +12,11 @@ const char kPreOrder[] =
 const char kPostOrder[] =
     "# v_pnum_f 3\nc 1 2 3 4\nv 0 0 0\nc 2 3 4 5\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 1 1\n";
 
-using Cell = std::array<int64_t, 4>;
-
 SvMesh readText(const std::string& text, std::vector<std::string>* notes = nullptr) {
   return readBytes(openSva, bytesOf(text), notes);
 }
 
-void expectError(const std::string& text, const std::string& part) {
+void expectSvaError(const std::string& text, const std::string& part) {
   const Error error = errorOf(openSva, bytesOf(text));
   EXPECT_EQ(error.status(), Status::kBadData) << text;
   EXPECT_NE(error.text().find(part), std::string::npos) << error.text();
@@ -246,7 +244,7 @@ TEST(SvaReader, ANegativeCellPropertyIsNoFinalization) {
 }
 
 // A large mesh in the standard form, with every kind of column.
-std::string standardForm(size_t vertices, size_t cells) {
+std::string standardSva(size_t vertices, size_t cells) {
   std::string text = "# v_pnum_f 5\n# v_pnum_i 1\n# c_pnum_f 1\n# c_pnum_i 2\n";
   for (size_t i = 0; i < vertices; ++i) {
     const std::string n = std::to_string(i);
@@ -262,7 +260,7 @@ std::string standardForm(size_t vertices, size_t cells) {
 
 TEST(SvaReader, TheStandardFormComesFromFilesAndPipes) {
   const size_t vertices = 30000, cells = 10000;
-  const Bytes data = bytesOf(standardForm(vertices, cells));
+  const Bytes data = bytesOf(standardSva(vertices, cells));
   ASSERT_GT(data.size(), 1u << 20) << "else the pipe is not spooled";
   const SvMesh m = readPipe(openSva, data, 1000);
   Input file = openBytes(openSva, data);
@@ -292,7 +290,7 @@ TEST(SvaReader, TheStandardFormComesFromFilesAndPipes) {
 }
 
 TEST(SvaReader, AStreamThatShowsItselfLateOnAPipeIsStillAStream) {
-  const std::string text = standardForm(30000, 10000) + "c -1 1 2 3 0 0 0\n";
+  const std::string text = standardSva(30000, 10000) + "c -1 1 2 3 0 0 0\n";
   ASSERT_GT(text.size(), 1u << 20);
   const Bytes data = bytesOf(text);
   Input input = openSva(std::make_unique<PipeSource>(data, 4096, "mesh"), ReadOptions());
@@ -370,52 +368,52 @@ TEST(SvaReader, ChoosesFloat64WhereNumbersHaveMoreThanNineDigits) {
 TEST(SvaReader, NumbersBeyondATypesRangeAreZeroOrAnError) {
   EXPECT_EQ(readText("# v_pnum_f 3\nv 1e-400 1e-50 0." + std::string(500, '0') + "1\n").positions,
             (std::vector<double>{0, 0, 0}));
-  expectError("# v_pnum_f 3\nv 0 0 0\nv 0 1e39 0\n", "line 3: vertex 1");
-  expectError("# v_pnum_f 3\nv 0 0 1e400\n", "line 2: vertex 0");
-  expectError("# v_pnum_f 3\nv 0 0 " + std::string(400, '9') + "\n", "line 2: vertex 0");
+  expectSvaError("# v_pnum_f 3\nv 0 0 0\nv 0 1e39 0\n", "line 3: vertex 1");
+  expectSvaError("# v_pnum_f 3\nv 0 0 1e400\n", "line 2: vertex 0");
+  expectSvaError("# v_pnum_f 3\nv 0 0 " + std::string(400, '9') + "\n", "line 2: vertex 0");
 }
 
 TEST(SvaReader, NamesThePlaceOfWhatIsWrong) {
   const std::string six = kSixVertices;  // lines 1 to 7
-  expectError(six + "c 1 2 3 0\nx 1\n", "line 8: the reference 0");
-  expectError(six + "c 1 2 3 -7\n", "line 8: the reference -7");
-  expectError(six + "c 1 2 3 7\n", "line 8: the reference 7");
-  expectError(six + "c 1 2 3 9223372036854775807\n", "line 8: the reference");
-  expectError(six + "c 1 2 3 -9223372036854775808\n", "line 8: the reference");
-  expectError(six + "c 1 2 3 99999999999999999999\n", "line 8: \"99999999999999999999\"");
-  expectError(six + "c 1 2 -1 6\n", "line 8: a cell needs four different vertices");
-  expectError(six + "c -6 2 3 4\nc 1 2 3 4\n", "line 9: vertex 0 is used after");
-  expectError(six + "x 1\nc 1 2 3 4\n", "line 9: vertex 0 is used after");
-  expectError(six + "x 1\nx 1\n", "line 9: vertex 0 is used after");
-  expectError(six + "x 7\n", "line 8: the reference 7");
-  expectError(six + "v nan 0 0\n", "line 8: vertex 6 has a position");
-  expectError(six + "v 0 -inf 0\n", "line 8: vertex 6 has a position");
-  expectError(six + "v 0 0\n", "line 8 ends where a number should be");
-  expectError(six + "v 0 0 a\n", "line 8: \"a\" is not a number");
-  expectError(six + "c 1 2 3\n", "line 8 ends where a reference");
-  expectError("# v_pnum_i 1\n" + six, "line 3 ends where an integer");
-  expectError("# nverts 7\n" + six, "6 vertices were read, the header says 7");
-  expectError("# ncells 1\n" + six, "0 cells were read, the header says 1");
-  expectError("# nverts -2\n" + six, "line 1");
-  expectError("# v_pnum_f 1000000000000\n" + six, "line 1");
-  expectError("# v_pnum_f 2\nv 0 0\n", "v_pnum_f is 2");
-  expectError(six + "# " + std::string(1 << 16, '-') + "\n", "line 8 is longer");
-  expectError("", "no vertex and no cell");
-  expectError("# svtype tet\n", "no vertex and no cell");
+  expectSvaError(six + "c 1 2 3 0\nx 1\n", "line 8: the reference 0");
+  expectSvaError(six + "c 1 2 3 -7\n", "line 8: the reference -7");
+  expectSvaError(six + "c 1 2 3 7\n", "line 8: the reference 7");
+  expectSvaError(six + "c 1 2 3 9223372036854775807\n", "line 8: the reference");
+  expectSvaError(six + "c 1 2 3 -9223372036854775808\n", "line 8: the reference");
+  expectSvaError(six + "c 1 2 3 99999999999999999999\n", "line 8: \"99999999999999999999\"");
+  expectSvaError(six + "c 1 2 -1 6\n", "line 8: a cell needs four different vertices");
+  expectSvaError(six + "c -6 2 3 4\nc 1 2 3 4\n", "line 9: vertex 0 is used after");
+  expectSvaError(six + "x 1\nc 1 2 3 4\n", "line 9: vertex 0 is used after");
+  expectSvaError(six + "x 1\nx 1\n", "line 9: vertex 0 is used after");
+  expectSvaError(six + "x 7\n", "line 8: the reference 7");
+  expectSvaError(six + "v nan 0 0\n", "line 8: vertex 6 has a position");
+  expectSvaError(six + "v 0 -inf 0\n", "line 8: vertex 6 has a position");
+  expectSvaError(six + "v 0 0\n", "line 8 ends where a number should be");
+  expectSvaError(six + "v 0 0 a\n", "line 8: \"a\" is not a number");
+  expectSvaError(six + "c 1 2 3\n", "line 8 ends where a reference");
+  expectSvaError("# v_pnum_i 1\n" + six, "line 3 ends where an integer");
+  expectSvaError("# nverts 7\n" + six, "6 vertices were read, the header says 7");
+  expectSvaError("# ncells 1\n" + six, "0 cells were read, the header says 1");
+  expectSvaError("# nverts -2\n" + six, "line 1");
+  expectSvaError("# v_pnum_f 1000000000000\n" + six, "line 1");
+  expectSvaError("# v_pnum_f 2\nv 0 0\n", "v_pnum_f is 2");
+  expectSvaError(six + "# " + std::string(1 << 16, '-') + "\n", "line 8 is longer");
+  expectSvaError("", "no vertex and no cell");
+  expectSvaError("# svtype tet\n", "no vertex and no cell");
   EXPECT_EQ(errorOf(openSva, bytesOf("# svtype hex\n")).status(), Status::kUnsupported);
 }
 
 TEST(SvaReader, NamesThePlaceOfWhatIsWrongInPostOrder) {
   const std::string head = "# v_pnum_f 3\n# nverts 4\n";
   const std::string four = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
-  expectError(head + "c 1 2 3 -4\n" + four, "line 3: a post-order cell");
-  expectError(head + "c 1 2 3 0\n" + four, "line 3: a post-order cell");
-  expectError(head + "c 1 2 3 5\n" + four, "line 3: the cell uses a vertex beyond");
-  expectError(head + "c 1 2 3 3\n" + four, "line 3: a cell needs four");
-  expectError(head + "c 1 2 3 4\n" + four + "c 1 2 3 4\n",
-              "line 8: the cell uses a vertex that was");
-  expectError(head + "c 1 2 3 4\nx 1\n" + four, "line 4: in post-order");
-  expectError("c 1 2 3 9\n" + four, "line 1: the cell uses vertex 8, which does not come");
+  expectSvaError(head + "c 1 2 3 -4\n" + four, "line 3: a post-order cell");
+  expectSvaError(head + "c 1 2 3 0\n" + four, "line 3: a post-order cell");
+  expectSvaError(head + "c 1 2 3 5\n" + four, "line 3: the cell uses a vertex beyond");
+  expectSvaError(head + "c 1 2 3 3\n" + four, "line 3: a cell needs four");
+  expectSvaError(head + "c 1 2 3 4\n" + four + "c 1 2 3 4\n",
+                 "line 8: the cell uses a vertex that was");
+  expectSvaError(head + "c 1 2 3 4\nx 1\n" + four, "line 4: in post-order");
+  expectSvaError("c 1 2 3 9\n" + four, "line 1: the cell uses vertex 8, which does not come");
 }
 
 TEST(SvaReader, MoreNumbersThanAnnouncedAreLeftOutWithANote) {

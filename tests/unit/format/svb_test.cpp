@@ -6,8 +6,6 @@
 namespace tetstream::test {
 namespace {
 
-using Cell = std::array<int64_t, 4>;
-
 // Words and bytes of an .svb file, in either byte order.
 class SvbText {
  public:
@@ -39,14 +37,14 @@ class SvbText {
 };
 
 // The worked example: one cell, all vertices finalized by it.
-Bytes example(bool big = false) {
+Bytes workedExample(bool big = false) {
   SvbText t(big);
   t.i({0, -1, -1, 3, 0}).byte(0).i({0x0f});
   t.f({0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
   return t.i({-4, -3, -2, -1}).bytes;
 }
 
-SvMesh exampleMesh() {
+SvMesh oneCellMesh() {
   SvMesh m;
   m.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   m.cells = {{0, 1, 2, 3}};
@@ -61,7 +59,7 @@ Schema scalarSchema() {
   return s;
 }
 
-void expectError(const Bytes& bytes, const std::string& part) {
+void expectSvbError(const Bytes& bytes, const std::string& part) {
   const Error error = errorOf(openSvb, bytes);
   EXPECT_EQ(error.status(), Status::kBadData);
   EXPECT_NE(error.text().find(part), std::string::npos) << error.text();
@@ -78,9 +76,9 @@ constexpr std::initializer_list<float> kFour = {0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0,
 
 TEST(SvbReader, ReadsTheWorkedExampleInBothByteOrders) {
   for (bool big : {false, true}) {
-    const SvMesh m = readBytes(openSvb, example(big));
-    EXPECT_EQ(m.positions, exampleMesh().positions);
-    EXPECT_EQ(m.cells, exampleMesh().cells);
+    const SvMesh m = readBytes(openSvb, workedExample(big));
+    EXPECT_EQ(m.positions, oneCellMesh().positions);
+    EXPECT_EQ(m.cells, oneCellMesh().cells);
     EXPECT_EQ(m.final_at, (std::vector<int64_t>{1, 1, 1, 1}));
     EXPECT_EQ(m.schema.vertex_count, -1);
     EXPECT_TRUE(m.schema.fields.empty());
@@ -89,13 +87,13 @@ TEST(SvbReader, ReadsTheWorkedExampleInBothByteOrders) {
 
 TEST(SvbWriter, WritesTheWorkedExampleToTheByte) {
   Bytes out;
-  putStream(exampleMesh(), *createSvb(std::make_unique<PipeSink>(out), WriteOptions()), 0);
-  EXPECT_EQ(out, example());
+  putStream(oneCellMesh(), *createSvb(std::make_unique<PipeSink>(out), WriteOptions()), 0);
+  EXPECT_EQ(out, workedExample());
 }
 
 TEST(SvbWriter, PatchesCountsAndWritesKnownOnes) {
-  const Bytes patched = writeBytes(createSvb, exampleMesh());
-  SvMesh known = exampleMesh();
+  const Bytes patched = writeBytes(createSvb, oneCellMesh());
+  SvMesh known = oneCellMesh();
   known.schema.vertex_count = 4;
   known.schema.cell_count = 1;
   EXPECT_EQ(writeBytes(createSvb, known), patched);
@@ -143,7 +141,7 @@ TEST(SvbRoundTrip, LongStreamsCrossTheBlocksOfReaderAndFormat) {
 
 TEST(SvbRoundTrip, EveryNumberOfElementsInTheLastBlockWorks) {
   for (int unused = 0; unused < 70; ++unused) {
-    SvMesh m = exampleMesh();
+    SvMesh m = oneCellMesh();
     for (int i = 0; i < unused; ++i) {
       m.positions.insert(m.positions.end(), {1, 2, double(i)});
       m.events.push_back({'v', 4 + i});
@@ -211,7 +209,7 @@ TEST(SvbWriter, KeepsAnIntegerFieldIfThatIsAllThereIs) {
 }
 
 TEST(SvbWriter, RefusesMoreVerticesThanInt32AndPositionsBeyondFloat32) {
-  SvMesh m = exampleMesh();
+  SvMesh m = oneCellMesh();
   m.schema.vertex_count = int64_t{1} << 31;
   try {
     writeBytes(createSvb, m);
@@ -220,7 +218,7 @@ TEST(SvbWriter, RefusesMoreVerticesThanInt32AndPositionsBeyondFloat32) {
     EXPECT_EQ(error.status(), Status::kUnsupported);
     EXPECT_NE(error.text().find("2147483647"), std::string::npos) << error.text();
   }
-  m = exampleMesh();
+  m = oneCellMesh();
   m.schema.position_type = ScalarType::kFloat64;
   m.positions[4] = 1e39;
   EXPECT_THROW(writeBytes(createSvb, m), Error);
@@ -244,7 +242,7 @@ TEST(SvbReader, ReadsBoxesIntegersAndSkipsComments) {
 }
 
 // All vertices, then all cells, positive references.
-Bytes standardForm(size_t vertices, size_t cells, bool big) {
+Bytes standardSvb(size_t vertices, size_t cells, bool big) {
   SvbText t(big);
   t.i({0, static_cast<int64_t>(vertices), static_cast<int64_t>(cells), 4, 0}).byte(0);
   for (size_t first = 0; first < vertices + cells; first += 32) {
@@ -270,7 +268,7 @@ TEST(SvbReader, TheStandardFormIsIndexedFromFilesAndPipes) {
   for (size_t vertices : {4u, 31u, 32u, 33u, 70000u})
     for (bool big : {false, true}) {
       const size_t cells = vertices / 2;
-      const Bytes data = standardForm(vertices, cells, big);
+      const Bytes data = standardSvb(vertices, cells, big);
       Input file = openBytes(openSvb, data);
       ASSERT_TRUE(file.indexed);
       const SvMesh m = readIndexed(*file.indexed, vertices > 1000 ? 9999 : 7);
@@ -297,49 +295,49 @@ TEST(SvbReader, NamesTheByteOfWhatIsWrong) {
   const auto cell = [](std::initializer_list<int64_t> refs) {
     return header().i({0x0f}).f(kFour).i(refs).bytes;  // the cell stands at byte 93
   };
-  expectError(cell({-4, -3, -2, 0}), "byte 93: the reference 0");
-  expectError(cell({-4, -3, -2, -5}), "byte 93: the reference -5");
-  expectError(cell({-4, -3, -2, 5}), "byte 93: the reference 5");
-  expectError(cell({-4, -3, -2, 3}), "byte 93: a cell needs four");
-  expectError(cell({1, 2, 3, 5}), "byte 93: the reference 5");  // the indexed form
-  expectError(cell({1, 2, 3, 3}), "byte 93: a cell needs four");
-  expectError(header().i({0x4f}).f(kFour).i({-4, 2, 3, 4, 1, 2, 3, 4}).f({0, 0, 0, 0}).bytes,
-              "byte 109: vertex 0 is used after");
-  expectError(header().i({3}).f({0, 0, 0, 0, 0, 0, NAN, 0}).bytes, "byte 45: vertex 1 has");
-  expectError(header().i({7}).f({0, 0, 0, 0}).bytes, "byte 45: the file ends, but its last");
-  Bytes fragment = example();
+  expectSvbError(cell({-4, -3, -2, 0}), "byte 93: the reference 0");
+  expectSvbError(cell({-4, -3, -2, -5}), "byte 93: the reference -5");
+  expectSvbError(cell({-4, -3, -2, 5}), "byte 93: the reference 5");
+  expectSvbError(cell({-4, -3, -2, 3}), "byte 93: a cell needs four");
+  expectSvbError(cell({1, 2, 3, 5}), "byte 93: the reference 5");  // the indexed form
+  expectSvbError(cell({1, 2, 3, 3}), "byte 93: a cell needs four");
+  expectSvbError(header().i({0x4f}).f(kFour).i({-4, 2, 3, 4, 1, 2, 3, 4}).f({0, 0, 0, 0}).bytes,
+                 "byte 109: vertex 0 is used after");
+  expectSvbError(header().i({3}).f({0, 0, 0, 0, 0, 0, NAN, 0}).bytes, "byte 45: vertex 1 has");
+  expectSvbError(header().i({7}).f({0, 0, 0, 0}).bytes, "byte 45: the file ends, but its last");
+  Bytes fragment = workedExample();
   fragment.push_back(0);
-  expectError(fragment, "byte 110: the file ends within an element");
-  expectError(header().bytes, "no vertex and no cell");
-  expectError({}, "the file ends at byte 0, within the header");
-  expectError({4, 0, 0, 0, 0, 0}, "the file ends at byte 6");
+  expectSvbError(fragment, "byte 110: the file ends within an element");
+  expectSvbError(header().bytes, "no vertex and no cell");
+  expectSvbError({}, "the file ends at byte 0, within the header");
+  expectSvbError({4, 0, 0, 0, 0, 0}, "the file ends at byte 6");
 }
 
 TEST(SvbReader, ChecksTheHeaderBeforeBelievingIt) {
   const auto with = [](std::initializer_list<int64_t> words) {
     return SvbText().i(words).byte(0).i({1}).f({0, 0, 0, 0}).bytes;
   };
-  expectError(with({0, 2, -1, 3, 0}), "1 vertices were read, the header says 2");
-  expectError(with({0, -1, 2, 3, 0}), "0 cells were read, the header says 2");
-  expectError(with({0, INT32_MAX, INT32_MAX, 3, 0}), "the header says");
-  expectError(with({0, -2, -1, 3, 0}), "byte 8: nverts");
-  expectError(with({0, -1, -2, 3, 0}), "byte 12: ncells");
-  expectError(with({0, -1, -1, 2, 0}), "byte 16: v_pnum_f");
-  expectError(with({0, -1, -1, 5, 0}), "byte 16: v_pnum_f");
-  expectError(with({0, -1, -1, 4, 1}), "byte 20: v_pnum_i");
-  expectError(with({-1, -1, -1, 3, 0}), "byte 4: the number of comments");
-  expectError(with({1, INT32_MAX, -1, 3, 0}), "byte 8: a comment's length");
-  expectError(with({INT32_MAX, 0, 0, 0, 0}), "within the header");
-  Bytes bytes = example();
+  expectSvbError(with({0, 2, -1, 3, 0}), "1 vertices were read, the header says 2");
+  expectSvbError(with({0, -1, 2, 3, 0}), "0 cells were read, the header says 2");
+  expectSvbError(with({0, INT32_MAX, INT32_MAX, 3, 0}), "the header says");
+  expectSvbError(with({0, -2, -1, 3, 0}), "byte 8: nverts");
+  expectSvbError(with({0, -1, -2, 3, 0}), "byte 12: ncells");
+  expectSvbError(with({0, -1, -1, 2, 0}), "byte 16: v_pnum_f");
+  expectSvbError(with({0, -1, -1, 5, 0}), "byte 16: v_pnum_f");
+  expectSvbError(with({0, -1, -1, 4, 1}), "byte 20: v_pnum_i");
+  expectSvbError(with({-1, -1, -1, 3, 0}), "byte 4: the number of comments");
+  expectSvbError(with({1, INT32_MAX, -1, 3, 0}), "byte 8: a comment's length");
+  expectSvbError(with({INT32_MAX, 0, 0, 0, 0}), "within the header");
+  Bytes bytes = workedExample();
   bytes[0] = 3;
-  expectError(bytes, "byte 0");
-  bytes = example();
+  expectSvbError(bytes, "byte 0");
+  bytes = workedExample();
   bytes[1] = 2;
-  expectError(bytes, "byte 1");
-  bytes = example();
+  expectSvbError(bytes, "byte 1");
+  bytes = workedExample();
   bytes[24] = 7;
-  expectError(bytes, "byte 24");
-  bytes = example();
+  expectSvbError(bytes, "byte 24");
+  bytes = workedExample();
   bytes[2] = 1;
   EXPECT_EQ(errorOf(openSvb, bytes).status(), Status::kUnsupported);
 }
@@ -354,9 +352,9 @@ TEST(SvbReader, PostOrderCellsWaitForTheirVertices) {
 }
 
 TEST(SvbReader, SurvivesEveryCutAndEveryFlippedBit) {
-  expectSurvives(openSvb, example());
-  expectSurvives(openSvb, example(true));
-  expectSurvives(openSvb, standardForm(20, 15, false));
+  expectSurvives(openSvb, workedExample());
+  expectSurvives(openSvb, workedExample(true));
+  expectSurvives(openSvb, standardSvb(20, 15, false));
   expectSurvives(openSvb, writeBytes(createSvb, randomStream(scalarSchema(), 12, 1)));
   expectSurvives(openSvb, writeBytes(createSvb, randomStream(scalarSchema(), 12, 1), true));
 }

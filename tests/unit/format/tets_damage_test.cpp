@@ -78,7 +78,7 @@ TEST(TetsDamage, EveryTruncationOfAPipedFileIsFound) {
 }
 
 TEST(TetsDamage, TruncationNamesTheChunk) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   Bytes file = write(s);
   const size_t header = sectionsOf(file)[0].head.length;
   file.resize(header + 100);
@@ -90,7 +90,7 @@ TEST(TetsDamage, TruncationNamesTheChunk) {
 }
 
 TEST(TetsDamage, BytesAfterTheEndAreFoundInFiles) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   Bytes file = write(s);
   file.resize(file.size() + 64, 0);
   Status status;
@@ -111,7 +111,7 @@ TEST(TetsDamage, OtherFilesAreNoTets) {
 }
 
 TEST(TetsDamage, AVersionFromTheFutureIsRefusedWithItsNumber) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   std::vector<Section> sections = sectionsOf(write(s));
   sections[0].head.value = 7;
   for (const bool piped : {false, true}) {
@@ -156,7 +156,7 @@ void expectRefusedInLittleMemory(const Bytes& file) {
 }
 
 TEST(TetsDamage, LengthsOf2To60AreRefusedWithoutAllocating) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   const Bytes file = write(s);
   for (size_t at = 0, i = 0; at < file.size(); ++i) {
     tets::SectionHead head;
@@ -172,7 +172,7 @@ TEST(TetsDamage, LengthsOf2To60AreRefusedWithoutAllocating) {
 }
 
 TEST(TetsDamage, CountsBeyondTheLimitsAreRefusedBeforeTheChunkIsRead) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   const std::vector<Section> whole = sectionsOf(write(s));
   for (const uint32_t count : {0u, 2u, 65536u, 65537u, 0xffffffffu})
     for (int which = 0; which < 4; ++which) {
@@ -187,7 +187,7 @@ TEST(TetsDamage, CountsBeyondTheLimitsAreRefusedBeforeTheChunkIsRead) {
 }
 
 TEST(TetsDamage, LiesOfTheHeaderAreRefused) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   const std::vector<Section> whole = sectionsOf(write(s));
   const auto expectRefused = [&](auto change) {
     std::vector<Section> sections = whole;
@@ -259,7 +259,7 @@ TEST(TetsDamage, AnIndexOrTotalsThatDisagreeWithTheChunksAreRefused) {
 }
 
 TEST(TetsDamage, UnknownFlagsAndMethodsOfAChunkAreRefused) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   const std::vector<Section> whole = sectionsOf(write(s));
   for (const uint32_t flag : {1u << 1, 1u << 11, 1u << 24, 2u << 16, 255u << 16}) {
     std::vector<Section> sections = whole;
@@ -272,7 +272,7 @@ TEST(TetsDamage, UnknownFlagsAndMethodsOfAChunkAreRefused) {
 
 // Plain bytes that claim to be compressed: a sentence with or without zstd in the build.
 TEST(TetsDamage, AChunkThatCannotBeDecompressedIsRefused) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   std::vector<Section> sections = sectionsOf(write(s));
   sections[1].head.flags |= tets::kCodecZstd << tets::kCodecShift;
   Status status;

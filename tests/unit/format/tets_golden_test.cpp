@@ -55,7 +55,7 @@ constexpr char kExample[] =
     "0470  80 04 00 00 00 00 00 00  00 00 00 00 04 59 f5 0b\n";
 constexpr size_t kExampleBytes = 1152;
 
-Bytes bytesOf(const char* dump, size_t size) {
+Bytes bytesOfDump(const char* dump, size_t size) {
   Bytes out(size, 0);
   for (const char* line = dump; *line; line = std::strchr(line, '\n') + 1) {
     const size_t at = std::strtoul(std::string(line, 4).c_str(), nullptr, 16);
@@ -73,11 +73,11 @@ Bytes bytesOf(const char* dump, size_t size) {
 
 TEST(TetsGolden, TheExampleIsWrittenByteForByte) {
   Stream s = example();
-  EXPECT_TRUE(write(s, false) == bytesOf(kExample, kExampleBytes));
+  EXPECT_TRUE(write(s, false) == bytesOfDump(kExample, kExampleBytes));
 }
 
 TEST(TetsGolden, TheExampleIsRead) {
-  const Bytes file = bytesOf(kExample, kExampleBytes);
+  const Bytes file = bytesOfDump(kExample, kExampleBytes);
   Stream s = example();
   Schema schema;
   EXPECT_TRUE(readPiped(file, &schema) == s.events());

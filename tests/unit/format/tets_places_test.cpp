@@ -62,7 +62,7 @@ TEST(TetsPlaces, AreNoneOfAnEmptyMesh) {
 }
 
 TEST(TetsPlaces, AreNoneOfPipes) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   const Input piped = openTets(std::make_unique<PipeSource>(write(s), 0), {});
   EXPECT_EQ(piped.stream->again(Part::kPositions), nullptr);
 }

@@ -226,7 +226,7 @@ TEST_P(TetsRecovery, BytesThatAreMissingOrTooManyAreGonePast) {
 INSTANTIATE_TEST_SUITE_P(PlainAndCompressed, TetsRecovery, ::testing::Bool());
 
 TEST(TetsRecoveryEnds, WithoutAHeaderThereIsNothing) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   Bytes file = write(s);
   for (const size_t byte : {0, 30, 70}) {
     Bytes bad = file;

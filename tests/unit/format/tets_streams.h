@@ -129,7 +129,7 @@ inline Stream streamOf(const SmallMesh& mesh, const Wanted& wanted) {
   return s;
 }
 
-inline Stream oneCell() {
+inline Stream oneCellStream() {
   SmallMesh mesh;
   mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   mesh.cells = {0, 1, 2, 3};
@@ -140,7 +140,7 @@ inline Stream oneCell() {
 
 // The example of tetstream-formats(5): one cell, f = 0.5 1 1.5 2.
 inline Stream example() {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   for (size_t i = 0; i < 4; ++i) {
     const float f = 0.5f * static_cast<float>(i + 1);
     std::memcpy(s.batches[0].field(0, i), &f, sizeof f);

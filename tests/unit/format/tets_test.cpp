@@ -44,7 +44,7 @@ TEST(Tets, KeepsFloat64PositionsWithManyFieldsAndCellArrays) {
 }
 
 TEST(Tets, KeepsNotANumberAndInfinityToTheLastBit) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   const uint32_t odd[4] = {0x7fc12345u, 0xffc00001u, 0x7f800000u, 0x80000000u};
   for (size_t i = 0; i < 4; ++i) std::memcpy(s.batches[0].field(0, i), &odd[i], 4);
   expectKept(std::move(s));
@@ -86,7 +86,7 @@ TEST(Tets, KeepsAnEmptyMesh) {
 }
 
 TEST(Tets, KeepsOneCell) {
-  expectKept(oneCell());
+  expectKept(oneCellStream());
 }
 
 TEST(Tets, KeepsVerticesWithoutCells) {
@@ -199,7 +199,7 @@ TEST(Tets, FilesCarryWhatTheStreamDidNotKnowBeforehand) {
 }
 
 TEST(Tets, PipesCarryWhatTheStreamKnewBeforehand) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   s.schema.cell_count = 1;
   s.schema.front_width = 4;
   s.schema.box_min = {0, 0, 0, -9};
@@ -213,7 +213,7 @@ TEST(Tets, PipesCarryWhatTheStreamKnewBeforehand) {
 }
 
 TEST(Tets, RefusesToFinishWithOtherCountsThanAnnounced) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   s.schema.cell_count = 2;
   EXPECT_THROW(write(s), Error);
   EXPECT_THROW(writePiped(s), Error);
@@ -232,14 +232,14 @@ TEST(Tets, RefusesSchemasThatItCannotHold) {
 }
 
 TEST(Tets, RefusesStreamsThatNameUnknownVertices) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   s.batches[0].cell(0)[1] = 4;
   EXPECT_THROW(write(s), Error);
-  s = oneCell();
+  s = oneCellStream();
   const int64_t face[3] = {0, 1, 4};
   s.batches[0].addFace(face, 1);
   EXPECT_THROW(write(s), Error);
-  s = oneCell();
+  s = oneCellStream();
   s.batches[0].addFinalized(-1);
   EXPECT_THROW(write(s), Error);
 }
@@ -291,7 +291,7 @@ TEST(Tets, ColumnsOfAPlainChunkStandOnMultiplesOf64InTheFile) {
 }
 
 TEST(Tets, ReadsIdsOf64Bits) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   std::vector<Section> sections = sectionsOf(write(s));
   Section& chunk = sections[1];
   ASSERT_EQ(chunk.head.flags & tets::kChunkWideCells, 0u);
@@ -305,7 +305,7 @@ TEST(Tets, ReadsIdsOf64Bits) {
 
 // Vertex 0 in a cell of the chunk that begins with vertex 2^40.
 TEST(Tets, WritesIdsOf64BitsWhereADifferenceDoesNotFit) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   tets::ChunkBuilder chunk(s.schema);
   tets::IndexEntry entry;
   for (const int64_t near : {(int64_t{1} << 40) - (int64_t{1} << 31), int64_t{0}}) {
@@ -335,7 +335,7 @@ TEST(Tets, WritesIdsOf64BitsWhereADifferenceDoesNotFit) {
 }
 
 TEST(Tets, SkipsSectionsThatItDoesNotKnow) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   const std::vector<Section> sections = sectionsOf(write(s));
   ASSERT_EQ(sections.size(), 5u);
   for (size_t place = 1; place < sections.size(); ++place) {
@@ -355,7 +355,7 @@ TEST(Tets, SkipsSectionsThatItDoesNotKnow) {
 }
 
 TEST(Tets, ReadsWhatLaterVersionsAppendToIndexAndTotals) {
-  Stream s = oneCell();
+  Stream s = oneCellStream();
   std::vector<Section> sections = sectionsOf(write(s));
   tets::IndexOwn own = sections[2].head.get<tets::IndexOwn>();
   own.entry_bytes += 64;

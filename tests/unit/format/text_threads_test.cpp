@@ -95,15 +95,15 @@ std::string faceText() {
   return text;
 }
 
-const TextFormat kFormats[] = {{"mesh", openMedit, meshText(), '#'},
-                               {"msh 2.2", openMsh, msh2Text()},
-                               {"msh 4.1", openMsh, msh4Text()},
-                               {"su2", openSu2, su2Text(), '%'}};
+const TextFormat kTextFormats[] = {{"mesh", openMedit, meshText(), '#'},
+                                   {"msh 2.2", openMsh, msh2Text()},
+                                   {"msh 4.1", openMsh, msh4Text()},
+                                   {"su2", openSu2, su2Text(), '%'}};
 
 // --------------------------------------------------------------------------------------- the tests
 
 TEST(TextThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kTextFormats) {
     SCOPED_TRACE(format.name);
     const std::string mesh = outcomeOf(format.opening());
     EXPECT_NE(mesh.substr(0, 6), "error:") << mesh.substr(0, 200);
@@ -115,7 +115,7 @@ TEST(TextThreads, GiveTheMeshOfOneThreadWhereverTheTextIsCut) {
 }
 
 TEST(TextThreads, KnowEveryWayToEndALine) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kTextFormats) {
     SCOPED_TRACE(format.name);
     const std::string mesh = outcomeOf(format.opening());
     std::vector<std::string> lines = linesOf(format.text);
@@ -139,7 +139,7 @@ TEST(TextThreads, KnowEveryWayToEndALine) {
 
 // Rows need not stand in lines of their own, where the rest of a line means nothing.
 TEST(TextThreads, ReadRowsThatShareLinesOrRunOverSeveral) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kTextFormats) {
     if (std::strcmp(format.name, "su2") == 0) continue;
     SCOPED_TRACE(format.name);
     const std::string mesh = outcomeOf(format.opening());
@@ -152,7 +152,7 @@ TEST(TextThreads, ReadRowsThatShareLinesOrRunOverSeveral) {
 }
 
 TEST(TextThreads, FindTheFirstBadLineOfOneThread) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kTextFormats) {
     SCOPED_TRACE(format.name);
     const std::vector<std::string> lines = linesOf(format.text);
     size_t errors = 0, tried = 0;
@@ -169,7 +169,7 @@ TEST(TextThreads, FindTheFirstBadLineOfOneThread) {
 }
 
 TEST(TextThreads, StopWhereATextIsCutOff) {
-  expectSameWhereverCutOff(kFormats);
+  expectSameWhereverCutOff(kTextFormats);
 }
 
 // Bytes that cannot be read from some place on.
@@ -194,7 +194,7 @@ class FailingBytes final : public ByteSource {
 };
 
 TEST(TextThreads, SayThatReadingFailedOnlyAfterWhatIsWrongBefore) {
-  for (const TextFormat& format : kFormats) {
+  for (const TextFormat& format : kTextFormats) {
     SCOPED_TRACE(format.name);
     const size_t place = format.text.size() * 3 / 4;
     std::string damaged = format.text;
@@ -212,7 +212,7 @@ TEST(TextThreads, SayThatReadingFailedOnlyAfterWhatIsWrongBefore) {
 }
 
 TEST(TextThreads, NeedNobodyWhoComes) {
-  expectSameWhoeverComes(kFormats);
+  expectSameWhoeverComes(kTextFormats);
 }
 
 // A long text, of which it is known how far it was read.

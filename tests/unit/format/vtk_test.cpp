@@ -8,7 +8,7 @@
 #include "status.h"
 #include "vtk_writer.h"
 #include "vtu_encode.h"
-#include "vtu_read.h"
+#include "vtu_mesh_testing.h"
 
 namespace tetstream {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 using namespace test;
 
 // As an old program might write it, with everything that may stand between.
-const char* const kText =
+const char* const kOldVtkText =
     "# vtk DataFile Version 2.0\n"
     "a title\n"
     "ASCII\n"
@@ -69,23 +69,9 @@ const char* const kText =
     "LOOKUP_TABLE default\n"
     "7 8 9 250\n";
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-bool hasNote(const VtuMesh& mesh, const std::string& text) {
-  return std::any_of(mesh.notes.begin(), mesh.notes.end(),
-                     [&](const std::string& note) { return has(note, text); });
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  return at == std::string::npos ? "not found: " + from : text.replace(at, from.size(), to);
-}
-
 TEST(Vtk, ReadsWhatOldProgramsWrite) {
   for (const size_t step : {1, 2, 1000}) {
-    const VtuMesh mesh = readAs("vtk", kText, step);
+    const VtuMesh mesh = readAs("vtk", kOldVtkText, step);
     EXPECT_EQ(mesh.schema.position_type, ScalarType::kFloat64);
     EXPECT_EQ(valuesAs<double>(mesh.positions)[14], 1.25);
     EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 1, 2, 3, 4}));
@@ -130,7 +116,7 @@ std::string binaryFile(const std::string& version, const std::string& cells) {
          big<float>({1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9}) + "\n";
 }
 
-const std::string kRows = "CELLS 2 10\n" + big<int32_t>({4, 0, 1, 2, 3, 4, 1, 2, 3, 4}) + "\n";
+const std::string kCellRows = "CELLS 2 10\n" + big<int32_t>({4, 0, 1, 2, 3, 4, 1, 2, 3, 4}) + "\n";
 
 template <class T>
 std::string offsetsAs(const std::string& type) {
@@ -142,7 +128,7 @@ const std::string kNarrow = offsetsAs<int32_t>("vtktypeint32");  // as meshio wr
 
 TEST(Vtk, ReadsBinaryOfBothFormsOfCells) {
   for (const std::string& file :
-       {binaryFile("4.2", kRows), binaryFile("5.1", kOffsets), binaryFile("5.1", kNarrow)})
+       {binaryFile("4.2", kCellRows), binaryFile("5.1", kOffsets), binaryFile("5.1", kNarrow)})
     for (const size_t step : {1, 1000}) {
       const VtuMesh mesh = readAs("vtk", file, step);
       EXPECT_EQ(valuesAs<float>(mesh.positions)[12], 1);
@@ -180,14 +166,14 @@ TEST(Vtk, SaysWhereAFileIsWrong) {
       {"1.25e0", "1.25f0", "\"1.25f0\" is no number"},
   };
   for (const auto& c : cases) {
-    const std::string text = failureAs("vtk", replaced(kText, c.from, c.to));
+    const std::string text = failureAs("vtk", replaced(kOldVtkText, c.from, c.to));
     EXPECT_TRUE(has(text, c.says)) << c.from << " -> " << c.to << ": " << text;
   }
   EXPECT_TRUE(has(failureAs("vtk", ""), "BAD_DATA: test.vtk: byte 0"));
 }
 
 TEST(Vtk, RefusesClaimsThatTheFileCannotHold) {
-  const std::string good = binaryFile("4.2", kRows), late = binaryFile("5.1", kOffsets);
+  const std::string good = binaryFile("4.2", kCellRows), late = binaryFile("5.1", kOffsets);
   for (const char* count : {"1152921504606846976", "72057594037927936", "4294967296", "2000"}) {
     for (const char* name : {"POINTS ", "CELL_TYPES ", "POINT_DATA ", "CELL_DATA "}) {
       const std::string bad = replaced(good, name, std::string(name) + count + " ");
@@ -201,7 +187,7 @@ TEST(Vtk, RefusesClaimsThatTheFileCannotHold) {
   }
 }
 
-void damageEverywhere(const std::string& good) {
+void damageVtkEverywhere(const std::string& good) {
   ASSERT_EQ(failureAs("vtk", good), "");
   const auto expectSafe = [](const std::string& file, const std::string& where) {
     const std::string text = failureAs("vtk", file);
@@ -219,9 +205,9 @@ void damageEverywhere(const std::string& good) {
 }
 
 TEST(Vtk, SurvivesDamage) {
-  damageEverywhere(kText);
-  damageEverywhere(binaryFile("4.2", kRows));
-  damageEverywhere(binaryFile("5.1", kOffsets));
+  damageVtkEverywhere(kOldVtkText);
+  damageVtkEverywhere(binaryFile("4.2", kCellRows));
+  damageVtkEverywhere(binaryFile("5.1", kOffsets));
 }
 
 TEST(Vtk, WrittenInEitherVersionGivesBackEveryArray) {

@@ -10,16 +10,12 @@
 #include "slow_run.h"
 #include "status.h"
 #include "vtu_encode.h"
-#include "vtu_read.h"
+#include "vtu_mesh_testing.h"
 
 namespace tetstream {
 namespace {
 
 using namespace test;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 template <class T>
 void add(Hdf5File& file, const std::string& path, ValueType type, int components,
@@ -40,7 +36,7 @@ struct Parts {
 };
 
 // Two tetrahedra that share a face, in two partitions, and a triangle.
-std::string makeFile(const Parts& parts, const std::function<void(Hdf5File&)>& more = nullptr) {
+std::string makeVtkHdf(const Parts& parts, const std::function<void(Hdf5File&)>& more = nullptr) {
   std::string bytes;
   Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
   {
@@ -67,7 +63,7 @@ std::string makeFile(const Parts& parts, const std::function<void(Hdf5File&)>& m
 
 TEST(VtkHdf, JoinsPartitions) {
   for (const size_t step : {1, 1000}) {
-    const VtuMesh mesh = readAs("vtkhdf", makeFile({}), step);
+    const VtuMesh mesh = readAs("vtkhdf", makeVtkHdf({}), step);
     EXPECT_EQ(mesh.schema.vertex_count, 5);
     EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 0, 1, 2, 4}));
     EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{1, 2, 3, 4, 5}));
@@ -81,7 +77,7 @@ TEST(VtkHdf, JoinsPartitions) {
 // Three time steps: of the first two the mesh is the same, the last has one of its own.
 TEST(VtkHdf, ReadsOneTimeStep) {
   const Parts parts;
-  const auto file = makeFile(parts, [](Hdf5File& out) {
+  const auto file = makeVtkHdf(parts, [](Hdf5File& out) {
     out.createGroup("VTKHDF/Steps");
     out.createGroup("VTKHDF/Steps/PointDataOffsets");
     out.createGroup("VTKHDF/Steps/CellDataOffsets");
@@ -136,7 +132,7 @@ TEST(VtkHdf, SplitsCellsOfPartitionsAlikeWhereTheyMeet) {
                      1, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 1, 2, 0, 0, 2, 0, 1, 2, 1, 1, 2, 1, 0};
   ReadOptions options;
   options.split = true;
-  const VtuMesh mesh = readAs("vtkhdf", makeFile(parts), 5, options);
+  const VtuMesh mesh = readAs("vtkhdf", makeVtkHdf(parts), 5, options);
   EXPECT_EQ(mesh.schema.vertex_count, 12);
   EXPECT_EQ(mesh.schema.cell_count, 12);
   std::map<std::set<int64_t>, int> triangles;
@@ -183,7 +179,7 @@ TEST(VtkHdf, SaysWhatIsWrong) {
   const auto failure = [](const std::function<void(Parts&)>& change) {
     Parts parts;
     change(parts);
-    return failureAs("vtkhdf", makeFile(parts));
+    return failureAs("vtkhdf", makeVtkHdf(parts));
   };
   EXPECT_TRUE(has(failureAs("vtkhdf", "no HDF5 at all"), "BAD_DATA: test.vtkhdf: this is no HDF5"));
   EXPECT_TRUE(has(failureAs("vtkhdf", ""), "BAD_DATA: test.vtkhdf: this is no HDF5"));
@@ -222,7 +218,7 @@ TEST(VtkHdf, RefusesSpaceThatWasNeverWritten) {
 }
 
 TEST(VtkHdf, RefusesFilesThatAreCut) {
-  const std::string good = makeFile({});
+  const std::string good = makeVtkHdf({});
   for (size_t size = 0; size < good.size(); size += 13 * oneIn(5)) {
     const std::string text = failureAs("vtkhdf", good.substr(0, size));
     EXPECT_TRUE(text.starts_with("TETSTREAM_BAD_DATA: test.vtkhdf: ")) << size << ": " << text;
@@ -251,7 +247,7 @@ TEST(VtkHdf, TellsWhatTheStorageSays) {
 }
 
 TEST(VtkHdf, TellsWhatTheStorageSaysWhereTheSizeOfADatasetIsRead) {
-  std::string bytes = makeFile({});
+  std::string bytes = makeVtkHdf({});
   for (int at = 0;; ++at) {
     auto storage = std::make_unique<MemoryStorage>(bytes);
     MemoryStorage& failing = *storage;

@@ -7,28 +7,18 @@
 #include "slow_run.h"
 #include "status.h"
 #include "vtu_encode.h"
-#include "vtu_read.h"
+#include "vtu_mesh_testing.h"
 
 namespace tetstream {
 namespace {
 
 using namespace test;
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const size_t at = text.find(from);
-  if (at == std::string::npos) return "not found: " + from;
-  return text.replace(at, from.size(), to);
-}
-
-const std::vector<VtuStyle> kStyles = {{},
-                                       {VtuCoding::kInline},
-                                       {VtuCoding::kAppendedBase64, true},
-                                       {VtuCoding::kAppendedRaw},
-                                       {VtuCoding::kAppendedRaw, true, false, 64, 16}};
+const std::vector<VtuStyle> kErrorStyles = {{},
+                                            {VtuCoding::kInline},
+                                            {VtuCoding::kAppendedBase64, true},
+                                            {VtuCoding::kAppendedRaw},
+                                            {VtuCoding::kAppendedRaw, true, false, 64, 16}};
 
 TEST(VtuErrors, NamesACellThatIsNoTetrahedron) {
   VtuTestPiece piece = twoCellPiece();
@@ -36,7 +26,7 @@ TEST(VtuErrors, NamesACellThatIsNoTetrahedron) {
   VtuTestPiece longer = piece;  // a connectivity that does not fit four per cell says the same
   longer.cells_element[0].integers = {0, 1, 2, 3, 0, 1, 2, 3, 4, 0, 1, 2};
   longer.cells_element[1].integers = {4, 12};
-  for (const VtuStyle& style : kStyles)
+  for (const VtuStyle& style : kErrorStyles)
     for (const VtuTestPiece& p : {piece, longer}) {
       const std::string text = vtuFailure(makeVtu({twoCellPiece(), p}, style));
       EXPECT_TRUE(has(text, "TETSTREAM_UNSUPPORTED: test.vtu: cell 3 has VTK's type 12")) << text;
@@ -48,7 +38,7 @@ TEST(VtuErrors, NamesACellWithAWrongOffsetOrPoint) {
   offset.cells_element[1].integers = {4, 9};
   high.cells_element[0].integers[5] = 5;
   negative.cells_element[0].integers[4] = -1;
-  for (const VtuStyle& style : kStyles) {
+  for (const VtuStyle& style : kErrorStyles) {
     std::string text = vtuFailure(makeVtu({offset}, style));
     EXPECT_TRUE(has(text, "BAD_DATA: test.vtu: the offset of cell 1 is 9")) << text;
     text = vtuFailure(makeVtu({twoCellPiece(), high}, style));  // 5 is a point, of another piece
@@ -61,7 +51,7 @@ TEST(VtuErrors, NamesACellWithAWrongOffsetOrPoint) {
 TEST(VtuErrors, RefusesCountsThatTheFileCannotHold) {
   for (const char* count :
        {"2000", "2305843009213693952", "72057594037927936", "99999999999999999999", "-1", "", "5x"})
-    for (const VtuStyle& style : kStyles)
+    for (const VtuStyle& style : kErrorStyles)
       for (const char* name : {"NumberOfPoints=\"5  ", "NumberOfCells=\"2"}) {
         const std::string key = std::string(name).substr(0, std::string(name).find('"') + 1);
         const std::string text =
@@ -174,7 +164,7 @@ void expectSafe(const std::string& file, const std::string& where) {
   }
 }
 
-void damageEverywhere(const VtuStyle& style) {
+void damageVtuEverywhere(const VtuStyle& style) {
   const std::string good = damageable(style);
   ASSERT_EQ(vtuFailure(good), "");
   for (size_t size = 0; size < good.size(); size += oneIn(5))
@@ -213,17 +203,17 @@ TEST(VtuErrors, NamesThePlaceOfWhatIsNoXmlBehindLongTexts) {
 }
 
 TEST(VtuErrors, SurvivesDamageToAscii) {
-  damageEverywhere({});
+  damageVtuEverywhere({});
 }
 TEST(VtuErrors, SurvivesDamageToAppendedBase64WithZlib) {
-  damageEverywhere({VtuCoding::kAppendedBase64, true, false, 32, 8});
+  damageVtuEverywhere({VtuCoding::kAppendedBase64, true, false, 32, 8});
 }
 TEST(VtuErrors, SurvivesDamageToAppendedRawWithZlibAndLongWords) {
-  damageEverywhere({VtuCoding::kAppendedRaw, true, false, 64, 8});
+  damageVtuEverywhere({VtuCoding::kAppendedRaw, true, false, 64, 8});
 }
 
 TEST(VtuErrors, TruncationNeverPassesForAWholeMesh) {
-  for (const VtuStyle& style : kStyles) {
+  for (const VtuStyle& style : kErrorStyles) {
     const std::string good = makeVtu({twoCellPiece()}, style);
     const size_t tail = style.coding >= VtuCoding::kAppendedBase64
                             ? good.size() - good.rfind("\n</AppendedData>")

@@ -3,20 +3,20 @@
 
 #include "status.h"
 #include "vtu_encode.h"
-#include "vtu_read.h"
+#include "vtu_mesh_testing.h"
 
 namespace tetstream {
 namespace {
 
 using namespace test;
 
-const std::vector<VtuStyle> kStyles = {{},
-                                       {VtuCoding::kAscii, true},
-                                       {VtuCoding::kInline},
-                                       {VtuCoding::kInline, true, true},
-                                       {VtuCoding::kAppendedBase64, true, false, 32, 16},
-                                       {VtuCoding::kAppendedRaw},
-                                       {VtuCoding::kAppendedRaw, true, false, 64, 16}};
+const std::vector<VtuStyle> kFaceStyles = {{},
+                                           {VtuCoding::kAscii, true},
+                                           {VtuCoding::kInline},
+                                           {VtuCoding::kInline, true, true},
+                                           {VtuCoding::kAppendedBase64, true, false, 32, 16},
+                                           {VtuCoding::kAppendedRaw},
+                                           {VtuCoding::kAppendedRaw, true, false, 64, 16}};
 
 // The two cells, and triangles in front, between and behind.
 VtuTestPiece mixedPiece() {
@@ -31,12 +31,8 @@ VtuTestPiece mixedPiece() {
   return piece;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(VtuFaces, AreTrianglesLabelledByTheArrayOfRegions) {
-  for (const VtuStyle& style : kStyles)
+  for (const VtuStyle& style : kFaceStyles)
     for (size_t step : {1, 1000}) {
       const VtuMesh mesh = readVtu(makeVtu({mixedPiece()}, style), step);
       EXPECT_EQ(mesh.schema.cell_count, 2);
@@ -96,7 +92,7 @@ TEST(VtuFaces, WithoutLabelsAreLeftOutWithANote) {
 }
 
 TEST(VtuFaces, ThatAreBrokenAreNamed) {
-  for (const VtuStyle& style : kStyles) {
+  for (const VtuStyle& style : kFaceStyles) {
     VtuTestPiece piece = mixedPiece();
     piece.cells_element[1].integers[3] = 14;
     EXPECT_TRUE(has(vtuFailure(makeVtu({piece}, style)),

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "status.h"
-#include "vtu_read.h"
+#include "vtu_mesh_testing.h"
 
 namespace tetstream {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 using namespace test;
 
 template <class T>
-std::string bytesOf(const std::vector<T>& values, bool turned = false) {
+std::string bytesOfNumbers(const std::vector<T>& values, bool turned = false) {
   std::string bytes;
   for (const T& value : values) {
     std::string one(reinterpret_cast<const char*>(&value), sizeof value);
@@ -24,17 +24,12 @@ std::string bytesOf(const std::vector<T>& values, bool turned = false) {
   return bytes;
 }
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 std::string item(const std::string& sizes, const std::string& words, const std::string& text) {
   return "<DataItem Dimensions=\"" + sizes + "\" " + words + ">" + text + "</DataItem>";
 }
 
 const std::string kTextPoints = item("5 3", "Precision=\"8\"", "0 0 0 1 0 0 0 1 0 0 0 1 1 1 1");
 const std::string kTextCells = item("2 4", "NumberType=\"Int\"", "0 1 2 3 1 2 3 4");
-const std::vector<int64_t> kTwoCells = {0, 1, 2, 3, 1, 2, 3, 4};
 
 std::string file(const std::string& cells, const std::string& points,
                  const std::string& more = "") {
@@ -69,8 +64,8 @@ TEST_F(XdmfRaw, NumbersOfAnyTypeAndByteOrderAreReadWhereTheyLie) {
   const std::vector<int64_t> wide(kTwoCells);
   const std::vector<uint8_t> narrow(kTwoCells.begin(), kTwoCells.end());
   const std::vector<int16_t> few(kTwoCells.begin(), kTwoCells.end());
-  write(bytesOf(points) + bytesOf(points, true) + bytesOf(wide, true) + bytesOf(narrow) +
-        bytesOf(few));
+  write(bytesOfNumbers(points) + bytesOfNumbers(points, true) + bytesOfNumbers(wide, true) +
+        bytesOfNumbers(narrow) + bytesOfNumbers(few));
   const std::string cells[] = {
       raw("2 4", "NumberType=\"Int\" Precision=\"8\" Endian=\"Big\" Seek=\"240\""),
       raw("8", "NumberType=\"UChar\" Seek=\"304\""),
@@ -87,7 +82,7 @@ TEST_F(XdmfRaw, NumbersOfAnyTypeAndByteOrderAreReadWhereTheyLie) {
 }
 
 TEST_F(XdmfRaw, SaysWhatIsWrong) {
-  write(bytesOf(std::vector<float>(15)));
+  write(bytesOfNumbers(std::vector<float>(15)));
   const auto failure = [&](const std::string& sizes, const std::string& words) {
     return failureAs("xdmf", file(kTextCells, raw(sizes, words)));
   };
@@ -111,7 +106,7 @@ TEST_F(XdmfRaw, SlabsAreCutOutOfTextAndOfRawFiles) {
   const double points[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
   for (size_t i = 0; i < 15; ++i)
     rows[(2 * (i / 3) + 1) * 7 + 4 + i % 3] = static_cast<float>(points[i]);
-  write(bytesOf(rows));
+  write(bytesOfNumbers(rows));
   const std::string cut = slab("5 3", "1 4 2 1\n5 3", "2", raw("10 7", ""));
   // The last numbers of the rows of the first of two tables.
   const std::string last =
@@ -136,7 +131,7 @@ TEST_F(XdmfRaw, SlabsAreCutOutOfTextAndOfRawFiles) {
 TEST_F(XdmfRaw, LongSlabsGiveTheSameWhereverTheyAreRead) {
   std::vector<float> rows(3000 * 6);
   for (size_t i = 0; i < rows.size(); ++i) rows[i] = static_cast<float>(i);
-  write(bytesOf(rows));
+  write(bytesOfNumbers(rows));
   std::string points;
   for (int i = 0; i < 3000; ++i) points += "0 " + std::to_string(i % 7) + " 1 ";
   const struct {

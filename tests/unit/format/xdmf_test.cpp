@@ -2,22 +2,12 @@
 #include <gtest/gtest.h>
 
 #include "status.h"
-#include "vtu_read.h"
+#include "vtu_mesh_testing.h"
 
 namespace tetstream {
 namespace {
 
 using namespace test;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
-bool hasNote(const VtuMesh& mesh, const std::string& text) {
-  for (const std::string& note : mesh.notes)
-    if (has(note, text)) return true;
-  return false;
-}
 
 std::string file(const std::string& grids) {
   return "<?xml version=\"1.0\"?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>\n<Xdmf Version=\"3.0\" "
@@ -25,10 +15,10 @@ std::string file(const std::string& grids) {
          grids + "</Domain></Xdmf>";
 }
 
-const std::string kPoints =
+const std::string kXdmfPoints =
     "<Geometry GeometryType=\"XYZ\"><DataItem Dimensions=\"5 3\" NumberType=\"Float\" "
     "Precision=\"8\" Format=\"XML\">0 0 0 1 0 0 0 1 0 0 0 1 1 1 1</DataItem></Geometry>";
-const std::string kCells =
+const std::string kXdmfCells =
     "<Topology TopologyType=\"Tetrahedron\" NumberOfElements=\"2\"><DataItem Dimensions=\"2 4\" "
     "NumberType=\"Int\" Format=\"XML\">0 1 2 3 1 2 3 4</DataItem></Topology>";
 
@@ -48,12 +38,10 @@ std::string collection(const std::string& name, const char* type, const std::str
          grids + "</Grid>";
 }
 
-const std::vector<int64_t> kTwoCells = {0, 1, 2, 3, 1, 2, 3, 4};
-
 TEST(Xdmf, OneGridIsReadWithItsValues) {
-  const std::string text = file(uniform("mesh", kCells + kPoints + attribute("p", "1 2 3 4 5") +
-                                                    attribute("rho", "7 8", "Cell", "2 1") +
-                                                    attribute("g", "1", "Grid", "1")));
+  const std::string text = file(uniform(
+      "mesh", kXdmfCells + kXdmfPoints + attribute("p", "1 2 3 4 5") +
+                  attribute("rho", "7 8", "Cell", "2 1") + attribute("g", "1", "Grid", "1")));
   for (const size_t step : {1, 1000}) {
     const VtuMesh mesh = readAs("xdmf", text, step);
     EXPECT_EQ(mesh.schema.position_type, ScalarType::kFloat64);
@@ -75,7 +63,7 @@ TEST(Xdmf, StepsIncludeTheirMeshAndFunctionsOnItJoin) {
     return uniform(name, include + "<Time Value=\"" + time + "\"/>" + attribute(name, values));
   };
   const std::string text = file(
-      uniform("mesh", kCells + kPoints) +
+      uniform("mesh", kXdmfCells + kXdmfPoints) +
       collection("u", "Temporal", step("u", "0", "1 2 3 4 5") + step("u", "0.5", "6 7 8 9 10")) +
       collection("v", "Temporal", step("v", "0", "0 0 0 0 0") + step("v", "0.5", "1 1 1 1 1")) +
       collection("w", "Temporal", step("w", "0", "0 0 0 0 0")));
@@ -100,9 +88,10 @@ TEST(Xdmf, StepsIncludeTheMeshOfTheFirst) {
       "<xi:include xpointer=\"xpointer(//Grid[@Name='all']/Grid[1]/*[self::Topology or "
       "self::Geometry])\"/>";
   const VtuMesh mesh = readAs(
-      "xdmf", file(collection("all", "Temporal",
-                              uniform("mesh", kCells + kPoints + attribute("u", "1 2 3 4 5")) +
-                                  uniform("mesh", include + attribute("u", "2 3 4 5 6")))));
+      "xdmf",
+      file(collection("all", "Temporal",
+                      uniform("mesh", kXdmfCells + kXdmfPoints + attribute("u", "1 2 3 4 5")) +
+                          uniform("mesh", include + attribute("u", "2 3 4 5 6")))));
   EXPECT_EQ(mesh.cells, kTwoCells);
   EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{2, 3, 4, 5, 6}));
 }
@@ -117,7 +106,7 @@ TEST(Xdmf, CellsOfSeveralTypesAreSplitAndFacesLabelled) {
   const std::string label =
       "<Attribute Name=\"tag\" Center=\"Cell\"><DataItem Dimensions=\"4\" NumberType=\"Int\" "
       "Format=\"XML\">7 8 9 10</DataItem></Attribute>";
-  const std::string text = file(uniform("m", mixed + kPoints + label));
+  const std::string text = file(uniform("m", mixed + kXdmfPoints + label));
   EXPECT_TRUE(has(failureAs("xdmf", text), "cell 2 has VTK's type 14, a pyramid; only tetra"));
   ReadOptions options;
   options.split = true;
@@ -126,13 +115,13 @@ TEST(Xdmf, CellsOfSeveralTypesAreSplitAndFacesLabelled) {
   EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]), (std::vector<int32_t>{7, 9, 9}));
   EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{8}));
   EXPECT_TRUE(
-      has(failureAs("xdmf", file(uniform("m", bad + kPoints))), "cell 1 is not there in full"));
+      has(failureAs("xdmf", file(uniform("m", bad + kXdmfPoints))), "cell 1 is not there in full"));
 }
 
 TEST(Xdmf, GridsInSpaceAreJoined) {
-  const VtuMesh mesh = readAs(
-      "xdmf", file(collection("parts", "Spatial",
-                              uniform("a", kCells + kPoints) + uniform("b", kCells + kPoints))));
+  const VtuMesh mesh = readAs("xdmf", file(collection("parts", "Spatial",
+                                                      uniform("a", kXdmfCells + kXdmfPoints) +
+                                                          uniform("b", kXdmfCells + kXdmfPoints))));
   EXPECT_EQ(mesh.schema.vertex_count, 5);
   EXPECT_EQ(mesh.schema.cell_count, 4);
 }
@@ -146,22 +135,27 @@ TEST(Xdmf, SaysWhatIsWrong) {
   };
   EXPECT_TRUE(has(failureAs("xdmf", "<VTKFile/>"), "this is no XDMF file"));
   EXPECT_TRUE(has(failureAs("xdmf", file("")), "there is no grid with cells"));
-  EXPECT_TRUE(has(failure(kPoints), "there is no grid with cells"));
-  EXPECT_TRUE(has(failure(kCells), "has no topology or no geometry"));
+  EXPECT_TRUE(has(failure(kXdmfPoints), "there is no grid with cells"));
+  EXPECT_TRUE(has(failure(kXdmfCells), "has no topology or no geometry"));
+  EXPECT_TRUE(has(failure(kXdmfCells + replaced(kXdmfPoints, "XYZ", "XY")),
+                  "\"XY\" has no third coordinate"));
+  EXPECT_TRUE(has(failure(kXdmfCells + replaced(kXdmfPoints, "5 3", "5 4")), "three coordinates"));
+  EXPECT_TRUE(has(failure(kXdmfCells + replaced(kXdmfPoints, "5 3", "5 -3")), "are none"));
   EXPECT_TRUE(
-      has(failure(kCells + replaced(kPoints, "XYZ", "XY")), "\"XY\" has no third coordinate"));
-  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "5 4")), "three coordinates"));
-  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "5 -3")), "are none"));
-  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "1152921504606846976 3")), "are none"));
-  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "5 3", "72057594037927936 3")), "BAD_DATA"));
-  EXPECT_TRUE(has(failure(kCells + replaced(kPoints, "XML", "XLS")), "\"XLS\" are not read"));
-  EXPECT_TRUE(has(failure(replaced(kCells, "2 4", "7") + kPoints), "are not 4 nodes to a cell"));
-  EXPECT_TRUE(has(failure(replaced(kCells, "3 4<", "3 5<") + kPoints), "cell 1 uses point 5"));
+      has(failure(kXdmfCells + replaced(kXdmfPoints, "5 3", "1152921504606846976 3")), "are none"));
   EXPECT_TRUE(
-      has(failure(kCells + kPoints + attribute("p", "1 2", "Node", "2")), "2 values for 5"));
+      has(failure(kXdmfCells + replaced(kXdmfPoints, "5 3", "72057594037927936 3")), "BAD_DATA"));
+  EXPECT_TRUE(
+      has(failure(kXdmfCells + replaced(kXdmfPoints, "XML", "XLS")), "\"XLS\" are not read"));
+  EXPECT_TRUE(
+      has(failure(replaced(kXdmfCells, "2 4", "7") + kXdmfPoints), "are not 4 nodes to a cell"));
+  EXPECT_TRUE(
+      has(failure(replaced(kXdmfCells, "3 4<", "3 5<") + kXdmfPoints), "cell 1 uses point 5"));
+  EXPECT_TRUE(has(failure(kXdmfCells + kXdmfPoints + attribute("p", "1 2", "Node", "2")),
+                  "2 values for 5"));
   EXPECT_TRUE(has(failureAs("xdmf", "<!DOCTYPE Xdmf [<!ENTITY a \"b\">]><Xdmf/>"),
                   "declarations of entities are not read"));
-  const std::string good = file(uniform("m", kCells + kPoints));
+  const std::string good = file(uniform("m", kXdmfCells + kXdmfPoints));
   for (size_t size = 0; size < good.size(); ++size)
     EXPECT_TRUE(failureAs("xdmf", good.substr(0, size)).starts_with("TETSTREAM_BAD_DATA")) << size;
 }

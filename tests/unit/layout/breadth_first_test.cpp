@@ -11,8 +11,8 @@
 namespace tetstream::test {
 namespace {
 
-struct Ordered {
-  explicit Ordered(const TestMesh& test_mesh) : mesh(test_mesh) {
+struct BreadthFirstOrder {
+  explicit BreadthFirstOrder(const TestMesh& test_mesh) : mesh(test_mesh) {
     orderBreadthFirst(
         mesh.connectivity, account, [this] { ++told; }, rank);
   }
@@ -35,7 +35,7 @@ bool completes(const Connectivity& mesh, const Array<uint32_t>& rank, uint32_t v
 }
 
 TEST(BreadthFirst, theNextVertexIsANeighbourOfTheOldestAndCompletesACellIfOneDoes) {
-  const Ordered ordered(shuffled(fullGrid(2, 3, 4), 4));
+  const BreadthFirstOrder ordered(shuffled(fullGrid(2, 3, 4), 4));
   const Connectivity& mesh = ordered.mesh.connectivity;
   const auto neighbours = neighboursOf(mesh);
   std::vector<uint32_t> at(mesh.vertices);
@@ -59,7 +59,7 @@ TEST(BreadthFirst, theNextVertexIsANeighbourOfTheOldestAndCompletesACellIfOneDoe
 
 TEST(BreadthFirst, theSpanIsAtMostOneAndAHalfTimesTheWidthOfABar) {
   const int n = slowRun() ? 3 : 6;
-  Ordered ordered(shuffled(fullGrid(n, n, 8 * n), 1));
+  BreadthFirstOrder ordered(shuffled(fullGrid(n, n, 8 * n), 1));
   const OrderFront front = ordered.front();
   EXPECT_LE(2 * front.front_span, 3 * front.front_width);
   // Fronts run along the bar: a cross-section has (n + 1)^2 vertices, a skew one two or three
@@ -70,7 +70,7 @@ TEST(BreadthFirst, theSpanIsAtMostOneAndAHalfTimesTheWidthOfABar) {
 
 TEST(BreadthFirst, beginsOnTheBoundaryAtAnEnd) {
   const TestMesh bar = fullGrid(3, 3, 24);
-  const Ordered ordered(bar);
+  const BreadthFirstOrder ordered(bar);
   for (uint32_t v = 0; v < bar.vertexCount(); ++v) {
     if (ordered.rank[v] != 0) continue;
     const double z = bar.position(v, 2);
@@ -80,7 +80,7 @@ TEST(BreadthFirst, beginsOnTheBoundaryAtAnEnd) {
 
 TEST(BreadthFirst, ranksEachVertexOnceComponentAfterComponent) {
   for (const TestMesh& mesh : oddMeshes()) {
-    const Ordered ordered(mesh);
+    const BreadthFirstOrder ordered(mesh);
     EXPECT_EQ(ordered.rank.size(), mesh.vertexCount());
     EXPECT_TRUE(isPermutation(ordered.rank));
     EXPECT_TRUE(componentsAreConsecutive(ordered.mesh.connectivity, ordered.rank));
@@ -89,7 +89,7 @@ TEST(BreadthFirst, ranksEachVertexOnceComponentAfterComponent) {
 
 TEST(BreadthFirst, isTheSameTwice) {
   const TestMesh mesh = shuffled(shellGrid(5), 3);
-  const Ordered a(mesh), b(mesh);
+  const BreadthFirstOrder a(mesh), b(mesh);
   EXPECT_TRUE(std::equal(a.rank.data(), a.rank.data() + a.rank.size(), b.rank.data()));
 }
 

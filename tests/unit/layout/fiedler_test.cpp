@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-struct Graph {
-  explicit Graph(const std::vector<std::set<uint32_t>>& of) : first{0} {
+struct ListedGraph {
+  explicit ListedGraph(const std::vector<std::set<uint32_t>>& of) : first{0} {
     for (const auto& list : of) {
       neighbour.insert(neighbour.end(), list.begin(), list.end());
       first.push_back(static_cast<uint32_t>(neighbour.size()));
@@ -27,7 +27,7 @@ struct Graph {
 };
 
 // a x b vertices, each with an edge to the next one along both axes.
-Graph grid(uint32_t a, uint32_t b) {
+ListedGraph grid(uint32_t a, uint32_t b) {
   std::vector<std::set<uint32_t>> of(a * b);
   for (uint32_t i = 0; i < a; ++i)
     for (uint32_t j = 0; j < b; ++j) {
@@ -35,7 +35,7 @@ Graph grid(uint32_t a, uint32_t b) {
       if (j + 1 < b) of[v].insert(v + 1), of[v + 1].insert(v);
       if (i + 1 < a) of[v].insert(v + b), of[v + b].insert(v);
     }
-  return Graph(of);
+  return ListedGraph(of);
 }
 
 // Of a path of n vertices: 2 - 2 cos(pi k / n); of a grid: sums of two of those.
@@ -44,7 +44,7 @@ double ofPath(uint32_t n, uint32_t k) {
 }
 
 struct Solved {
-  explicit Solved(const Graph& graph) {
+  explicit Solved(const ListedGraph& graph) {
     values = lowestVectors(
         graph.view(), account, [] {}, x);
   }
@@ -91,7 +91,7 @@ TEST(Fiedler, vectorsAreOrthonormalAndWithoutAMean) {
 TEST(Fiedler, ofAStarIsFound) {
   std::vector<std::set<uint32_t>> of(400);
   for (uint32_t v = 1; v < 400; ++v) of[0].insert(v), of[v].insert(0);
-  const Solved solved((Graph(of)));  // 1, as often as there are leaves but one
+  const Solved solved((ListedGraph(of)));  // 1, as often as there are leaves but one
   for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(solved.values[k], 1, 1e-2);
 }
 
@@ -106,7 +106,7 @@ double energy(const GraphView& graph, const std::vector<Four>& x, size_t k) {
 }
 
 TEST(Fiedler, aRoughSolutionIsSymmetricAndNearerThanNone) {
-  const Graph graph = grid(20, 30);
+  const ListedGraph graph = grid(20, 30);
   Account account;
   LaplacianLevels levels(graph.view(), account);
   const size_t n = 600;

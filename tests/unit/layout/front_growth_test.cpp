@@ -14,8 +14,8 @@
 namespace tetstream::test {
 namespace {
 
-struct Graph {
-  explicit Graph(const TestMesh& test_mesh) : mesh(test_mesh) {
+struct MeshGraph {
+  explicit MeshGraph(const TestMesh& test_mesh) : mesh(test_mesh) {
     CellLists lists(account);
     listCells(mesh.connectivity, lists);
     buildGraph(mesh.connectivity, lists, account, graph);
@@ -41,7 +41,7 @@ std::vector<float> guideAlong(const TestMesh& mesh, int axis, float factor) {
 
 TEST(FrontGrowth, ofAGridIsAPlaneWide) {
   const TestMesh mesh = shuffled(fullGrid(3, 4, 9), 1);
-  Graph graph(mesh);
+  MeshGraph graph(mesh);
   std::vector<uint32_t> sequence(mesh.vertexCount());
   FrontGrowth growth(graph.view, graph.account);
   const auto guide = guideAlong(mesh, 2, 1);
@@ -58,7 +58,7 @@ TEST(FrontGrowth, ofAGridIsAPlaneWide) {
 // Read backwards it is a stream, in which cells come as late as possible one by one.
 TEST(FrontGrowth, itsWidthBoundsThatOfTheStream) {
   for (const TestMesh& mesh : {fullGrid(3, 4, 5), shellGrid(4), slitGrid(4)}) {
-    Graph graph(mesh);
+    MeshGraph graph(mesh);
     std::vector<uint32_t> sequence(mesh.vertexCount());
     FrontGrowth growth(graph.view, graph.account);
     for (int axis = 0; axis < 3; ++axis) {
@@ -75,7 +75,7 @@ TEST(FrontGrowth, itsWidthBoundsThatOfTheStream) {
 
 TEST(FrontGrowth, withAStrongGuideIsTheGuide) {
   const TestMesh mesh = fullGrid(2, 2, 6);
-  Graph graph(mesh);
+  MeshGraph graph(mesh);
   std::vector<uint32_t> sequence(mesh.vertexCount());
   FrontGrowth growth(graph.view, graph.account);
   const auto guide = guideAlong(mesh, 2, 1000);
@@ -87,7 +87,7 @@ TEST(FrontGrowth, withAStrongGuideIsTheGuide) {
 
 TEST(FrontGrowth, layersRiseAlongTheSequenceByOneAtEachFront) {
   const TestMesh mesh = fullGrid(3, 3, 40);
-  Graph graph(mesh);
+  MeshGraph graph(mesh);
   std::vector<uint32_t> sequence(mesh.vertexCount());
   for (uint32_t i = 0; i < sequence.size(); ++i) sequence[i] = i;
   std::stable_sort(sequence.begin(), sequence.end(), [&](uint32_t a, uint32_t b) {

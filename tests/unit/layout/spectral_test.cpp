@@ -12,8 +12,8 @@
 namespace tetstream::test {
 namespace {
 
-struct Ordered {
-  explicit Ordered(const TestMesh& test_mesh) : mesh(test_mesh) {
+struct SpectralOrder {
+  explicit SpectralOrder(const TestMesh& test_mesh) : mesh(test_mesh) {
     orderSpectral(
         mesh.connectivity, account, [this] { ++told; }, rank);
   }
@@ -33,7 +33,7 @@ struct Ordered {
 TEST(Spectral, sweepsABarAlongItsLongAxis) {
   const int n = slowRun() ? 3 : 6;
   const TestMesh bar = shuffled(fullGrid(n, n, 8 * n, 0.1), 1);
-  Ordered ordered(bar);
+  SpectralOrder ordered(bar);
   EXPECT_LE(ordered.width(), ordered.sweepWidth(2));
   EXPECT_LE(ordered.width(), (n + 1) * (n + 1) + n + 3);  // a cross-section and little more
   // Ranks rise or fall along the axis: fronts are skew by fewer than as many cubes as they have
@@ -55,7 +55,7 @@ TEST(Spectral, isNoWiderThanASweepOfCompactDomains) {
   const int n = slowRun() ? 4 : 8;
   for (const TestMesh& mesh : {fullGrid(n, n, n), shellGrid(n), fullGrid(n, 2 * n, 2 * n),
                                shuffled(fullGrid(n, n + 1, n + 2, 0.1), 7)}) {
-    Ordered ordered(mesh);
+    SpectralOrder ordered(mesh);
     EXPECT_LE(ordered.width(), ordered.bestSweepWidth());
   }
 }
@@ -63,7 +63,7 @@ TEST(Spectral, isNoWiderThanASweepOfCompactDomains) {
 // A tube that turns back twice: a sweep meets three arms at once, or one of them lengthwise.
 TEST(Spectral, followsATubeThatTurns) {
   const int arm = slowRun() ? 12 : 30;
-  Ordered ordered(cubes(11, 3, arm, [arm](int x, int, int z) {
+  SpectralOrder ordered(cubes(11, 3, arm, [arm](int x, int, int z) {
     return x % 4 != 3 || (x == 3 ? z >= arm - 3 : z < 3);
   }));
   EXPECT_LE(2 * ordered.width(), ordered.bestSweepWidth());
@@ -72,16 +72,16 @@ TEST(Spectral, followsATubeThatTurns) {
 TEST(Spectral, doesNotDependOnTheOrderBefore) {
   const int n = slowRun() ? 3 : 5;
   const TestMesh bar = fullGrid(n, n, 5 * n, 0.1);
-  const int64_t width = Ordered(bar).width();
+  const int64_t width = SpectralOrder(bar).width();
   for (uint64_t seed : {1, 2}) {
-    const int64_t other = Ordered(shuffled(bar, seed)).width();
+    const int64_t other = SpectralOrder(shuffled(bar, seed)).width();
     EXPECT_LE(10 * std::abs(other - width), width);
   }
 }
 
 TEST(Spectral, ranksEachVertexOnceComponentAfterComponent) {
   for (const TestMesh& mesh : oddMeshes()) {
-    const Ordered ordered(mesh);
+    const SpectralOrder ordered(mesh);
     EXPECT_EQ(ordered.rank.size(), mesh.vertexCount());
     EXPECT_TRUE(isPermutation(ordered.rank));
     EXPECT_TRUE(componentsAreConsecutive(ordered.mesh.connectivity, ordered.rank));
@@ -96,7 +96,7 @@ TEST(Spectral, ordersAFan) {
     const int64_t cell[4] = {0, 1, 2 + i, 2 + (i + 1) % rim};
     cells.insert(cells.end(), cell, cell + 4);
   }
-  Ordered ordered(makeMesh(ScalarType::kFloat64, std::vector<double>(3 * 502, 0.0), cells));
+  SpectralOrder ordered(makeMesh(ScalarType::kFloat64, std::vector<double>(3 * 502, 0.0), cells));
   EXPECT_TRUE(isPermutation(ordered.rank));
   // Two vertices in the middle and the two ends of the part that was read.
   EXPECT_LE(ordered.width(), 6);
@@ -104,7 +104,7 @@ TEST(Spectral, ordersAFan) {
 
 TEST(Spectral, isTheSameTwice) {
   const TestMesh mesh = shuffled(shellGrid(6), 3);
-  const Ordered a(mesh), b(mesh);
+  const SpectralOrder a(mesh), b(mesh);
   EXPECT_TRUE(std::equal(a.rank.data(), a.rank.data() + a.rank.size(), b.rank.data()));
 }
 

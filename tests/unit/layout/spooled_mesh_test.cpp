@@ -9,7 +9,7 @@
 namespace tetstream::test {
 namespace {
 
-TestMesh withColumns(TestMesh mesh) {
+TestMesh withThreeColumns(TestMesh mesh) {
   addPositionField(mesh, {"f", 2, ScalarType::kFloat64},
                    [](double x, double y, double z) { return x * y - z; });
   mesh.addIntegerField("n", [](size_t v) { return static_cast<int64_t>(v) * 3; });
@@ -46,7 +46,7 @@ void expectSame(const TestMesh& mesh, IndexedSource& source) {
 
 TEST(SpooledMesh, GivesAStreamBack) {
   const int n = slowRun() ? 4 : 16;  // beyond the memory, where time allows
-  TestMesh mesh = inStreamOrder(withColumns(fullGrid(n, n, n, 0.1)));
+  TestMesh mesh = inStreamOrder(withThreeColumns(fullGrid(n, n, n, 0.1)));
   for (size_t batch : {size_t{100}, size_t{100000}}) {
     Cut cut;
     cut.batch_cells = batch;
@@ -66,7 +66,7 @@ TEST(SpooledMesh, GivesAStreamBack) {
 
 // Vertex by vertex, then all cells; one of them is locked, in the middle.
 TEST(SpooledMesh, PutsBatchesTogetherWithTheirLocks) {
-  TestMesh mesh = withColumns(fullGrid(2, 2, 2));
+  TestMesh mesh = withThreeColumns(fullGrid(2, 2, 2));
   SpooledMesh spooled(mesh.schema, "");
   const BatchView all = mesh.view();
   const uint8_t locked = 1;

@@ -27,34 +27,34 @@ void expectAllRatiosReached(const TestMesh& mesh) {
       }
 }
 
-int side() {
+int gridSide() {
   return slowRun() ? 4 : 8;
 }
 
 // Fields that make every position equally good must not lock a run.
 TEST(SimplifierTarget, IsReachedForAZeroField) {
-  expectAllRatiosReached(gridWith(side(), [](double, double, double) { return 0.0; }));
+  expectAllRatiosReached(gridWith(gridSide(), [](double, double, double) { return 0.0; }));
 }
 TEST(SimplifierTarget, IsReachedForAConstantField) {
   expectAllRatiosReached(gridWith(
-      side(), [](double, double, double) { return 1e9; }, ScalarType::kFloat32));
+      gridSide(), [](double, double, double) { return 1e9; }, ScalarType::kFloat32));
 }
 TEST(SimplifierTarget, IsReachedForALinearField) {
   expectAllRatiosReached(
-      gridWith(side(), [](double x, double y, double z) { return x - y + 2 * z; }));
+      gridWith(gridSide(), [](double x, double y, double z) { return x - y + 2 * z; }));
 }
 TEST(SimplifierTarget, IsReachedForAHalfFlatField) {
   expectAllRatiosReached(
-      gridWith(side(), [](double, double, double z) { return z < 4 ? 0 : std::sin(z); }));
+      gridWith(gridSide(), [](double, double, double z) { return z < 4 ? 0 : std::sin(z); }));
 }
 TEST(SimplifierTarget, IsReachedForAStep) {
   expectAllRatiosReached(
-      gridWith(side(), [](double, double, double z) { return z < 4.2 ? 0 : 1e6; }));
+      gridWith(gridSide(), [](double, double, double z) { return z < 4.2 ? 0 : 1e6; }));
 }
 // 1 / range is no float32 any more: the field counts as constant.
 TEST(SimplifierTarget, IsReachedForARangeThatCannotBeDividedBy) {
   expectAllRatiosReached(gridWith(
-      side(), [](double x, double, double) { return 1e-41 * x; }, ScalarType::kFloat32));
+      gridSide(), [](double x, double, double) { return 1e-41 * x; }, ScalarType::kFloat32));
 }
 // Layers that shrink to 1e-9 of the first: float32 errors underflow, and the bound that rises from
 // window to window must not stand still at nothing.
@@ -71,11 +71,11 @@ TEST(SimplifierTarget, IsReachedWhereErrorsUnderflow) {
   for (Mode mode : kModes) expectSound(mesh, simplified(mesh, toRatio(0.5, 100, mode)));
 }
 TEST(SimplifierTarget, IsReachedWithoutAField) {
-  expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0.05));
-  expectAllRatiosReached(fullGrid(side(), side(), 2 * side(), 0, ScalarType::kFloat32));
+  expectAllRatiosReached(fullGrid(gridSide(), gridSide(), 2 * gridSide(), 0.05));
+  expectAllRatiosReached(fullGrid(gridSide(), gridSide(), 2 * gridSide(), 0, ScalarType::kFloat32));
 }
 TEST(SimplifierTarget, IsReachedForGarlandZhou) {
-  const TestMesh mesh = gridWith(side(), [](double x, double y, double) { return x * y; });
+  const TestMesh mesh = gridWith(gridSide(), [](double x, double y, double) { return x * y; });
   for (Mode mode : kModes) {
     SimplifyOptions options = toRatio(0.1, 0, mode);
     options.quadric = QuadricForm::kGarlandZhou;
@@ -84,7 +84,8 @@ TEST(SimplifierTarget, IsReachedForGarlandZhou) {
 }
 
 TEST(SimplifierTarget, IsTheNumberOfCellsAskedFor) {
-  const TestMesh mesh = gridWith(side(), [](double x, double y, double z) { return x * y + z; });
+  const TestMesh mesh =
+      gridWith(gridSide(), [](double x, double y, double z) { return x * y + z; });
   for (Mode mode : kModes)
     for (int64_t cells : {int64_t{100}, int64_t{333}, int64_t{2000}, int64_t{1} << 40})
       for (int64_t window : {2000, 0}) {

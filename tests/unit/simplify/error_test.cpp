@@ -8,13 +8,11 @@
 namespace tetstream::test {
 namespace {
 
-constexpr ScalarType k32 = ScalarType::kFloat32, k64 = ScalarType::kFloat64;
-
 double waves(double x, double y, double z) {
   return std::sin(5 * x) * std::cos(4 * y) + 0.5 * std::sin(6 * z + x);
 }
 
-int side() {
+int boxSide() {
   return slowRun() ? 4 : 12;
 }
 // Larger cells, larger errors.
@@ -24,7 +22,7 @@ double coarse() {
 
 // A box of 1 x 1 x 2, swept along z: 20,736 cells, of which 864 are a front.
 TestMesh boxOf(ScalarType type) {
-  const int n = side();
+  const int n = boxSide();
   const TestMesh grid = fullGrid(n, n, 2 * n, 0.1);
   std::vector<double> positions;
   for (size_t v = 0; v < grid.vertexCount(); ++v)
@@ -39,8 +37,8 @@ TestMesh wavyMesh(ScalarType type) {
   return mesh;
 }
 
-int64_t fourFronts() {
-  return int64_t{24} * side() * side();
+int64_t fourFrontsOfBox() {
+  return int64_t{24} * boxSide() * boxSide();
 }
 
 SimplifyOptions toError(double percent, int64_t window = 0) {
@@ -96,7 +94,7 @@ void expectNotMuchTooEarly(const TestMesh& mesh, const Result& result, double er
   EXPECT_GT(measured(mesh, smaller), error) << result.report.cells_out << " cells are left";
 }
 
-void expectKept(const TestMesh& mesh, double percent, int64_t window, const Cut& cut = {}) {
+void expectErrorKept(const TestMesh& mesh, double percent, int64_t window, const Cut& cut = {}) {
   percent *= coarse();
   SCOPED_TRACE(textOf("at most %g %%, window %lld", percent, static_cast<long long>(window)));
   const Result result = simplified(mesh, toError(percent, window), cut);
@@ -109,17 +107,18 @@ void expectKept(const TestMesh& mesh, double percent, int64_t window, const Cut&
 TEST(SimplifierErrorBound, IsKeptByWhatIsMeasuredWithAllCellsInCore) {
   for (ScalarType type : {k32, k64}) {
     const TestMesh mesh = wavyMesh(type);
-    for (double percent : {0.1, 1.0, 3.0}) expectKept(mesh, percent, 0);
+    for (double percent : {0.1, 1.0, 3.0}) expectErrorKept(mesh, percent, 0);
   }
 }
 TEST(SimplifierErrorBound, IsKeptByWhatIsMeasuredThroughSeveralWindows) {
   for (ScalarType type : {k32, k64}) {
     const TestMesh mesh = wavyMesh(type);
-    for (double percent : {0.1, 1.0, 3.0}) expectKept(mesh, percent, fourFronts());
+    for (double percent : {0.1, 1.0, 3.0}) expectErrorKept(mesh, percent, fourFrontsOfBox());
   }
 }
 TEST(SimplifierErrorBound, IsKeptThroughAWindowOfEightFronts) {
-  for (double percent : {0.02, 0.5, 2.0}) expectKept(wavyMesh(k32), percent, 2 * fourFronts());
+  for (double percent : {0.02, 0.5, 2.0})
+    expectErrorKept(wavyMesh(k32), percent, 2 * fourFrontsOfBox());
 }
 
 // The ranges are known beforehand, or only as the stream comes; so is its length.
@@ -130,7 +129,7 @@ TEST(SimplifierErrorBound, IsKeptWhateverTheHeaderSays) {
     Cut cut;
     cut.say_box = form & 1;
     cut.say_counts = form & 2;
-    expectKept(mesh, 1, fourFronts(), cut);
+    expectErrorKept(mesh, 1, fourFrontsOfBox(), cut);
   }
 }
 
@@ -141,7 +140,7 @@ TEST(SimplifierErrorBound, HoldsForAllFieldsTogether) {
   });
   addPositionField(mesh, {"v", 3, k32},
                    [](double x, double y, double z) { return 1e3 * std::sin(x + 2 * y + z); });
-  for (int64_t window : {int64_t{0}, fourFronts()}) expectKept(mesh, 2, window);
+  for (int64_t window : {int64_t{0}, fourFrontsOfBox()}) expectErrorKept(mesh, 2, window);
 }
 
 // What is carried is not followed, and does not count.
@@ -158,7 +157,7 @@ TEST(SimplifierErrorBound, HoldsForMeasuredFieldsOnly) {
 
 TEST(SimplifierErrorBound, IsSpentOnFewerCellsTheLargerItIs) {
   const TestMesh mesh = wavyMesh(k32);
-  for (int64_t window : {int64_t{0}, fourFronts()}) {
+  for (int64_t window : {int64_t{0}, fourFrontsOfBox()}) {
     int64_t cells = static_cast<int64_t>(mesh.cellCount());
     for (double percent : {0.1 * coarse(), 0.5 * coarse(), 2 * coarse()}) {
       const Report report = simplified(mesh, toError(percent, window)).report;
@@ -210,7 +209,7 @@ TEST(SimplifierTargets, RatioAndCellsEndAtTheLargerCount) {
   const TestMesh mesh = wavyMesh(k32);
   const auto half = static_cast<int64_t>(mesh.cellCount() / 2);
   for (Mode mode : kModes)
-    for (int64_t window : {int64_t{0}, fourFronts()}) {
+    for (int64_t window : {int64_t{0}, fourFrontsOfBox()}) {
       SimplifyOptions options = toRatio(0.2, window, mode);
       options.cells = half;
       const Result more = expectReachedFirst(mesh, options, "cells");
@@ -224,7 +223,7 @@ TEST(SimplifierTargets, RatioAndCellsEndAtTheLargerCount) {
 
 TEST(SimplifierTargets, RatioAndErrorEndAtTheFirst) {
   const TestMesh mesh = wavyMesh(k32);
-  for (int64_t window : {int64_t{0}, fourFronts()}) {
+  for (int64_t window : {int64_t{0}, fourFrontsOfBox()}) {
     SCOPED_TRACE(window);
     SimplifyOptions options = toRatio(0.02, window);
     options.error = 0.3 * coarse();
@@ -237,7 +236,7 @@ TEST(SimplifierTargets, RatioAndErrorEndAtTheFirst) {
 
 TEST(SimplifierTargets, CellsAndErrorEndAtTheFirst) {
   const TestMesh mesh = wavyMesh(k64);
-  for (int64_t window : {int64_t{0}, fourFronts()}) {
+  for (int64_t window : {int64_t{0}, fourFrontsOfBox()}) {
     SCOPED_TRACE(window);
     SimplifyOptions options = toError(0.3 * coarse(), window);
     options.cells = 50;
@@ -250,7 +249,7 @@ TEST(SimplifierTargets, CellsAndErrorEndAtTheFirst) {
 
 TEST(SimplifierTargets, AllThreeEndAtTheFirst) {
   const TestMesh mesh = wavyMesh(k32);
-  SimplifyOptions options = toRatio(0.05, fourFronts());
+  SimplifyOptions options = toRatio(0.05, fourFrontsOfBox());
   options.cells = static_cast<int64_t>(mesh.cellCount() / 10);
   options.error = 0.3 * coarse();
   expectReachedFirst(mesh, options, "error");
@@ -264,7 +263,7 @@ TEST(SimplifierTargets, AllThreeEndAtTheFirst) {
 TEST(SimplifierTargets, AFarBoundOnTheErrorLeavesTheErrorOfTheRatio) {
   if (slowRun()) return;
   const TestMesh mesh = wavyMesh(k32);
-  for (int64_t window : {int64_t{0}, fourFronts()}) {
+  for (int64_t window : {int64_t{0}, fourFrontsOfBox()}) {
     SimplifyOptions options = toRatio(0.2, window);
     const double alone = measured(mesh, simplified(mesh, options));
     options.error = 50;

@@ -61,14 +61,14 @@ inline Barycentric barycentric(const TestMesh& mesh, size_t cell) {
   return b;
 }
 
-struct Place {
+struct InCell {
   size_t cell = 0;
   Weights weights = {{0, 0, 0, 0}};
 };
 
 // Where x lies; outside of all, in the cell that it lies least outside of.
-inline Place placeOf(const double x[3], const std::vector<Barycentric>& cells) {
-  Place place;
+inline InCell inCellOf(const double x[3], const std::vector<Barycentric>& cells) {
+  InCell found;
   double deepest = -std::numeric_limits<double>::infinity();
   for (const bool only_near : {true, false})
     for (size_t c = 0; c < cells.size() && deepest < 0; ++c) {
@@ -76,9 +76,9 @@ inline Place placeOf(const double x[3], const std::vector<Barycentric>& cells) {
       const Weights w = cells[c].at(x);
       if (w.smallest() <= deepest) continue;
       deepest = w.smallest();
-      place = {c, w};
+      found = {c, w};
     }
-  return place;
+  return found;
 }
 
 // Of each field, in its unit: root mean square, over the vertices of the original, of the error's
@@ -89,7 +89,7 @@ inline std::vector<double> fieldErrors(const TestMesh& original, const TestMesh&
   std::vector<double> sums(original.fields.size(), 0);
   for (size_t v = 0; v < original.vertexCount(); ++v) {
     const double x[3] = {original.position(v, 0), original.position(v, 1), original.position(v, 2)};
-    const Place at = placeOf(x, cells);
+    const InCell at = inCellOf(x, cells);
     for (size_t f = 0; f < sums.size(); ++f)
       for (int i = 0; i < original.schema.fields[f].components; ++i) {
         double error = -original.field(f, v, i);

@@ -12,9 +12,7 @@
 namespace tetstream::test {
 namespace {
 
-constexpr ScalarType k32 = ScalarType::kFloat32, k64 = ScalarType::kFloat64;
-
-int side() {
+int fieldsSide() {
   return slowRun() ? 6 : 10;
 }
 
@@ -23,7 +21,7 @@ double front(double x, double y, double z) {
 }
 
 // A swept box: a front, a smooth pressure, a vector that grows along the sweep, and a tensor.
-TestMesh fieldsMesh(ScalarType type = k64, int n = side()) {
+TestMesh fieldsMesh(ScalarType type = k64, int n = fieldsSide()) {
   TestMesh mesh = fullGrid(n, n, 3 * n, 0.1);
   addPositionField(mesh, {"front", 1, type}, front);
   addPositionField(mesh, {"pressure", 1, type}, [](double x, double y, double z) {
@@ -107,7 +105,7 @@ TEST(SeveralFields, GainByTheirWeights) {
 
 // A constant measures nothing, wherever it stands; nor do fields that all weigh nothing.
 TEST(SeveralFields, OfNoExtentOrWeightLeaveTheOthersAlone) {
-  TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1);
+  TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), 2 * fieldsSide(), 0.1);
   addPositionField(mesh, {"flat", 2, k64}, [](double, double, double) { return 0.0; });
   addPositionField(mesh, {"front", 1, k64}, front);
   mesh.addField({"constant", 1, k64}, [](size_t, int) { return 3.25; });
@@ -145,7 +143,7 @@ TEST(SeveralFields, LeaveTheBoundaryItsShare) {
 
 // Forty components in a budget of memory: rows are long, but as long as they are, not longer.
 TEST(SeveralFields, OfManyComponentsKeepABudget) {
-  TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1);
+  TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), 2 * fieldsSide(), 0.1);
   for (int f = 0; f < 5; ++f)
     addPositionField(mesh, {textOf("f%d", f), 8, k32}, [f](double x, double y, double z) {
       return std::sin(0.3 * (f + 1) * x + 0.2 * y) + 0.02 * f * z * y;
@@ -214,10 +212,10 @@ TEST(SeveralFields, StayWithinTheirRangeIfAsked) {
 
 // A header that tells half of the range: values are as those they come from.
 TEST(SeveralFields, AreNotPressedIntoARangeThatIsTooNarrow) {
-  TestMesh mesh = fullGrid(side(), side(), side(), 0.1);
+  TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), fieldsSide(), 0.1);
   addPositionField(mesh, {"front", 1, k64}, front);
   mesh.schema.box_min = {0, 0, 0, -0.5};
-  mesh.schema.box_max = {side() + 0.0, side() + 0.0, side() + 0.0, 0.5};
+  mesh.schema.box_max = {fieldsSide() + 0.0, fieldsSide() + 0.0, fieldsSide() + 0.0, 0.5};
   SimplifyOptions options = toRatio(0.3);
   options.field_range = FieldRange::kKeep;
   const Result result = simplified(mesh, options);
@@ -228,7 +226,7 @@ TEST(SeveralFields, AreNotPressedIntoARangeThatIsTooNarrow) {
 
 // A quarter of a thin tube, with waves along it and a layer of a twentieth of its inner radius.
 TestMesh heatedTube() {
-  const int n = side();
+  const int n = fieldsSide();
   TestMesh mesh = fullGrid(2 * n, n, n, 0.1);
   for (size_t v = 0; v < mesh.vertexCount(); ++v) {
     const double angle = mesh.position(v, 0) / (2 * n) * std::acos(0.0);

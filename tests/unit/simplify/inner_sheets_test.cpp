@@ -141,13 +141,13 @@ double enclosedVolume(const TestMesh& mesh, const FaceLabels& labels) {
   return volume;
 }
 
-struct Kept {
+struct KeptSheets {
   TestMesh mesh;
   FaceLabels labels;
   Report report;
 };
 
-Kept simplified(const Sheeted& in, const SimplifyOptions& options) {
+KeptSheets simplified(const Sheeted& in, const SimplifyOptions& options) {
   Recorder out;
   Simplifier simplifier(options, out, {});
   FacedStream stream(in.mesh, {}, in.labels);
@@ -158,7 +158,7 @@ Kept simplified(const Sheeted& in, const SimplifyOptions& options) {
 }
 
 // Labels, parts, rims and the curves where sheets meet are as they were; there are fewer faces.
-void expectKept(const Sheeted& in, const Kept& out, double area_off) {
+void expectSheetsKept(const Sheeted& in, const KeptSheets& out, double area_off) {
   const auto all = facesOf(out.mesh.cells);
   for (const auto& [face, label] : out.labels) EXPECT_TRUE(all.count(face));
   EXPECT_TRUE(patternOf(in.mesh, in.labels) == patternOf(out.mesh, out.labels));
@@ -174,16 +174,16 @@ template <class Check>
 void forAllWays(const Sheeted& in, double area_off, Check check) {
   for (const Way& way : kWays)
     for (int64_t window : {int64_t{0}, int64_t{14} * in.n * in.n}) {
-      const Kept out = simplified(in, way.toRatio(0.2, window));
-      expectKept(in, out, area_off);
+      const KeptSheets out = simplified(in, way.toRatio(0.2, window));
+      expectSheetsKept(in, out, area_off);
       check(out);
       if (slowRun()) return;
     }
 }
 
 // Corners of labelled faces lie in one of these planes, so far.
-std::function<void(const Kept&)> lieInPlanes(std::initializer_list<int> axes) {
-  return [axes = std::vector<int>(axes)](const Kept& out) {
+std::function<void(const KeptSheets&)> lieInPlanes(std::initializer_list<int> axes) {
+  return [axes = std::vector<int>(axes)](const KeptSheets& out) {
     for (const auto& [face, label] : out.labels)
       for (int64_t v : face)
         EXPECT_NEAR(out.mesh.position(static_cast<size_t>(v), axes[static_cast<size_t>(label - 1)]),
@@ -224,7 +224,7 @@ TEST(InnerSheets, EndAtTheBoundary) {
   const Sheeted in(
       8, [](const Middle& m) { return m[2] == 0 && m[0] < 1; },
       [](double* x) { x[2] += 0.04 * (16 - x[2] * x[2]) * std::cos(0.5 * x[0]) / 4; });
-  forAllWays(in, 1e-2, [](const Kept&) {});
+  forAllWays(in, 1e-2, [](const KeptSheets&) {});
 }
 
 // A box that becomes a ball nearly; it neither shrinks nor loses a face.
@@ -241,7 +241,7 @@ TEST(InnerSheets, CloseInsideARegion) {
       });
   const double volume = enclosedVolume(in.mesh, in.labels);
   EXPECT_GT(volume, 100);
-  forAllWays(in, 3e-2, [&](const Kept& out) {
+  forAllWays(in, 3e-2, [&](const KeptSheets& out) {
     EXPECT_NEAR(enclosedVolume(out.mesh, out.labels), volume, 1e-2 * volume);
   });
 }

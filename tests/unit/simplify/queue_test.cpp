@@ -96,7 +96,7 @@ TEST(QueuedEdges, ThatWaitComeAgainOnceTheyAreWoken) {
 
 // ------------------------------------------------------------------------------- the selector
 
-TestMesh wavyGrid(int n) {
+TestMesh rippledGrid(int n) {
   TestMesh mesh = fullGrid(n, n, n, 0.1);
   addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [](double x, double y, double z) {
     return std::sin(1.3 * x) * std::cos(y) + 0.2 * z;
@@ -154,7 +154,7 @@ double leastLegalError(const TestMesh& mesh) {
 }
 
 TEST(QueueSelector, TakesTheCheapestLegalEdgeFirst) {
-  Queue queue(wavyGrid(3));
+  Queue queue(rippledGrid(3));
   const int64_t cells = queue.core.window.liveCells();
   queue.collapseTo(cells - 1);
   ASSERT_EQ(queue.errors.all.size(), 1u);
@@ -164,7 +164,7 @@ TEST(QueueSelector, TakesTheCheapestLegalEdgeFirst) {
 // A merged vertex has dearer edges than its parts had, but for those that were not legal before:
 // the errors rise nearly always.
 TEST(QueueSelector, TakesEdgesNearlyInOrderOfTheirErrors) {
-  Queue queue(wavyGrid(slowRun() ? 4 : 8));
+  Queue queue(rippledGrid(slowRun() ? 4 : 8));
   queue.collapseTo(queue.core.window.liveCells() / 2);
   const std::vector<double>& all = queue.errors.all;
   ASSERT_GT(all.size(), 20u);
@@ -174,7 +174,7 @@ TEST(QueueSelector, TakesEdgesNearlyInOrderOfTheirErrors) {
 }
 
 TEST(QueueSelector, GoesOnUntilNothingLegalIsLeft) {
-  Queue queue(wavyGrid(3));
+  Queue queue(rippledGrid(3));
   queue.collapseTo(0);
   const auto left = queue.core.window.liveCells();
   EXPECT_LT(left, 100);  // of 162
@@ -185,7 +185,7 @@ TEST(QueueSelector, GoesOnUntilNothingLegalIsLeft) {
 
 // On a field with much to choose from, all of a window's edges give a smaller error than eight.
 TEST(QueueSelector, HasASmallerErrorThanRandomChoice) {
-  const TestMesh mesh = wavyGrid(slowRun() ? 6 : 12);
+  const TestMesh mesh = rippledGrid(slowRun() ? 6 : 12);
   const auto errorIn = [&](Mode mode) {
     const Result result = simplified(mesh, toRatio(0.2, 1 << 20, mode));
     expectSound(mesh, result);

@@ -1,5 +1,4 @@
 // Regions: their interfaces keep shape and topology and get coarser, ids are told from labels.
-#include <array>
 #include <cmath>
 #include <set>
 
@@ -7,8 +6,6 @@
 
 namespace tetstream::test {
 namespace {
-
-using Place = std::array<double, 3>;
 
 // A grid of two materials, 3 below z = n and 8 above.
 TestMesh twoMaterials(int n) {

@@ -183,8 +183,6 @@ TEST(Reshape, KeepsRegionsApart) {
   EXPECT_GT(change, 0.01);
 }
 
-using Edges = std::set<std::pair<uint32_t, uint32_t>>;
-
 Edges edgesOf(const Squeezed& s) {
   Edges edges;
   for (uint32_t c = 0; c < s.patch.cellEnd(); ++c) {
@@ -218,7 +216,7 @@ TEST(Reshape, KeepsLockedEdges) {
 }
 
 // What it is told suffices to follow every cell.
-class Ledger final : public FlipObserver {
+class FlipLedger final : public FlipObserver {
  public:
   void flipped(const uint32_t* before, size_t before_count, const PlacedCell* after,
                size_t after_count) override {
@@ -242,7 +240,7 @@ class Ledger final : public FlipObserver {
 
 TEST(Reshape, TellsWhichCellsMadeWayForWhich) {
   Squeezed s;
-  Ledger ledger;
+  FlipLedger ledger;
   const auto volumes = [&] {
     std::map<uint32_t, double> all;
     for (uint32_t c = 0; c < s.patch.cellEnd(); ++c) {

@@ -10,8 +10,6 @@
 namespace tetstream::test {
 namespace {
 
-using Edges = std::set<std::pair<uint32_t, uint32_t>>;
-
 template <class S>
 Edges freeEdges(const Window<S>& window) {
   Edges edges;
@@ -32,7 +30,7 @@ double errorOfEdge(Core<S>& core, uint32_t u, uint32_t v) {
       core.scale.data(), core.plan.dimension, z.data()));
 }
 
-TestMesh wavyGrid() {
+TestMesh gridOfManyTiles() {
   const int n = slowRun() ? 12 : 30;  // 30: more than six tiles
   TestMesh mesh = fullGrid(n, n, n, 0.1);
   addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [](double x, double y, double z) {
@@ -44,7 +42,7 @@ TestMesh wavyGrid() {
 // Sweeps at a bound above this share of all edges; it is not exceeded, since nothing is asked for.
 struct Swept : WholeWindow<double> {
   explicit Swept(double share)
-      : WholeWindow<double>(wavyGrid(), {}), selector(makeSweepSelector(core, account)) {
+      : WholeWindow<double>(gridOfManyTiles(), {}), selector(makeSweepSelector(core, account)) {
     std::vector<double> errors;
     for (auto [u, v] : freeEdges(core.window)) errors.push_back(errorOfEdge(core, u, v));
     const auto below = static_cast<size_t>(share * static_cast<double>(errors.size()));

@@ -27,19 +27,19 @@ TestMesh layered(int n, int period, double flatness) {
   return mesh;
 }
 
-int side() {
+int layeredSide() {
   return slowRun() ? 6 : 12;
 }
 
-int64_t fourFronts() {
-  return int64_t{28} * side() * side();
+int64_t fourFrontsOfLayers() {
+  return int64_t{28} * layeredSide() * layeredSide();
 }
 
 TEST(Shapes, AreNotThinnerThanTheFloorWhereNoneWas) {
-  const TestMesh mesh = layered(side(), 1, 1);
+  const TestMesh mesh = layered(layeredSide(), 1, 1);
   ASSERT_EQ(shareBelow(mesh, 10), 0);
   for (double ratio : {0.5, 0.1}) {
-    const Result result = simplified(mesh, toRatio(ratio, fourFronts()));
+    const Result result = simplified(mesh, toRatio(ratio, fourFrontsOfLayers()));
     expectReached(result);
     EXPECT_EQ(shareBelow(result.out.mesh, 2.99), 0) << ratio;
   }
@@ -48,11 +48,11 @@ TEST(Shapes, AreNotThinnerThanTheFloorWhereNoneWas) {
 // At 0.1 it was 0.96 of the input's share when thin cells had no price, 0.58 with it.
 TEST(Shapes, AreNoWorseWhereSomeAreThin) {
   for (double flatness : {12.0, 70.0}) {
-    const TestMesh mesh = layered(side(), 6, flatness);
+    const TestMesh mesh = layered(layeredSide(), 6, flatness);
     const double thin = shareBelow(mesh, 10), very_thin = shareBelow(mesh, 1.01);
     ASSERT_GT(thin, 0.1);
     for (double ratio : {0.5, 0.1}) {
-      const Result result = simplified(mesh, toRatio(ratio, fourFronts()));
+      const Result result = simplified(mesh, toRatio(ratio, fourFrontsOfLayers()));
       expectReached(result);
       EXPECT_LE(shareBelow(result.out.mesh, 10), (ratio < 0.5 ? 0.75 : 1) * thin) << ratio;
       EXPECT_LE(shareBelow(result.out.mesh, 1), very_thin) << ratio;
@@ -84,9 +84,9 @@ TEST(Shapes, AreFlippedWhereManyAreFlat) {
   double flat = 0, flat_without = 0;
   int64_t flips = 0;
   for (double flatness : {12.0, 70.0}) {
-    const TestMesh mesh = layered(side(), 6, flatness);
+    const TestMesh mesh = layered(layeredSide(), 6, flatness);
     for (double ratio : {0.1, 0.05}) {
-      const SimplifyOptions options = toRatio(ratio, fourFronts());
+      const SimplifyOptions options = toRatio(ratio, fourFrontsOfLayers());
       const Result result = simplified(mesh, options), stiff = withoutFlips(mesh, options);
       expectSound(mesh, result);
       expectReached(result);
@@ -108,8 +108,8 @@ TEST(Shapes, HaveFewerFlatCellsThanTheInput) {
   for (double flatness : {12.0, 70.0})
     for (bool renews : {false, true}) {
       if (renews && slowRun()) continue;  // of a hundred cells
-      const TestMesh mesh = layered(side(), 6, flatness);
-      SimplifyOptions options = toRatio(0.1, fourFronts());
+      const TestMesh mesh = layered(layeredSide(), 6, flatness);
+      SimplifyOptions options = toRatio(0.1, fourFrontsOfLayers());
       options.renews = renews;
       const Result result = simplified(mesh, options);
       EXPECT_GT(result.report.flips, 0) << flatness;
@@ -126,15 +126,15 @@ SimplifyOptions forSolvers(double ratio, int64_t window = 0) {
 
 TEST(Shapes, SuitASolverWhereThoseOfTheInputDo) {
   for (ScalarType type : {ScalarType::kFloat32, ScalarType::kFloat64}) {
-    TestMesh mesh = fullGrid(side(), side(), 2 * side(), 0.1, type);
+    TestMesh mesh = fullGrid(layeredSide(), layeredSide(), 2 * layeredSide(), 0.1, type);
     addPositionField(mesh, {"f", 1, type}, [](double x, double y, double z) {
       return std::sin(0.5 * x) * std::cos(0.4 * y) + std::sin(0.7 * z);
     });
     ASSERT_EQ(shareBelow(mesh, 10), 0);
     const MeshFacts before = factsOf(mesh);
     for (double ratio : {0.5, 0.1}) {
-      const Result usual = simplified(mesh, toRatio(ratio, fourFronts()));
-      const Result result = simplified(mesh, forSolvers(ratio, fourFronts()));
+      const Result usual = simplified(mesh, toRatio(ratio, fourFrontsOfLayers()));
+      const Result result = simplified(mesh, forSolvers(ratio, fourFrontsOfLayers()));
       expectSound(mesh, result);
       expectReached(result);
       EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "") << ratio;
@@ -148,8 +148,8 @@ TEST(Shapes, SuitASolverWhereThoseOfTheInputDo) {
 
 // Windows are cut by cells read, whatever the batches.
 TEST(Shapes, OfASolverDoNotDependOnBatches) {
-  const TestMesh mesh = layered(side(), 1, 1);
-  const SimplifyOptions options = forSolvers(0.1, fourFronts());
+  const TestMesh mesh = layered(layeredSide(), 1, 1);
+  const SimplifyOptions options = forSolvers(0.1, fourFrontsOfLayers());
   const Result result = simplified(mesh, options);
   for (size_t batch : {size_t{7}, size_t{100000}}) {
     Cut cut;
@@ -160,10 +160,10 @@ TEST(Shapes, OfASolverDoNotDependOnBatches) {
 
 TEST(Shapes, OfASolverAreNoWorseWhereSomeAreThin) {
   for (double flatness : {12.0, 70.0}) {
-    const TestMesh mesh = layered(side(), 6, flatness);
+    const TestMesh mesh = layered(layeredSide(), 6, flatness);
     const double thin = shareBelow(mesh, 10), very_thin = shareBelow(mesh, 1.01);
     for (double ratio : {0.5, 0.1}) {
-      const Result result = simplified(mesh, forSolvers(ratio, fourFronts()));
+      const Result result = simplified(mesh, forSolvers(ratio, fourFrontsOfLayers()));
       expectSound(mesh, result);
       expectReached(result);
       EXPECT_LE(shareBelow(result.out.mesh, 10), (ratio < 0.5 ? 0.75 : 1) * thin) << ratio;
@@ -174,7 +174,7 @@ TEST(Shapes, OfASolverAreNoWorseWhereSomeAreThin) {
 
 // A target beyond what good shapes allow is reached with worse ones.
 TEST(Shapes, OfASolverGiveWayToTheTarget) {
-  const TestMesh mesh = layered(side(), 1, 1);
+  const TestMesh mesh = layered(layeredSide(), 1, 1);
   for (double ratio : {0.01, 0.003}) {
     const Result result = simplified(mesh, forSolvers(ratio));
     expectSound(mesh, result);
@@ -183,18 +183,18 @@ TEST(Shapes, OfASolverGiveWayToTheTarget) {
 }
 
 TEST(Shapes, OfASolverKeepRegionsAndLockedVertices) {
-  TestMesh mesh = layered(side(), 1, 1);
+  TestMesh mesh = layered(layeredSide(), 1, 1);
   const auto middle = [&](size_t c) {
     double z = 0;
     for (size_t j = 0; j < 4; ++j)
       z += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), 2) / 4;
     return z;
   };
-  mesh.addIntegerCellData("material", [&](size_t c) { return middle(c) < side() ? 1 : 2; });
+  mesh.addIntegerCellData("material", [&](size_t c) { return middle(c) < layeredSide() ? 1 : 2; });
   mesh.addCellData({"amount", 1, ScalarType::kFloat64}, [&](size_t c, int) { return middle(c); });
   mesh.locked.assign(mesh.vertexCount(), 0);
   for (size_t v = 0; v < mesh.vertexCount(); v += 29) mesh.locked[v] = 1;
-  const Result result = simplified(mesh, forSolvers(0.3, fourFronts()));
+  const Result result = simplified(mesh, forSolvers(0.3, fourFrontsOfLayers()));
   expectSound(mesh, result);
   const TestMesh& out = result.out.mesh;
   double volume[3] = {0, 0, 0}, before[3] = {0, 0, 0}, amount = 0, amount_before = 0;
@@ -214,7 +214,7 @@ TEST(Shapes, OfASolverKeepRegionsAndLockedVertices) {
 }
 
 TEST(Shapes, OfASolverFitABudget) {
-  const TestMesh mesh = layered(side(), 1, 1);
+  const TestMesh mesh = layered(layeredSide(), 1, 1);
   SimplifyOptions options = forSolvers(0.1);
   options.memory_bytes = 3 << 20;
   const Result result = simplified(mesh, options);
@@ -223,7 +223,7 @@ TEST(Shapes, OfASolverFitABudget) {
 }
 
 TEST(Shapes, OfAFlatMeshFitABudget) {
-  const TestMesh mesh = layered(2 * side(), 1, 60);
+  const TestMesh mesh = layered(2 * layeredSide(), 1, 60);
   for (int64_t bytes = 1'500'000; bytes < 2'200'000; bytes += 100'000 * oneIn(5)) {
     SimplifyOptions options = toRatio(0.1, 0);
     options.memory_bytes = bytes;

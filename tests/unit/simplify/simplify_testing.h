@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "mesh_facts.h"
 #include "shapes.h"
 #include "simplifier.h"
@@ -10,6 +12,15 @@
 #include "test_mesh.h"
 
 namespace tetstream::test {
+
+constexpr ScalarType k32 = ScalarType::kFloat32, k64 = ScalarType::kFloat64;
+
+using Place = std::array<double, 3>;
+
+inline Place placeOf(const TestMesh& mesh, int64_t v) {
+  const auto row = static_cast<size_t>(v);
+  return {mesh.position(row, 0), mesh.position(row, 1), mesh.position(row, 2)};
+}
 
 struct Result {
   Recorder out;

@@ -22,7 +22,7 @@ TestMesh withWaves(TestMesh mesh, ScalarType type) {
   return mesh;
 }
 
-TestMesh wavyGrid(int n, ScalarType type) {
+TestMesh gridWithWaves(int n, ScalarType type) {
   return withWaves(fullGrid(n, n, n, 0.1), type);
 }
 
@@ -89,7 +89,7 @@ void expectSame(const TestMesh& mesh, const SimplifyOptions& options,
   }
 }
 
-int side() {
+int wavySide() {
   return slowRun() ? 6 : 10;
 }
 
@@ -98,14 +98,14 @@ TEST(SweepThreads, GiveTheSameBytesForEachRatioAndWindow) {
     for (double ratio : {0.5, 0.1, 0.02})
       for (int64_t window : {0, 2500}) {
         SCOPED_TRACE(textOf("ratio %g, window %lld", ratio, static_cast<long long>(window)));
-        expectSame(wavyGrid(side(), type), toRatio(ratio, window));
+        expectSame(gridWithWaves(wavySide(), type), toRatio(ratio, window));
       }
 }
 
 TEST(SweepThreads, GiveTheSameBytesUpToAnError) {
   SimplifyOptions options;
   options.error = 5;
-  expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+  expectSame(gridWithWaves(wavySide(), ScalarType::kFloat64), options);
 }
 
 // At the smaller ratio tiles stop at their shares of what is left to the goal.
@@ -113,10 +113,10 @@ TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlipped) {
   for (double ratio : {0.2, 0.5}) {
     SimplifyOptions options = toRatio(ratio);
     options.shape = Shape::kSolver;
-    const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+    const TestMesh mesh = gridWithWaves(wavySide(), ScalarType::kFloat64);
     EXPECT_GT(ran(mesh, options, 1).report.flips, 0);
     expectSame(mesh, options);
-    expectSame(wavyAtOneSide(side()), options);
+    expectSame(wavyAtOneSide(wavySide()), options);
   }
 }
 
@@ -124,7 +124,7 @@ TEST(SweepThreads, GiveTheSameBytesWithHighEffort) {
   for (double ratio : {0.05, 0.3}) {
     SimplifyOptions options = toRatio(ratio);
     options.effort = Effort::kHigh;
-    expectSame(wavyAtOneSide(side()), options);
+    expectSame(wavyAtOneSide(wavySide()), options);
   }
 }
 
@@ -133,13 +133,13 @@ TEST(SweepThreads, GiveTheSameBytesWhereTilesAreSlices) {
   for (double ratio : {0.05, 0.2}) {
     SimplifyOptions options = toRatio(ratio);
     options.shape = Shape::kSolver;
-    for (int n : {4, 6}) expectSame(wavyGrid(n, ScalarType::kFloat64), options);
+    for (int n : {4, 6}) expectSame(gridWithWaves(n, ScalarType::kFloat64), options);
   }
 }
 
 // Of stretched meshes, whose flips no tile waits for.
 TEST(SweepThreads, GiveTheSameBytesWhereThinCellsAre) {
-  const TestMesh grid = fullGrid(side(), side(), side(), 0.2);
+  const TestMesh grid = fullGrid(wavySide(), wavySide(), wavySide(), 0.2);
   std::vector<double> positions;
   for (size_t v = 0; v < grid.vertexCount(); ++v)
     for (int i = 0; i < 3; ++i) positions.push_back(grid.position(v, i) / (i < 2 ? 1 : 12));
@@ -150,25 +150,25 @@ TEST(SweepThreads, GiveTheSameBytesWhereThinCellsAre) {
 }
 
 TEST(SweepThreads, GiveTheSameBytesWhereCellsAreFlat) {
-  const TestMesh mesh = flattenedGrid(side());
+  const TestMesh mesh = flattenedGrid(wavySide());
   EXPECT_GT(ran(mesh, toRatio(0.2), 1).report.locked_cells, 0);
   for (int64_t window : {0, 2500}) expectSame(mesh, toRatio(0.2, window));
 }
 
 TEST(SweepThreads, GiveTheSameBytesInOtherModes) {
   for (Mode mode : {Mode::kPaper, Mode::kQueue})
-    expectSame(wavyGrid(side(), ScalarType::kFloat32), toRatio(0.2, 2500, mode));
+    expectSame(gridWithWaves(wavySide(), ScalarType::kFloat32), toRatio(0.2, 2500, mode));
 }
 
 TEST(SweepThreads, GiveTheSameBytesWhereDistancesAreMeasured) {
   SimplifyOptions options = toRatio(0.2, 2500);
   options.quadric = QuadricForm::kGarlandZhou;
-  expectSame(wavyGrid(side(), ScalarType::kFloat64), options);
+  expectSame(gridWithWaves(wavySide(), ScalarType::kFloat64), options);
 }
 
 // They may refuse, work at once, or come late: nobody waits for what is not begun.
 TEST(SweepThreads, GiveTheSameBytesWhateverTheWorkersThatWereBrought) {
-  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  const TestMesh mesh = gridWithWaves(wavySide(), ScalarType::kFloat64);
   const Outcomes one = ran(mesh, toRatio(0.2, 2500), 1);
   NoWorkers none;
   HastyWorkers hasty;
@@ -182,7 +182,7 @@ TEST(SweepThreads, GiveTheSameBytesWhateverTheWorkersThatWereBrought) {
 }
 
 TEST(SweepThreads, GiveTheSameBytesWithWhatVerticesAndCellsCarry) {
-  TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  TestMesh mesh = gridWithWaves(wavySide(), ScalarType::kFloat64);
   mesh.addIntegerField("id", [](size_t v) { return static_cast<int64_t>(v); });
   mesh.addCellData({"density", 2, ScalarType::kFloat32},
                    [](size_t c, int k) { return std::sin(static_cast<double>(c) + k); });
@@ -191,23 +191,23 @@ TEST(SweepThreads, GiveTheSameBytesWithWhatVerticesAndCellsCarry) {
 }
 
 TEST(SweepThreads, GiveTheSameBytesWithRegions) {
-  TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  TestMesh mesh = gridWithWaves(wavySide(), ScalarType::kFloat64);
   mesh.addIntegerCellData("material", [&](size_t c) {
-    return mesh.position(static_cast<size_t>(mesh.cells[4 * c]), 2) < side() / 2 ? 3 : 8;
+    return mesh.position(static_cast<size_t>(mesh.cells[4 * c]), 2) < wavySide() / 2 ? 3 : 8;
   });
   expectSame(mesh, toRatio(0.2));
 }
 
 TEST(SweepThreads, GiveTheSameBytesWithLabelledFacesAndFeatures) {
-  const int n[3] = {side(), side(), side()};
-  const TestMesh mesh = inStreamOrder(shakenInside(side()));
+  const int n[3] = {wavySide(), wavySide(), wavySide()};
+  const TestMesh mesh = inStreamOrder(shakenInside(wavySide()));
   expectSame(mesh, toRatio(0.2), sidesOf(mesh, n));
   SimplifyOptions options = toRatio(0.2);
   options.feature_angle = 30;
   expectSame(mesh, options);
 }
 
-struct Rows final : MapSink, LogSink {
+struct TracedIds final : MapSink, LogSink {
   void begin() override {}
   void begin(const Schema&) override {}
   void put(const MapRows& rows) override {
@@ -222,16 +222,16 @@ struct Rows final : MapSink, LogSink {
   std::vector<int64_t> ids;
 };
 
-struct Traced {
-  Rows rows;
+struct TracedRun {
+  TracedIds rows;
   Recorder out;
 };
 
-std::unique_ptr<Traced> traced(const TestMesh& mesh, SimplifyOptions options, size_t threads) {
+std::unique_ptr<TracedRun> tracedBy(const TestMesh& mesh, SimplifyOptions options, size_t threads) {
   const Tasks tasks(threads);
   options.tasks = &tasks;
   options.tile_vertices = kFewVertices;
-  auto run = std::make_unique<Traced>();
+  auto run = std::make_unique<TracedRun>();
   Simplifier simplifier(options, run->out, {});
   simplifier.trace({&run->rows, &run->rows});
   MeshStream stream(mesh, Cut{});
@@ -240,23 +240,23 @@ std::unique_ptr<Traced> traced(const TestMesh& mesh, SimplifyOptions options, si
 }
 
 TEST(SweepThreads, TellTheSameMapAndLog) {
-  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
-  const auto one = traced(mesh, toRatio(0.2), 1);
+  const TestMesh mesh = gridWithWaves(wavySide(), ScalarType::kFloat64);
+  const auto one = tracedBy(mesh, toRatio(0.2), 1);
   EXPECT_GT(one->rows.ids.size(), mesh.vertexCount());
-  EXPECT_TRUE(traced(mesh, toRatio(0.2), 3)->rows.ids == one->rows.ids);
+  EXPECT_TRUE(tracedBy(mesh, toRatio(0.2), 3)->rows.ids == one->rows.ids);
 }
 
 // Tiles stop at the shares at which they stop where nobody is told.
 TEST(SweepThreads, GiveTheSameBytesWhereAMapAndALogAreTold) {
-  for (int n : {6, side()})
+  for (int n : {6, wavySide()})
     for (double ratio : {0.1, 0.2}) {
       SCOPED_TRACE(textOf("%d cubes a side, ratio %g", n, ratio));
       const TestMesh mesh = wavyAtOneSide(n);
       SimplifyOptions options = toRatio(ratio);
       options.shape = Shape::kSolver;
-      const auto one = traced(mesh, options, 1);
+      const auto one = tracedBy(mesh, options, 1);
       EXPECT_TRUE(one->out.allBytes() == ran(mesh, options, 2).out.allBytes());
-      const auto many = traced(mesh, options, 3);
+      const auto many = tracedBy(mesh, options, 3);
       EXPECT_TRUE(many->rows.ids == one->rows.ids);
       EXPECT_TRUE(many->out.allBytes() == one->out.allBytes());
     }
@@ -264,7 +264,7 @@ TEST(SweepThreads, GiveTheSameBytesWhereAMapAndALogAreTold) {
 
 // Callbacks come on the caller's thread; one that fails ends the run, and nobody waits for ever.
 void expectToStopAtCalls(const Tasks& tasks) {
-  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  const TestMesh mesh = gridWithWaves(wavySide(), ScalarType::kFloat64);
   const std::thread::id caller = std::this_thread::get_id();
   for (int last = 1; last < 6; ++last) {
     SimplifyOptions options = toRatio(0.1);
@@ -293,7 +293,7 @@ TEST(SweepThreads, StopWhenACallbackFailsWhereOthersDoAllTheWork) {
 
 // With a memory budget there is one patch at a time, and no more memory than one takes.
 TEST(SweepThreads, TakeNoMemoryBeyondABudget) {
-  const TestMesh mesh = wavyGrid(side(), ScalarType::kFloat64);
+  const TestMesh mesh = gridWithWaves(wavySide(), ScalarType::kFloat64);
   SimplifyOptions options = toRatio(0.2);
   options.memory_bytes = 8 << 20;
   const Outcomes one = ran(mesh, options, 1), many = ran(mesh, options, 8);

@@ -79,7 +79,7 @@ void expectTiling(Core<S>& core, Tiling<S>& tiling, int64_t to_leave_out = 0) {
   }
 }
 
-int side() {
+int tiledSide() {
   return slowRun() ? 14 : 36;  // 50000 vertices, more than six tiles
 }
 SimplifyOptions smallTiles(SimplifyOptions options) {
@@ -90,7 +90,7 @@ SimplifyOptions smallTiles(SimplifyOptions options) {
 // Some vertices locked, some cells dead; three rounds of cuts, and the first again.
 template <class S>
 void expectTilings(size_t threads) {
-  TestMesh mesh = fullGrid(side(), side(), side());
+  TestMesh mesh = fullGrid(tiledSide(), tiledSide(), tiledSide());
   for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(v % 17 == 0);
   const Tasks tasks(threads);
   SimplifyOptions options = smallTiles(inMode(Mode::kPaper));
@@ -171,7 +171,8 @@ TEST(Tiling, OfFewVerticesIsOfSmallerTilesWhereOthersComeBackToTheirSeams) {
 
 // What is a seam in one round is inside a tile of another.
 TEST(Tiling, CutsElsewhereInEachRound) {
-  WholeWindow<float> w(fullGrid(side(), side(), side()), smallTiles(inMode(Mode::kPaper)));
+  WholeWindow<float> w(fullGrid(tiledSide(), tiledSide(), tiledSide()),
+                       smallTiles(inMode(Mode::kPaper)));
   Tiling<float> tiling(w.core, w.account);
   const auto seam = [&](unsigned round) {
     tiling.build(round, std::numeric_limits<float>::infinity());

@@ -12,7 +12,8 @@ double wave(double x, double y, double z) {
   return std::sin(0.9 * x) + 0.5 * std::cos(1.3 * y + 0.4 * z);
 }
 
-void expectKeptIn(Mode mode, const TestMesh& mesh, double volume_tolerance, const char* name) {
+void expectTopologyKeptIn(Mode mode, const TestMesh& mesh, double volume_tolerance,
+                          const char* name) {
   const MeshFacts before = factsOf(mesh);
   for (double ratio : {1.0, 0.5, 0.1, 0.02})
     for (int64_t window : {64, 512, 0}) {
@@ -34,8 +35,8 @@ void expectKeptIn(Mode mode, const TestMesh& mesh, double volume_tolerance, cons
     }
 }
 
-void expectKept(const TestMesh& mesh, double volume_tolerance, const char* name) {
-  for (Mode mode : kModes) expectKeptIn(mode, mesh, volume_tolerance, name);
+void expectTopologyKept(const TestMesh& mesh, double volume_tolerance, const char* name) {
+  for (Mode mode : kModes) expectTopologyKeptIn(mode, mesh, volume_tolerance, name);
 }
 
 TestMesh withWave(TestMesh mesh) {
@@ -45,12 +46,12 @@ TestMesh withWave(TestMesh mesh) {
 
 TEST(SimplifierTopology, KeepsABall) {
   const int n = slowRun() ? 3 : 6;
-  expectKept(withWave(fullGrid(n, n, 2 * n)), 0.01, "grid");
+  expectTopologyKept(withWave(fullGrid(n, n, 2 * n)), 0.01, "grid");
 }
 TEST(SimplifierTopology, KeepsAnUnevenBall) {
   const int n = slowRun() ? 3 : 6;
-  expectKept(withWave(fullGrid(n, n, 2 * n, 0.1)), 0.2, "jittered grid");
-  expectKept(withWave(fullGrid(n, n, n, 0.1, ScalarType::kFloat32)), 0.2, "float32 grid");
+  expectTopologyKept(withWave(fullGrid(n, n, 2 * n, 0.1)), 0.2, "jittered grid");
+  expectTopologyKept(withWave(fullGrid(n, n, n, 0.1, ScalarType::kFloat32)), 0.2, "float32 grid");
 }
 TEST(SimplifierTopology, KeepsASlit) {
   const TestMesh slit = withWave(slitGrid(6));
@@ -59,17 +60,17 @@ TEST(SimplifierTopology, KeepsASlit) {
   ASSERT_EQ(facts.boundary_components, 2);
   ASSERT_EQ(facts.boundary_euler, 4);
   ASSERT_TRUE(facts.manifold());
-  expectKept(slit, 0.05, "slit");
+  expectTopologyKept(slit, 0.05, "slit");
 }
 TEST(SimplifierTopology, KeepsAVoid) {
   const TestMesh shell = withWave(shellGrid(5));
   ASSERT_EQ(factsOf(shell).boundary_components, 2);
-  expectKept(shell, 0.15, "shell");
+  expectTopologyKept(shell, 0.15, "shell");
 }
 TEST(SimplifierTopology, KeepsATunnel) {
   const TestMesh ring = withWave(ringGrid(7));
   ASSERT_EQ(factsOf(ring).boundary_euler, 0);  // a torus
-  expectKept(ring, 0.15, "ring");
+  expectTopologyKept(ring, 0.15, "ring");
 }
 TEST(SimplifierTopology, KeepsManyTunnels) {
   const TestMesh sponge = withWave(cubes(7, 7, 3, [](int x, int y, int z) {
@@ -77,18 +78,18 @@ TEST(SimplifierTopology, KeepsManyTunnels) {
   }));
   ASSERT_TRUE(factsOf(sponge).manifold());
   ASSERT_LT(factsOf(sponge).boundary_euler, -10);
-  expectKept(sponge, 0.2, "sponge");
+  expectTopologyKept(sponge, 0.2, "sponge");
 }
 TEST(SimplifierTopology, KeepsPartsApart) {
   const TestMesh parts = withWave(apart(4));
   ASSERT_EQ(factsOf(parts).components, 2);
-  expectKept(parts, 0.02, "parts");
+  expectTopologyKept(parts, 0.02, "parts");
 }
 
 // Where two cubes touch at an edge or a vertex the boundary is no manifold: its vertices stay.
 void expectTouchKept(const TestMesh& mesh, int n, int least) {
   ASSERT_FALSE(factsOf(mesh).manifold());
-  expectKept(mesh, 0.02, "touching cubes");
+  expectTopologyKept(mesh, 0.02, "touching cubes");
   const Result result = simplified(mesh, toRatio(0.1, 0));
   int found = 0;
   for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
@@ -108,7 +109,7 @@ TEST(SimplifierTopology, KeepsMixedOrientation) {
   TestMesh mesh = withWave(fullGrid(4, 4, 6, 0.1));
   for (size_t c = 0; c < mesh.cellCount(); c += 3)
     std::swap(mesh.cells[4 * c], mesh.cells[4 * c + 1]);
-  expectKept(mesh, 0.2, "mixed");
+  expectTopologyKept(mesh, 0.2, "mixed");
   const Result result = simplified(mesh, toRatio(0.5));
   const MeshFacts after = factsOf(result.out.mesh);
   EXPECT_GT(after.negative, after.cells / 6);

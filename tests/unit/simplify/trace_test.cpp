@@ -217,10 +217,10 @@ TEST(Traces, PutNothingOutsideOfABoxThatStaysOne) {
   EXPECT_GT(*std::min_element(t.traces.weights.begin(), t.traces.weights.end()), -1e-4);
 }
 
-using Face = std::set<int64_t>;
+using FaceCorners = std::set<int64_t>;
 
-Face faceOf(const TestMesh& mesh, size_t cell, size_t opposite) {
-  Face face;
+FaceCorners faceOf(const TestMesh& mesh, size_t cell, size_t opposite) {
+  FaceCorners face;
   for (size_t k = 0; k < 4; ++k)
     if (k != opposite) face.insert(mesh.cells[4 * cell + k]);
   return face;
@@ -240,7 +240,7 @@ TEST(Traces, PutVerticesBeyondFacesOfTheBoundaryOnly) {
   for (Mode mode : kModes) {
     const Traced t = traced(mesh, toRatio(0.05, 0, mode));
     EXPECT_GT(expectMap(mesh, t), 100u);
-    std::map<Face, int> cells_at;
+    std::map<FaceCorners, int> cells_at;
     for (size_t c = 0; c < t.result.out.mesh.cellCount(); ++c)
       for (size_t j = 0; j < 4; ++j) ++cells_at[faceOf(t.result.out.mesh, c, j)];
     size_t beyond_others = 0;

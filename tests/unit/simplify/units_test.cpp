@@ -16,7 +16,7 @@ struct Units {
   ScalarType type = ScalarType::kFloat64;
 };
 
-int side() {
+int unitsSide() {
   return slowRun() ? 4 : 8;
 }
 
@@ -31,7 +31,7 @@ Field bumps(int phase) {
 
 // A box of 1 x 1 x 2, swept along z: 6144 cells, of which 384 are a front.
 TestMesh meshIn(const Units& units, const Field& f) {
-  const int n = side();
+  const int n = unitsSide();
   const TestMesh grid = fullGrid(n, n, 2 * n, 0.1);
   std::vector<double> positions;
   for (size_t v = 0; v < grid.vertexCount(); ++v)
@@ -46,8 +46,8 @@ TestMesh meshIn(const Units& units, const Field& f) {
   return mesh;
 }
 
-SimplifyOptions fourFronts(double ratio) {
-  return toRatio(ratio, 24 * side() * side());
+SimplifyOptions inFourFronts(double ratio) {
+  return toRatio(ratio, 24 * unitsSide() * unitsSide());
 }
 
 // The target is reached; the error in units of the field, over the family.
@@ -56,7 +56,7 @@ double reachedWithError(const Units& units) {
   double sum = 0;
   for (int phase = 0; phase < fields; ++phase) {
     const TestMesh mesh = meshIn(units, bumps(phase));
-    const Result result = simplified(mesh, fourFronts(0.1));
+    const Result result = simplified(mesh, inFourFronts(0.1));
     expectSound(mesh, result);
     expectReached(result);
     const double error = fieldErrors(mesh, result.out.mesh)[0] / units.value;
@@ -82,15 +82,13 @@ void expectSameError(const std::vector<Units>& all, double share = 0.02) {
 
 // ------------------------------------------------------------------------------------- tests
 
-constexpr ScalarType k32 = ScalarType::kFloat32, k64 = ScalarType::kFloat64;
-
 // Powers of two change no bit of a mantissa.
 void expectSameCells(ScalarType type) {
   const Units plain = {1, 1, 0, type};
-  const Result expected = simplified(meshIn(plain, bumps(0)), fourFronts(0.1));
+  const Result expected = simplified(meshIn(plain, bumps(0)), inFourFronts(0.1));
   for (double length : {0x1p30, 0x1p-30}) {
     SCOPED_TRACE(length);
-    const Result scaled = simplified(meshIn({length, 1, 0, type}, bumps(0)), fourFronts(0.1));
+    const Result scaled = simplified(meshIn({length, 1, 0, type}, bumps(0)), inFourFronts(0.1));
     expectReached(scaled);
     const TestMesh &a = expected.out.mesh, &b = scaled.out.mesh;
     ASSERT_TRUE(a.cells == b.cells);
@@ -128,7 +126,7 @@ TEST(SimplifierPlace, FarFromTheOriginLeavesTheErrorAsItIs) {
 
 void expectReachedIn(Mode mode, ScalarType type, const Field& f) {
   const TestMesh mesh = meshIn({1, 1, 0, type}, f);
-  SimplifyOptions options = fourFronts(0.1);
+  SimplifyOptions options = inFourFronts(0.1);
   options.mode = mode;
   const Result result = simplified(mesh, options);
   expectSound(mesh, result);

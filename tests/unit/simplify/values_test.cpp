@@ -9,15 +9,9 @@
 namespace tetstream::test {
 namespace {
 
-using Place = std::array<double, 3>;
-
 constexpr std::pair<Mode, int64_t> kModesAndWindows[] = {{Mode::kSweep, 100}, {Mode::kSweep, 0},
                                                          {Mode::kPaper, 100}, {Mode::kPaper, 0},
                                                          {Mode::kQueue, 100}, {Mode::kQueue, 0}};
-
-Place placeOf(const TestMesh& mesh, size_t v) {
-  return {mesh.position(v, 0), mesh.position(v, 1), mesh.position(v, 2)};
-}
 
 // By place: the vertex there.
 std::map<Place, size_t> placesOf(const TestMesh& mesh) {

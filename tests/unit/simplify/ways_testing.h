@@ -1,7 +1,7 @@
 // tests: what is promised holds in every mode, and where cells are flipped, too.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "simplify_testing.h"
 
@@ -27,13 +27,6 @@ inline void expectFlips(const Report& report, const Way& way) {
     EXPECT_GT(report.flips, 0);
   else
     EXPECT_EQ(report.flips, 0);
-}
-
-using Place = std::array<double, 3>;
-
-inline Place placeOf(const TestMesh& mesh, int64_t v) {
-  const auto row = static_cast<size_t>(v);
-  return {mesh.position(row, 0), mesh.position(row, 1), mesh.position(row, 2)};
 }
 
 // A full grid of n^3 cubes with its inside shaken, so that flips have something to do.

@@ -1,6 +1,9 @@
 // tests: a whole small mesh in one window, or in one patch of it, ready for collapses by hand.
 #pragma once
 
+#include <set>
+#include <utility>
+
 #include "collapse.h"
 #include "faces.h"
 #include "intake.h"
@@ -10,6 +13,8 @@
 #include "simplify_testing.h"
 
 namespace tetstream::test {
+
+using Edges = std::set<std::pair<uint32_t, uint32_t>>;
 
 // With all that a map and a log need; whether they are told is up to the core's tracer.
 inline Plan tracedPlan(Plan plan) {

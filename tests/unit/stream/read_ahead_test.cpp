@@ -23,7 +23,7 @@ TestMesh richMesh() {
   return mesh;
 }
 
-Cut smallBatches() {
+Cut smallExplicitBatches() {
   Cut cut;
   cut.batch_cells = 20;
   cut.explicit_final = true;
@@ -31,9 +31,10 @@ Cut smallBatches() {
 }
 
 // Gives a mesh, and fails in place of batch `fails_at`; counts who is in it at once.
-class Watched final : public Source {
+class WatchedSource final : public Source {
  public:
-  Watched(const TestMesh& mesh, size_t fails_at) : in_(mesh, smallBatches()), fails_at_(fails_at) {}
+  WatchedSource(const TestMesh& mesh, size_t fails_at)
+      : in_(mesh, smallExplicitBatches()), fails_at_(fails_at) {}
   const Schema& schema() const override { return in_.schema(); }
   bool next(BatchView& batch) override {
     if (inside_.exchange(true)) ADD_FAILURE() << "two threads read at once";
@@ -62,7 +63,7 @@ constexpr size_t kNever = SIZE_MAX;
 TEST(ReadAhead, GivesTheSameStreamWhoeverReads) {
   const TestMesh mesh = richMesh();
   Recorder alone;
-  MeshStream plain(mesh, smallBatches());
+  MeshStream plain(mesh, smallExplicitBatches());
   copyStream(plain, alone);
   NoWorkers none;
   HastyWorkers hasty;
@@ -71,7 +72,7 @@ TEST(ReadAhead, GivesTheSameStreamWhoeverReads) {
     const Tasks tasks(2, workers);
     Recorder out;
     {
-      Watched in(mesh, kNever);
+      WatchedSource in(mesh, kNever);
       ReadAhead ahead(in, tasks);
       copyStream(ahead, out);
       BatchView batch;
@@ -91,7 +92,7 @@ TEST(ReadAhead, TellsAnErrorAfterTheBatchesBeforeIt) {
   for (Workers* workers : std::initializer_list<Workers*>{nullptr, &hasty})
     for (size_t fails_at : {0, 1, 2, 3, 7, 20}) {
       const Tasks tasks(2, workers);
-      Watched in(mesh, fails_at);
+      WatchedSource in(mesh, fails_at);
       ReadAhead ahead(in, tasks);
       size_t came = 0;
       try {
@@ -110,7 +111,7 @@ TEST(ReadAhead, ReadsNothingBeforeItIsAskedAndFewBatchesBeyond) {
   const TestMesh mesh = richMesh();
   HastyWorkers hasty;
   const Tasks tasks(2, &hasty);
-  Watched in(mesh, kNever);
+  WatchedSource in(mesh, kNever);
   ReadAhead ahead(in, tasks);
   EXPECT_EQ(in.given, 0u);
   BatchView batch;
@@ -125,7 +126,7 @@ TEST(ReadAhead, MayBeLeftInTheMiddle) {
   const TestMesh mesh = richMesh();
   const Tasks tasks(2);
   for (size_t asked = 0; asked < 12; ++asked) {
-    Watched in(mesh, kNever);
+    WatchedSource in(mesh, kNever);
     ReadAhead ahead(in, tasks);
     BatchView batch;
     for (size_t i = 0; i < asked; ++i) EXPECT_TRUE(ahead.next(batch));

@@ -21,9 +21,9 @@ Cut smallBatches() {
 }
 
 // Fails in place of taking batch `fails_at`.
-class Watched final : public Sink {
+class WatchedSink final : public Sink {
  public:
-  explicit Watched(size_t fails_at = SIZE_MAX) : fails_at_(fails_at) {}
+  explicit WatchedSink(size_t fails_at = SIZE_MAX) : fails_at_(fails_at) {}
   void begin(const Schema& schema) override { out.begin(schema); }
   void put(const BatchView& batch) override {
     if (inside_.exchange(true)) ADD_FAILURE() << "two threads write at once";
@@ -52,7 +52,7 @@ TEST(WriteBehind, GivesTheSameStreamWhoeverWrites) {
   LazyWorkers lazy;
   for (Workers* workers : std::initializer_list<Workers*>{nullptr, &none, &hasty, &lazy}) {
     const Tasks tasks(2, workers);
-    Watched sink;
+    WatchedSink sink;
     {
       WriteBehind behind(sink, tasks);
       MeshStream in(mesh, smallBatches());
@@ -72,7 +72,7 @@ TEST(WriteBehind, TellsAnErrorSoonAndWritesNothingAfterIt) {
   for (Workers* workers : std::initializer_list<Workers*>{nullptr, &lazy})
     for (size_t fails_at : {0, 1, 2, 3, 20}) {
       const Tasks tasks(2, workers);
-      Watched sink(fails_at);
+      WatchedSink sink(fails_at);
       size_t put = 0;
       try {
         WriteBehind behind(sink, tasks);
@@ -96,7 +96,7 @@ TEST(WriteBehind, LetsFewBatchesWait) {
   const TestMesh mesh = fullGrid(5, 5, 8, 0.1);
   LazyWorkers lazy;
   const Tasks tasks(2, &lazy);
-  Watched sink;
+  WatchedSink sink;
   WriteBehind behind(sink, tasks);
   MeshStream in(mesh, smallBatches());
   behind.begin(in.schema());
@@ -115,7 +115,7 @@ TEST(WriteBehind, DropsWhatWaitsWhenItIsLeft) {
   const TestMesh mesh = fullGrid(5, 5, 8, 0.1);
   const Tasks tasks(2);
   for (size_t put = 0; put < 12; ++put) {
-    Watched sink;
+    WatchedSink sink;
     WriteBehind behind(sink, tasks);
     MeshStream in(mesh, smallBatches());
     behind.begin(in.schema());
