@@ -17,29 +17,44 @@ namespace tetstream {
 struct CutRule {
   double share;
   size_t most;
+
+  bool isLeaf(size_t count) const { return count <= most; }
+  size_t before(size_t count) const {
+    return static_cast<size_t>(share * static_cast<double>(count));
+  }
+  // How many leaves come of a piece of `count` ids.
+  size_t leavesOf(size_t count) const {
+    return isLeaf(count) ? 1 : leavesOf(before(count)) + leavesOf(count - before(count));
+  }
 };
 
 // at(id, axis): a coordinate, in the type in which sides are compared. The ids stay ascending in
-// every piece, so that nothing is sorted: the place of a cut is found by counting.
+// every piece, so that nothing is sorted: the place of a cut is found by counting. Pieces that do
+// not overlap may be cut by several threads at once.
 template <class At>
 class MedianCut {
  public:
-  MedianCut(uint32_t* ids, const CutRule& rule, const At& at) : ids_(ids), rule_(rule), at_(at) {}
+  MedianCut(uint32_t* ids, size_t count, const CutRule& rule, const At& at)
+      : ids_(ids), rule_(rule), at_(at), bins_(count), aside_(count) {}
 
   // Reorders ids[begin, end), ascending, so that each leaf is a piece of it, its ids ascending, and
   // calls leaf(begin, end) for one after the other.
   template <class Leaf>
   void cut(size_t begin, size_t end, const Leaf& leaf) {
-    if (end - begin <= rule_.most) {
+    if (rule_.isLeaf(end - begin)) {
       leaf(begin, end);
       return;
     }
-    const Side side = longestSide(begin, end);
-    const size_t middle =
-        begin + static_cast<size_t>(rule_.share * static_cast<double>(end - begin));
-    partition(begin, end, side.axis, placeAt(begin, middle, end, side));
+    const size_t middle = cutOnce(begin, end);
     cut(begin, middle, leaf);
     cut(middle, end, leaf);
+  }
+
+  // The first of these cuts alone, of what is no leaf; returns where it is.
+  size_t cutOnce(size_t begin, size_t end) {
+    const size_t middle = begin + rule_.before(end - begin);
+    partition(begin, middle, end, longestSide(begin, end));
+    return middle;
   }
 
   // The same in slices across the longest side of the whole: `count` of one size, or by half of it
@@ -54,7 +69,7 @@ class MedianCut {
       const auto middle = static_cast<size_t>(first + share * size);
       if (middle == begin) continue;
       if (middle == end) break;
-      partition(begin, end, side.axis, placeAt(begin, middle, end, side));
+      partition(begin, middle, end, side);
       leaf(begin, middle);
       begin = middle;
     }
@@ -87,48 +102,63 @@ class MedianCut {
     return {longest, low[longest], high[longest]};
   }
 
-  // The place of the id that comes at `middle` when all are in order.
-  Place placeAt(size_t begin, size_t middle, size_t end, const Side& side) {
+  // The first behind the cut, and the bin that it is in.
+  struct Pivot {
+    Place place;
+    uint8_t bin;
+  };
+
+  // What comes at `middle` when all are in order. In bins_: of each its bin, which rises with the
+  // coordinate.
+  Pivot pivotAt(size_t begin, size_t middle, size_t end, const Side& side) {
     // Halves, since the difference of finite numbers may be none.
     const Number width = side.high / 2 - side.low / 2;
     const Number bins_per_unit =
         width > 0 ? std::min(kBins / width, std::numeric_limits<Number>::max()) : 0;
-    const auto bin_of = [&](Number x) {  // rises with x
-      return std::min(static_cast<size_t>((x / 2 - side.low / 2) * bins_per_unit), kBins - 1);
-    };
     std::array<uint32_t, kBins> count{};
-    for (size_t i = begin; i < end; ++i) ++count[bin_of(at_(ids_[i], side.axis))];
+    for (size_t i = begin; i < end; ++i) {
+      const Number x = at_(ids_[i], side.axis) / 2 - side.low / 2;
+      const size_t bin = std::min(static_cast<size_t>(x * bins_per_unit), kBins - 1);
+      bins_[i] = static_cast<uint8_t>(bin);
+      ++count[bin];
+    }
     size_t bin = 0, before = begin;
     for (; before + count[bin] <= middle; ++bin) before += count[bin];
-    in_bin_.clear();
-    for (size_t i = begin; i < end; ++i) {
-      const Number x = at_(ids_[i], side.axis);
-      if (bin_of(x) == bin) in_bin_.push_back({x, ids_[i]});
-    }
-    const auto place = in_bin_.begin() + static_cast<std::ptrdiff_t>(middle - before);
-    std::nth_element(in_bin_.begin(), place, in_bin_.end());
-    return *place;
+    uint32_t* const in_bin = &aside_[begin];
+    uint32_t* end_in_bin = in_bin;
+    for (size_t i = begin; i < end; ++i)
+      if (bins_[i] == bin) *end_in_bin++ = ids_[i];
+    uint32_t* const id = in_bin + (middle - before);
+    std::nth_element(in_bin, id, end_in_bin,
+                     [&](uint32_t a, uint32_t b) { return placeOf(a, side) < placeOf(b, side); });
+    return {placeOf(*id, side), static_cast<uint8_t>(bin)};
   }
 
-  void partition(size_t begin, size_t end, int axis, const Place& first_behind) {
-    behind_.clear();
-    size_t kept = begin;
+  // [begin, middle) and [middle, end), each in the order that it has. Nearly all are told by their
+  // bin.
+  void partition(size_t begin, size_t middle, size_t end, const Side& side) {
+    const Pivot pivot = pivotAt(begin, middle, end, side);
+    uint32_t* const behind = &aside_[begin];
+    size_t kept = begin, put_aside = 0;
     for (size_t i = begin; i < end; ++i) {
       const uint32_t id = ids_[i];
-      if (Place(at_(id, axis), id) < first_behind)
-        ids_[kept++] = id;
-      else
-        behind_.push_back(id);
+      const bool is_before =
+          bins_[i] == pivot.bin ? placeOf(id, side) < pivot.place : bins_[i] < pivot.bin;
+      ids_[kept] = behind[put_aside] = id;
+      kept += is_before;
+      put_aside += !is_before;
     }
-    std::copy(behind_.begin(), behind_.end(), ids_ + kept);
+    std::copy_n(behind, put_aside, ids_ + kept);
   }
+
+  Place placeOf(uint32_t id, const Side& side) const { return {at_(id, side.axis), id}; }
 
   static constexpr size_t kBins = 256;
   uint32_t* ids_;
   CutRule rule_;
   const At& at_;
-  std::vector<Place> in_bin_;
-  std::vector<uint32_t> behind_;
+  std::vector<uint8_t> bins_;    // of ids_
+  std::vector<uint32_t> aside_;  // as many
 };
 
 }  // namespace tetstream

@@ -30,7 +30,7 @@ void Tiles<S>::build() {
   const auto at = [this](uint32_t cell, int axis) {
     return static_cast<double>(core_.window.values(core_.window.mesh.corners(cell)[0])[axis]);
   };
-  MedianCut cut(cells_.data(), {0.5, cellsPerTile()}, at);
+  MedianCut cut(cells_.data(), count, {0.5, cellsPerTile()}, at);
   cut.cut(0, count, [this](size_t begin, size_t end) { tiles_.push_back({begin, end}); });
 }
 

@@ -118,18 +118,35 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   const size_t most = layout == TileLayout::kPieces ? pieceOf(count, largest) : largest;
   const CutRule rule{kShare[round % 3], most};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
-  MedianCut pieces(vertices_.data(), rule, at);
-  const auto add = [this](size_t begin, size_t end) {
-    const uint32_t tile = static_cast<uint32_t>(tiles_.size()) + 1;
-    for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = tile;
-    tiles_.push_back({begin, end, 0, tile - 1, 0});
-  };
+  MedianCut pieces(vertices_.data(), count, rule, at);
   const size_t slices = layout == TileLayout::kSlices ? slicesOf(count, largest) : 0;
   are_slices_ = slices > 0;
-  if (are_slices_)
-    pieces.slice(0, count, slices, round % 2 == 1, add);
-  else
-    pieces.cut(0, count, add);
+  if (are_slices_) {
+    pieces.slice(0, count, slices, round % 2 == 1, [this](size_t begin, size_t end) {
+      tiles_.emplace_back();
+      setTile(tiles_.size() - 1, begin, end);
+    });
+    return;
+  }
+  tiles_.resize(rule.leavesOf(count));
+  const auto cutPart = [&](size_t begin, size_t end, size_t tile) {
+    pieces.cut(begin, end, [&](size_t first, size_t last) { setTile(tile++, first, last); });
+  };
+  const Tasks* const both = core_.tasksForAll();
+  if (!both || rule.isLeaf(count)) {
+    cutPart(0, count, 0);
+    return;
+  }
+  const size_t middle = pieces.cutOnce(0, count);
+  doBoth(
+      both, [&] { cutPart(0, middle, 0); }, [&] { cutPart(middle, count, rule.leavesOf(middle)); });
+}
+
+template <class S>
+void Tiling<S>::setTile(size_t tile, size_t begin, size_t end) {
+  const auto number = static_cast<uint32_t>(tile);
+  for (size_t i = begin; i < end; ++i) core_.window.scratch()[vertices_[i]] = number + 1;
+  tiles_[tile] = {begin, end, 0, number, 0};
 }
 
 // The tiles that own a vertex of the cell, each once.

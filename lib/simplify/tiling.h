@@ -80,6 +80,7 @@ class Tiling {
   size_t listVertices();
   size_t slicesOf(size_t vertices, size_t tile) const;
   void cut(size_t count, unsigned round, TileLayout layout);
+  void setTile(size_t tile, size_t begin, size_t end);
   // What was found in a part of the window's cells.
   struct Part {
     explicit Part(Account& account)

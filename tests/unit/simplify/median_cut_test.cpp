@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <thread>
 #include <vector>
 
 #include "random.h"
@@ -22,7 +23,7 @@ std::vector<Ids> leavesOf(const Points& points, Ids ids, const CutRule& rule) {
     leaves.push_back(
         {ids.begin() + static_cast<ptrdiff_t>(begin), ids.begin() + static_cast<ptrdiff_t>(end)});
   };
-  MedianCut(ids.data(), rule, at).cut(0, ids.size(), leaf);
+  MedianCut(ids.data(), ids.size(), rule, at).cut(0, ids.size(), leaf);
   return leaves;
 }
 
@@ -51,7 +52,7 @@ std::vector<Ids> slicesOf(const Points& points, size_t count, bool half_on) {
   std::iota(ids.begin(), ids.end(), 0u);
   std::vector<Ids> slices;
   const auto at = [&](uint32_t id, int axis) { return points[id][static_cast<size_t>(axis)]; };
-  MedianCut(ids.data(), {0.5, 1}, at)
+  MedianCut(ids.data(), ids.size(), {0.5, 1}, at)
       .slice(0, ids.size(), count, half_on, [&](size_t begin, size_t end) {
         slices.push_back({ids.begin() + static_cast<ptrdiff_t>(begin),
                           ids.begin() + static_cast<ptrdiff_t>(end)});
@@ -80,6 +81,34 @@ TEST(MedianCut, DecidesTies) {
   const Points square = {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}};
   EXPECT_EQ(leavesOf(square, {0, 1, 2, 3}, {0.5, 2}), (std::vector<Ids>{{0, 1}, {2, 3}}));
   EXPECT_EQ(leavesOf(Points(4), {0, 1, 2, 3}, {0.5, 2}), (std::vector<Ids>{{0, 1}, {2, 3}}));
+}
+
+// As two threads share the work.
+TEST(MedianCut, PartsAreCutByThemselves) {
+  Random r(5);
+  Points points(3000);
+  for (auto& point : points)
+    for (float& x : point) x = static_cast<float>(r.below(1000));
+  const auto at = [&](uint32_t id, int axis) { return points[id][static_cast<size_t>(axis)]; };
+  Ids ids(points.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  const CutRule rule{0.36, 50};
+  const std::vector<Ids> expected = leavesOf(points, ids, rule);
+  EXPECT_EQ(rule.leavesOf(ids.size()), expected.size());
+  MedianCut pieces(ids.data(), ids.size(), rule, at);
+  const size_t middle = pieces.cutOnce(0, ids.size());
+  EXPECT_EQ(middle, rule.before(ids.size()));
+  std::vector<Ids> leaves(expected.size());
+  const auto cutPart = [&](size_t begin, size_t end, size_t leaf) {
+    pieces.cut(begin, end, [&](size_t first, size_t last) {
+      leaves[leaf++].assign(ids.begin() + static_cast<ptrdiff_t>(first),
+                            ids.begin() + static_cast<ptrdiff_t>(last));
+    });
+  };
+  std::thread second([&] { cutPart(middle, ids.size(), rule.leavesOf(middle)); });
+  cutPart(0, middle, 0);
+  second.join();
+  EXPECT_EQ(leaves, expected);
 }
 
 // Against sorting; some places equal, some far away, some beyond what differences hold.
