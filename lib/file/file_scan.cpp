@@ -31,10 +31,23 @@ bool FileScan::refill() {
   origin_ += at_;
   at_ = 0;
   if (filled_ == kBufferBytes) return true;
+  const bool is_first = origin_ + filled_ == 0;
   const size_t got = readText(buffer_.data() + filled_, kBufferBytes - filled_);
   filled_ += got;
   buffer_[filled_] = 0;
+  if (is_first) passByteOrderMark();
   return got > 0;
+}
+
+// As editors of Windows put before text in UTF-8.
+void FileScan::passByteOrderMark() {
+  static constexpr std::string_view kMark = "\xef\xbb\xbf";
+  const auto begins = [this] {  // as far as it is there
+    return kMark.starts_with(std::string_view(buffer_.data(), std::min(filled_, kMark.size())));
+  };
+  while (filled_ > 0 && filled_ < kMark.size() && begins() && refill()) {
+  }
+  if (filled_ >= kMark.size() && begins()) at_ = kMark.size();
 }
 
 size_t FileScan::readText(char* out, size_t size) {

@@ -15,9 +15,10 @@
 
 namespace tetstream {
 
-// Memory is one buffer, and pieces of text where several threads read rows of numbers, which gives
-// the same numbers and the same errors. Errors name the file and the line, or the byte once
-// anything binary was read; what is asked for is said in the words of `what`.
+// A byte-order mark before text is passed over. Memory is one buffer, and pieces of text where
+// several threads read rows of numbers, which gives the same numbers and the same errors. Errors
+// name the file and the line, or the byte once anything binary was read; what is asked for is said
+// in the words of `what`.
 class FileScan {
  public:
   // From `comment` (0: none) to the end of the line is blank.
@@ -110,6 +111,7 @@ class FileScan {
 
  private:
   bool refill();  // adds to the buffer; false at the end of the file
+  void passByteOrderMark();
   size_t readText(char* out, size_t size);
   size_t readFile(char* out, size_t size);
   size_t readTextAhead(char* out, size_t size, bool* fails);

@@ -137,6 +137,23 @@ TEST(Medit, SaysThatFieldsNeedAFileBeside) {
   EXPECT_TRUE(anyNote(notes, "\"sol\", \"sol1\""));
 }
 
+TEST(Medit, ReadsTextBehindAByteOrderMark) {
+  Input input = openText(openMedit, std::string("\xef\xbb\xbf") + kMeditText);
+  EXPECT_EQ(readAll(input).cells.size(), 2u);
+}
+
+// As some programs write it, and as a file is that was cut between two sections.
+TEST(Medit, TellsWhereAFileEndsWithoutItsWord) {
+  const std::string text = std::string(kMeditText).substr(0, std::string(kMeditText).size() - 4);
+  std::vector<std::string> notes;
+  Input input = openText(openMedit, text, {}, &notes);
+  EXPECT_EQ(readAll(input).cells.size(), 2u);
+  EXPECT_TRUE(anyNote(notes, "ends without the word End"));
+  notes.clear();
+  openText(openMedit, kMeditText, {}, &notes);
+  EXPECT_FALSE(anyNote(notes, "ends without the word End"));
+}
+
 TEST(Medit, SaysWhatIsWrongAndWhere) {
   const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
   const std::string vertices = head + "Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
@@ -152,7 +169,6 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
       {vertices + "Triangles 1\n1 2 -9223372036854775808 0\nEnd\n",
        "line 9: vertex -9223372036854775808, where there are 1 to 4"},
       {vertices + "Tetrahedra 1\n1 2 3 0 0\nEnd\n", "vertex 0"},
-      {vertices + "Tetrahedra 1\n1 2 3 4 0\n", "without the word End"},
       {vertices + "Prisms 1\n1 2 3 4 1 2 0\nEnd\n", "cell 1 is a prism"},
       {vertices + "End\n", "no tetrahedron"},
       {head + "Tetrahedra 1\n1 2 3 9 0\nVertices 1\n0 0 0 0\nEnd\n",

@@ -29,6 +29,14 @@ TEST(Su2, ReadsZonesAndMarkers) {
   EXPECT_TRUE(anyNote(notes, "1 wall, 2 inlet"));
 }
 
+TEST(Su2, ReadsTextBehindAByteOrderMark) {
+  std::vector<std::string> notes;
+  Input input = openText(openSu2, std::string("\xef\xbb\xbf") + (kSu2 + 12), {}, &notes);
+  EXPECT_EQ(readAll(input).cells.size(), 2u);
+  EXPECT_FALSE(anyNote(notes, "is left out"));
+  EXPECT_EQ(problemOf(openSu2, "\xef\xbb"), "mesh: line 1: \"??\" where NAME= should be");
+}
+
 TEST(Su2, SaysWhatIsWrongAndWhere) {
   const struct {
     std::string text, problem;
