@@ -31,9 +31,6 @@ constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
 // Larger meshes are sampled, which takes this share.
 constexpr double kSampleShare = 0.1;
-// Cells in over cells out: by more than this a small sample misleads (fluid of 6e5 cells in 3 to 5
-// MB: at a ratio of 0.02 up to 1.5 times the error, at 0.01 2.6 times; at 0.05 it helps).
-constexpr int64_t kSampledReduction = 20;
 // A stream of so many cells, which most files hold in one piece, is not read ahead.
 constexpr int64_t kReadAtOnce = 1 << 14;
 
@@ -47,14 +44,6 @@ class Nowhere final : public Sink {
 RunOptions withTasks(RunOptions options, const Tasks* tasks) {
   options.simplify.tasks = tasks;
   return options;
-}
-
-// With a memory budget samples are small: few windows come to know more, and those with hardly more
-// than a front do not heed them.
-bool isSampledWithin(const Schema& schema, const SimplifyOptions& options, int64_t window) {
-  const int64_t cells = schema.cell_count, wanted = Simplifier::targetCells(schema, options);
-  return cells / kFewWindows >= window && cells / kSampledReduction <= wanted &&
-         static_cast<double>(window) >= kLeastFronts * static_cast<double>(schema.front_cells);
 }
 
 // `before`: the share of the time that ordering took.
@@ -143,11 +132,9 @@ struct SimplifyRun::State {
     const Schema& schema = stream.source().schema();
     const int64_t cells = schema.cell_count, window = Simplifier::windowCells(schema, o);
     if (followsPaper(o.mode) || o.pilot != PilotUse::kAuto || cells <= window) return;
-    const bool has_budget = o.memory_bytes > 0;
-    if (!has_budget && cells <= kPilotCells)
+    if (o.memory_bytes == 0 && cells <= kPilotCells)
       readAgain(stream, Part::kAll, [&](Source& source) { fly(source); });
-    else if (o.error == 0 && Sampler::serves(schema, o) &&
-             (!has_budget || isSampledWithin(schema, o, window)))
+    else if (Sampler::serves(schema, o) && Sampler::pays(schema, o))
       sample(stream);
   }
   // False where the stream can be read but once.

@@ -21,6 +21,8 @@ class Sampler {
   // shape of the boundary alone asks for many cells where few samples are. And whether a memory
   // budget has room for a sample of some size, with all that it takes.
   static bool serves(const Schema& schema, const SimplifyOptions& options);
+  // Whether what a sample tells is likely to lower the errors of the run.
+  static bool pays(const Schema& schema, const SimplifyOptions& options);
   Sampler(const Schema& schema, const SimplifyOptions& options);
 
   // The events of the whole stream, in order: first all to be counted; then, when the bricks are

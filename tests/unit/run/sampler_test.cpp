@@ -254,6 +254,27 @@ TEST(Sampler, ServesWhereABudgetHasRoom) {
   EXPECT_TRUE(Sampler::serves(schema, options));
 }
 
+TEST(Sampler, PaysWhereABudgetLeavesManyWindowsOfSomeFronts) {
+  Schema schema;
+  schema.cell_count = 10000000;
+  schema.front_cells = 10000;
+  SimplifyOptions options;
+  options.ratio = 0.01;
+  EXPECT_TRUE(Sampler::pays(schema, options)) << "large samples do at any ratio";
+  options.memory_bytes = 8000000;
+  EXPECT_FALSE(Sampler::pays(schema, options));
+  options.ratio = 0.1;
+  EXPECT_TRUE(Sampler::pays(schema, options));
+  options.error = 1;
+  EXPECT_FALSE(Sampler::pays(schema, options)) << "no cells are asked for";
+  options.error = 0;
+  schema.front_cells = 80000;
+  EXPECT_FALSE(Sampler::pays(schema, options)) << "the window has little more than the front";
+  schema.front_cells = 10000;
+  schema.cell_count = 200000;
+  EXPECT_FALSE(Sampler::pays(schema, options)) << "the window has a large part of all cells";
+}
+
 // Cells that grow with y and z, to some thousand times what they are at first.
 void grade(TestMesh& mesh, double width) {
   for (size_t v = 0; v < mesh.vertexCount(); ++v)
