@@ -67,7 +67,8 @@ int64_t WindowSize::fitting() const {
                             : tileVertices(options_, patch_vertex_bytes_) * patch_vertex_bytes_;
   const auto beside = [&](int64_t patches) {
     const int64_t left = options_.memory_bytes - kFixedBytes - patches - map;
-    return std::max(left * 5 / 6 / cell_bytes_, kLeastCells);
+    const int64_t five_sixths = left - (left + 5) / 6;  // of any number
+    return std::max(five_sixths / cell_bytes_, kLeastCells);
   };
   const int64_t cells = beside(patch);
   return 2 * cells < kRoomyHalfFronts * knownFront() ? beside(2 * patch) : cells;

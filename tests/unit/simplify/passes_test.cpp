@@ -1,6 +1,7 @@
 // How much of a mesh is held, and how many passes over it find the bound that leaves what was
 // asked for.
 #include <cmath>
+#include <limits>
 
 #include "simplify_testing.h"
 
@@ -24,6 +25,8 @@ TEST(SimplifierWindow, HoldsSmallMeshesWhole) {
   SimplifyOptions budgeted;
   budgeted.memory_bytes = 4 << 20;
   EXPECT_LT(windowOf(200000, 500, budgeted), 100000);
+  budgeted.memory_bytes = std::numeric_limits<int64_t>::max();
+  EXPECT_EQ(windowOf(200000, 500, budgeted), 200000);
 }
 
 TEST(SimplifierWindow, HoldsMoreFrontsWhereTheyAreWide) {
