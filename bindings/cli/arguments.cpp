@@ -61,19 +61,21 @@ class Parser {
   Arguments parse(int argc, const char* const* argv);
 
  private:
-  CLI::App* addCommand(const char* name, const char* text, Arguments::Command command);
+  struct Command;
+  static const Command kCommands[];
+  void addCommand(const Command& command);
   void addRemark(CLI::App* command, const std::string& remark);
-  void addSimplify();
-  void addInfo();
-  void addConvert();
-  void addLayout();
-  void addGenerate();
-  void addDiagram();
-  void addCompare();
+  void addSimplify(CLI::App* command);
+  void addInfo(CLI::App* command);
+  void addConvert(CLI::App* command);
+  void addLayout(CLI::App* command);
+  void addGenerate(CLI::App* command);
+  void addDiagram(CLI::App* command);
+  void addCompare(CLI::App* command);
   void addTitle(CLI::App* command, const char* text);
   void addFields(CLI::App* command, const char* text, const char* value);
-  void addHelp();
-  void addCompletion();
+  void addHelp(CLI::App* command);
+  void addCompletion(CLI::App* command);
   void addIn(CLI::App* command);
   void addOut(CLI::App* command);
   void addFormat(CLI::App* command);
@@ -94,8 +96,34 @@ class Parser {
   bool version_ = false;
 };
 
-// Where the first word is a command that needs to know of no other the others are left out: to tell
-// of them takes longer than to read a small mesh.
+struct Parser::Command {
+  const char *name, *text;
+  Arguments::Command number;
+  bool stands_alone;  // needs to know of no other
+  void (Parser::*add)(CLI::App* command);
+};
+
+const Parser::Command Parser::kCommands[] = {
+    {"simplify", "Make a mesh smaller, following its fields", Arguments::Command::kSimplify, true,
+     &Parser::addSimplify},
+    {"info", "Say what a mesh holds, how large and how coherent it is", Arguments::Command::kInfo,
+     true, &Parser::addInfo},
+    {"convert", "Copy a mesh into another format", Arguments::Command::kConvert, true,
+     &Parser::addConvert},
+    {"layout", "Bring a mesh into an order that streams well", Arguments::Command::kLayout, true,
+     &Parser::addLayout},
+    {"generate", "Make a mesh to try things with", Arguments::Command::kGenerate, true,
+     &Parser::addGenerate},
+    {"diagram", "Draw how good the order of a mesh stream is", Arguments::Command::kDiagram, true,
+     &Parser::addDiagram},
+    {"compare", "Measure how well a simplified mesh follows its original",
+     Arguments::Command::kCompare, true, &Parser::addCompare},
+    {"help", "Show the help of a command", Arguments::Command::kText, false, &Parser::addHelp},
+    {"completion", "Print a script that completes commands in a shell", Arguments::Command::kText,
+     false, &Parser::addCompletion}};
+
+// Where the first word is a command that stands alone the others are left out: to tell of them
+// takes longer than to read a small mesh.
 Parser::Parser(const std::string& first) {
   app_.get_formatter()->column_width(kHelpColumn);
   app_.get_formatter()->label("Positionals", "Arguments");
@@ -108,28 +136,19 @@ Parser::Parser(const std::string& first) {
   app_.add_flag("--version", version_, "Show the library's version and formats and stop");
   app_.footer(std::string("`tetstream help COMMAND` says more about one.\n") + kExitCodes +
               "\nMore: man tetstream");
-  static constexpr struct {
-    const char* name;
-    void (Parser::*add)();
-  } kCommands[] = {{"simplify", &Parser::addSimplify}, {"info", &Parser::addInfo},
-                   {"convert", &Parser::addConvert},   {"layout", &Parser::addLayout},
-                   {"generate", &Parser::addGenerate}, {"diagram", &Parser::addDiagram},
-                   {"compare", &Parser::addCompare}};
-  for (const auto& command : kCommands)
-    if (first == command.name) {
-      (this->*command.add)();
+  for (const Command& command : kCommands)
+    if (first == command.name && command.stands_alone) {
+      addCommand(command);
       return;
     }
-  for (const auto& command : kCommands) (this->*command.add)();
-  addHelp();
-  addCompletion();
+  for (const Command& command : kCommands) addCommand(command);
 }
 
-CLI::App* Parser::addCommand(const char* name, const char* text, Arguments::Command command) {
-  CLI::App* added = app_.add_subcommand(name, text)->group("Commands");
+void Parser::addCommand(const Command& command) {
+  CLI::App* const added = app_.add_subcommand(command.name, command.text)->group("Commands");
   addRemark(added, "");
-  commands_.emplace_back(added, command);
-  return added;
+  commands_.emplace_back(added, command.number);
+  (this->*command.add)(added);
 }
 
 // Below the flags stands a remark, and the name of the command's manual page.
@@ -221,9 +240,7 @@ bool isOfComparison(int32_t id) {
          id == TETSTREAM_OPTION_CUT || id == TETSTREAM_OPTION_BOX;
 }
 
-void Parser::addSimplify() {
-  CLI::App* command = addCommand("simplify", "Make a mesh smaller, following its fields",
-                                 Arguments::Command::kSimplify);
+void Parser::addSimplify(CLI::App* command) {
   addIn(command);
   addOut(command);
   for (tetstream_option_info info : optionTable()) {
@@ -245,9 +262,7 @@ void Parser::addSimplify() {
                          kExitCodes);
 }
 
-void Parser::addInfo() {
-  CLI::App* command = addCommand("info", "Say what a mesh holds, how large and how coherent it is",
-                                 Arguments::Command::kInfo);
+void Parser::addInfo(CLI::App* command) {
   addArgument(command, "FILE", arguments_.in.path, "The mesh: a file, or - for standard input");
   addWord(command, "--format,--format-in", arguments_.in.format, "NAME",
           "Format of FILE (its extension, tets for -)");
@@ -256,9 +271,7 @@ void Parser::addInfo() {
   addProgress(command);
 }
 
-void Parser::addConvert() {
-  CLI::App* command =
-      addCommand("convert", "Copy a mesh into another format", Arguments::Command::kConvert);
+void Parser::addConvert(CLI::App* command) {
   addIn(command);
   addOut(command);
   addFormat(command);
@@ -266,9 +279,7 @@ void Parser::addConvert() {
   addProgress(command);
 }
 
-void Parser::addLayout() {
-  CLI::App* command = addCommand("layout", "Bring a mesh into an order that streams well",
-                                 Arguments::Command::kLayout);
+void Parser::addLayout(CLI::App* command) {
   addIn(command);
   addOut(command);
   addFormat(command);
@@ -278,9 +289,7 @@ void Parser::addLayout() {
   addRemark(command, "The report goes to standard output, or to standard error if OUT is -.");
 }
 
-void Parser::addGenerate() {
-  CLI::App* command =
-      addCommand("generate", "Make a mesh to try things with", Arguments::Command::kGenerate);
+void Parser::addGenerate(CLI::App* command) {
   addArgument(command, "KIND", arguments_.kind,
               "fluid: a box of 1 x 1 x 4; ball: a unit ball; fluid+stress, ball+stress: with a "
               "tensor field, too");
@@ -301,9 +310,7 @@ void Parser::addGenerate() {
   addProgress(command);
 }
 
-void Parser::addDiagram() {
-  CLI::App* command = addCommand("diagram", "Draw how good the order of a mesh stream is",
-                                 Arguments::Command::kDiagram);
+void Parser::addDiagram(CLI::App* command) {
   addIn(command);
   addArgument(command, "OUT", arguments_.out.path, "The picture: a file, FILE.svg or FILE.png");
   command->add_flag("--sweep", arguments_.sweep,
@@ -330,10 +337,7 @@ void Parser::addFields(CLI::App* command, const char* text, const char* value) {
       ->allow_extra_args(false);
 }
 
-void Parser::addCompare() {
-  CLI::App* command =
-      addCommand("compare", "Measure how well a simplified mesh follows its original",
-                 Arguments::Command::kCompare);
+void Parser::addCompare(CLI::App* command) {
   addArgument(command, "ORIGINAL", arguments_.in.path,
               "The original: a file, or - for standard input");
   addArgument(command, "SIMPLIFIED", arguments_.second.path, "The simplified mesh, likewise");
@@ -364,15 +368,12 @@ void Parser::addCompare() {
   addProgress(command);
 }
 
-void Parser::addHelp() {
-  CLI::App* command = addCommand("help", "Show the help of a command", Arguments::Command::kText);
+void Parser::addHelp(CLI::App* command) {
   command->footer("More: man tetstream");
   addWord(command, "COMMAND", help_about_, " ", "Its name");
 }
 
-void Parser::addCompletion() {
-  CLI::App* command = addCommand("completion", "Print a script that completes commands in a shell",
-                                 Arguments::Command::kText);
+void Parser::addCompletion(CLI::App* command) {
   addArgument(command, "SHELL", shell_, "bash, zsh or fish");
 }
 
