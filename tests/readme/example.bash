@@ -51,6 +51,25 @@ close=$(cells_of bracket-close.vtu)
 ((close < whole / 2)) && grep -q '^reached  *error$' told ||
   fail "with a bound on the error $whole cells became $close: $(<told)"
 
+# And what README.md says of the results is so.
+sed -n 's/^    \(\(cells\|error\|reached\)  .*\)$/\1/p' "$TETSTREAM_SOURCE/README.md" >promised
+[[ $(wc -l <promised) == 3 ]] || fail "README.md should show three lines of a report"
+while read -r line; do
+  grep -qFx -e "$line" told || fail "README.md promises \"$line\", but: $(<told)"
+done <promised
+share_below_10() {
+  tetstream compare --samples 1000 bracket.vtu "$1" |
+    sed -n 's/^ *cells below 10 deg .* \([0-9.e-]*\) %$/\1/p'
+}
+shapes="of the bracket's ([0-9]+) none has a dihedral angle below 10 degrees, "
+shapes+="with the default ([0-9.]+) % have;"
+[[ $(tr '\n' ' ' <"$TETSTREAM_SOURCE/README.md") =~ $shapes ]] || fail "README.md tells no shapes"
+told_cells=${BASH_REMATCH[1]} told_share=${BASH_REMATCH[2]}
+[[ $(cells_of bracket-fe.vtu) == "$told_cells" && $(share_below_10 bracket-fe.vtu) == 0 &&
+  $(printf %.1f "$(share_below_10 bracket-10.vtu)") == "$told_share" ]] ||
+  fail "bracket-fe.vtu has $(cells_of bracket-fe.vtu) cells, $(share_below_10 bracket-fe.vtu) %" \
+    "of them below 10 degrees; bracket-10.vtu $(share_below_10 bracket-10.vtu) %"
+
 # The two commands that it promises are there.
 sed -n 's/^    bash \(tests\/[a-z.]*\)$/\1/p' "$TETSTREAM_SOURCE/README.md" >scripts
 [[ $(wc -l <scripts) == 2 ]] || fail "README.md should have two commands: $(<scripts)"
