@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "checksum.h"
 #include "tets_layout.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t capacity);
@@ -30,8 +31,8 @@ void mendChecksums(uint8_t* data, size_t size) {
     SectionHead head;
     std::memcpy(&head, data + at, sizeof head);
     const uint8_t* body = data + at + sizeof head;
-    head.body_checksum = tetstream::tets::checksum(body, length - sizeof head);
-    head.head_checksum = tetstream::tets::checksum(&head, sizeof head - sizeof head.head_checksum);
+    head.body_checksum = tetstream::checksum(0, body, length - sizeof head);
+    head.head_checksum = tetstream::checksum(0, &head, sizeof head - sizeof head.head_checksum);
     std::memcpy(data + at, &head, sizeof head);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "checksum.h"
 #include "status.h"
 #include "tets_codec.h"
 
@@ -88,7 +89,7 @@ const unsigned char* SectionReader::body() {
     readFully(body_.data() + done, count);
     done += count;
   }
-  checkBody(checksum(body_.data(), size));
+  checkBody(checksum(0, body_.data(), size));
   return body_.data();
 }
 
@@ -256,7 +257,7 @@ static bool readTotals(ByteSource& bytes, const Schema& schema, Totals* totals, 
     return false;
   std::vector<unsigned char> body(static_cast<size_t>(head.length - sizeof head));
   if (bytes.readAt(own.totals + sizeof head, body.data(), body.size()) != body.size() ||
-      checksum(body.data(), body.size()) != head.body_checksum)
+      checksum(0, body.data(), body.size()) != head.body_checksum)
     return false;
   *totals = decodeTotals(schema, body.data(), box);
   return true;

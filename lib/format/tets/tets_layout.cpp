@@ -1,24 +1,14 @@
 #include "tets_layout.h"
 
-#include <zlib.h>
 #include <algorithm>
 #include <limits>
 
+#include "checksum.h"
 #include "status.h"
 
 namespace tetstream::tets {
 
 static const unsigned char kMarker[4] = {0x89, 'T', 'E', 'T'};
-
-uint32_t checksum(uint32_t before, const void* data, size_t size) {
-  // A null pointer would ask zlib for the initial value.
-  if (size == 0) return before;
-  return static_cast<uint32_t>(crc32_z(before, static_cast<const unsigned char*>(data), size));
-}
-
-uint32_t checksum(const void* data, size_t size) {
-  return checksum(0, data, size);
-}
 
 SectionHead makeHead(const char* id, uint32_t flags) {
   SectionHead head = {};
@@ -32,14 +22,14 @@ void seal(SectionHead& head, uint64_t rank, std::vector<unsigned char>& section)
   section.resize(alignUp(section.size()), 0);
   head.length = section.size();
   head.rank = rank;
-  head.body_checksum = checksum(section.data() + sizeof head, section.size() - sizeof head);
-  head.head_checksum = checksum(&head, offsetof(SectionHead, head_checksum));
+  head.body_checksum = checksum(0, section.data() + sizeof head, section.size() - sizeof head);
+  head.head_checksum = checksum(0, &head, offsetof(SectionHead, head_checksum));
   std::memcpy(section.data(), &head, sizeof head);
 }
 
 const char* faultOf(const SectionHead& head) {
   if (std::memcmp(head.marker, kMarker, sizeof kMarker) != 0) return "has no marker";
-  if (head.head_checksum != checksum(&head, offsetof(SectionHead, head_checksum)))
+  if (head.head_checksum != checksum(0, &head, offsetof(SectionHead, head_checksum)))
     return "does not fit its checksum";
   if (head.length < sizeof head || head.length % kAlign != 0) return "has an impossible length";
   return nullptr;

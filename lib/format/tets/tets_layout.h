@@ -1,5 +1,5 @@
 // format/tets: the bytes of `.tets`, as reader and writer share them; tetstream-formats(5) has the
-// tables. Depends on schema.h, status.h, zlib.
+// tables. Depends on schema.h, status.h.
 //
 // A file is a row of sections. Each has a head of 64 bytes with its own checksum and a body with
 // another one, and is a multiple of 64 bytes long, so that every column of an uncompressed chunk
@@ -111,8 +111,6 @@ SectionHead makeHead(const char* id, uint32_t flags);
 // Sets length, rank and both checksums, and puts the head before the body: `section` is 64 bytes of
 // room and the body, padded here to a multiple of 64.
 void seal(SectionHead& head, uint64_t rank, std::vector<unsigned char>& section);
-uint32_t checksum(const void* data, size_t size);
-uint32_t checksum(uint32_t before, const void* data, size_t size);
 // Whether the body is long enough for `bytes` and not absurdly longer: later versions may append.
 inline bool bodyHolds(const SectionHead& head, size_t bytes) {
   return head.length - sizeof head >= bytes && head.length <= bytes + kMaxHeaderBytes;

@@ -1,11 +1,10 @@
 // format/trace: .tetmap and .tetlog: a header, rows of fixed length, an end. All numbers are little
 // endian.
-#include <zlib.h>
-
 #include <bit>
 #include <cstring>
 #include <utility>
 
+#include "checksum.h"
 #include "trace_files.h"
 #include "trace_rows.h"
 
@@ -81,7 +80,7 @@ class BinaryRows {
   void add(int64_t number) { row_.put64(number); }
   void add(double number) { row_.putFloat(number); }
   void endRow() {
-    sum_ = static_cast<uint32_t>(crc32_z(sum_, row_.data(), row_.size()));
+    sum_ = checksum(sum_, row_.data(), row_.size());
     write(row_);
     row_.clear();
     ++count_;

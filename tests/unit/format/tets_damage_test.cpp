@@ -1,4 +1,5 @@
 // .tets: files that are damaged, cut off or lie are refused with a sentence that names the place.
+#include "checksum.h"
 #include "memory.h"
 #include "slow_run.h"
 
@@ -163,7 +164,7 @@ TEST(TetsDamage, LengthsOf2To60AreRefusedWithoutAllocating) {
     std::memcpy(&head, file.data() + at, sizeof head);
     const uint64_t length = head.length;
     head.length = uint64_t{1} << 60;
-    head.head_checksum = tets::checksum(&head, offsetof(tets::SectionHead, head_checksum));
+    head.head_checksum = checksum(0, &head, offsetof(tets::SectionHead, head_checksum));
     Bytes bad = file;
     std::memcpy(bad.data() + at, &head, sizeof head);
     expectRefusedInLittleMemory(bad);
