@@ -35,13 +35,11 @@ bool MeditScan::next(MeditSection* section) {
 }
 
 bool MeditScan::nextBinary(MeditSection* section) {
-  ends_ = next_ == 0;
-  if (ends_) return false;
+  if (next_ == 0) return false;
   if (file_.offset() > next_) file_.failBad("a section runs into the next one");
   file_.skipTo(next_, "a section");
   const int64_t number = small("the keyword of a section");
-  ends_ = number == kMeditEnd;
-  if (ends_) return false;
+  if (number == kMeditEnd) return false;
   const int64_t place = numbers_.integer(place_bytes_, "the place of the next section");
   if (place != 0 && (place < 0 || static_cast<uint64_t>(place) < file_.offset()))
     file_.failBad(textOf("the next section is said to begin at byte %lld, which is not ahead",
@@ -55,9 +53,9 @@ bool MeditScan::nextBinary(MeditSection* section) {
 
 bool MeditScan::nextText(MeditSection* section) {
   const std::string_view word = file_.word();
+  if (word.empty()) file_.failBad("the file ends without the word End: is all of it here?");
   const MeditKeyword* keyword = meditKeyword(word);
-  ends_ = keyword && keyword->number == kMeditEnd;
-  if (ends_ || word.empty()) return false;
+  if (keyword && keyword->number == kMeditEnd) return false;
   if (!std::isalpha(static_cast<unsigned char>(word[0])))
     file_.failBad(quoted(word) + " where a keyword should be");
   section->number = keyword ? keyword->number : 0;

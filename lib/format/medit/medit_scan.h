@@ -12,9 +12,6 @@
 
 namespace tetstream {
 
-// What is noted of such a file: some programs write none, but one may have been cut there.
-constexpr char kNoEnd[] = "ends without the word End: is all of it here?";
-
 struct MeditSection {
   int number = 0;    // 0: it is not known
   std::string name;  // "keyword 99" where that is all there is
@@ -27,8 +24,6 @@ class MeditScan {
 
   // The next section, whose contents come next; false at the end.
   bool next(MeditSection* section);
-  // Then: whether the file says so itself.
-  bool saidEnd() const { return ends_; }
   void skip();  // the contents, or what is left of them
   // The number of rows, each of so many integers and reals.
   uint64_t rows(size_t integers, size_t reals, const char* what);
@@ -68,7 +63,6 @@ class MeditScan {
   FileScan file_;
   NumberScan numbers_;
   int version_ = 0;
-  bool ends_ = false;
   size_t integer_bytes_ = 4, real_bytes_ = 8, place_bytes_ = 4;
   uint64_t next_ = 0;  // binary: where the next section begins; 0: the end
 };

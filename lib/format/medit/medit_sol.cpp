@@ -94,7 +94,6 @@ void MeditSolutions::readFile(MeditScan& scan, MeshIntake& intake, const MeditRo
       scan.skip();
     }
   }
-  if (!scan.saidEnd()) intake.note(scan.file().name() + " " + kNoEnd);
 }
 
 bool exists(const std::string& path) {

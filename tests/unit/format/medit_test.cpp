@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "indexed_testing.h"
+#include "pipes.h"
 
 namespace tetstream {
 namespace {
@@ -138,20 +139,11 @@ TEST(Medit, SaysThatFieldsNeedAFileBeside) {
 }
 
 TEST(Medit, ReadsTextBehindAByteOrderMark) {
-  Input input = openText(openMedit, std::string("\xef\xbb\xbf") + kMeditText);
-  EXPECT_EQ(readAll(input).cells.size(), 2u);
-}
-
-// As some programs write it, and as a file is that was cut between two sections.
-TEST(Medit, TellsWhereAFileEndsWithoutItsWord) {
-  const std::string text = std::string(kMeditText).substr(0, std::string(kMeditText).size() - 4);
-  std::vector<std::string> notes;
-  Input input = openText(openMedit, text, {}, &notes);
-  EXPECT_EQ(readAll(input).cells.size(), 2u);
-  EXPECT_TRUE(anyNote(notes, "ends without the word End"));
-  notes.clear();
-  openText(openMedit, kMeditText, {}, &notes);
-  EXPECT_FALSE(anyNote(notes, "ends without the word End"));
+  const Bytes data = bytesOf(std::string("\xef\xbb\xbf") + kMeditText);
+  for (size_t step : {1, 2, 3, 4, 1000}) {
+    Input input = openMedit(std::make_unique<PipeSource>(data, step, "mesh"), ReadOptions());
+    EXPECT_EQ(readAll(input).cells.size(), 2u) << step << " bytes at a time";
+  }
 }
 
 TEST(Medit, SaysWhatIsWrongAndWhere) {
@@ -169,6 +161,7 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
       {vertices + "Triangles 1\n1 2 -9223372036854775808 0\nEnd\n",
        "line 9: vertex -9223372036854775808, where there are 1 to 4"},
       {vertices + "Tetrahedra 1\n1 2 3 0 0\nEnd\n", "vertex 0"},
+      {vertices + "Tetrahedra 1\n1 2 3 4 0\n", "without the word End"},
       {vertices + "Prisms 1\n1 2 3 4 1 2 0\nEnd\n", "cell 1 is a prism"},
       {vertices + "End\n", "no tetrahedron"},
       {head + "Tetrahedra 1\n1 2 3 9 0\nVertices 1\n0 0 0 0\nEnd\n",
