@@ -1,4 +1,4 @@
-// base: which builds of the kernels the processor can run. Depends on nothing.
+// base: what of the processor is not the compiler's to know. Depends on nothing.
 #pragma once
 
 namespace tetstream {
@@ -9,6 +9,13 @@ inline bool processorHasV3() {
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi2");
 #else
   return false;
+#endif
+}
+
+// A moment's rest in a loop that waits for another thread.
+inline void restBriefly() {
+#ifdef __x86_64__
+  __builtin_ia32_pause();
 #endif
 }
 

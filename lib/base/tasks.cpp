@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "unlocked.h"
+#include "wait_briefly.h"
 
 namespace tetstream {
 
@@ -54,7 +55,7 @@ class Tasks::Parts final : public Work {
     std::unique_lock<std::mutex> lock(mutex_);
     runPart(0, lock);
     while (next_ < count_) runPart(next_++, lock);
-    done_.wait(lock, [this] { return running_ == 0; });
+    waitBriefly(done_, lock, [this] { return running_ == 0; });
     for (const std::exception_ptr& error : errors_)
       if (error) std::rethrow_exception(error);
   }

@@ -10,6 +10,8 @@
 #include <thread>
 #include <vector>
 
+#include "wait_briefly.h"
+
 namespace tetstream {
 namespace {
 
@@ -69,7 +71,7 @@ class OwnWorkers final : public Workers {
     std::unique_lock<std::mutex> lock(mutex_);
     for (;;) {
       ++waiting_;
-      given_.wait(lock, [this] { return is_over_ || !queue_.empty(); });
+      waitBriefly(given_, lock, [this] { return is_over_ || !queue_.empty(); });
       --waiting_;
       if (is_over_) return;
       {

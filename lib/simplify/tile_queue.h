@@ -39,6 +39,7 @@ class TileQueue {
   enum class State : uint8_t { kWaiting, kTaken, kStored, kDone };
   bool earlierAre(State least, size_t tile) const;
   void set(size_t tile, State state);
+  size_t findFree();
 
   const std::vector<std::vector<uint32_t>>& earlier_;
   const std::vector<size_t>& ahead_;

@@ -9,6 +9,7 @@
 #include "batch_ring.h"
 #include "tasks.h"
 #include "unlocked.h"
+#include "wait_briefly.h"
 
 namespace tetstream {
 
@@ -46,7 +47,7 @@ class BatchQueue : public Work {
   void goOnUntil(Condition condition, Lock& lock) noexcept {
     while (!condition())
       if (is_busy_)
-        changed_.wait(lock);
+        waitBriefly(changed_, lock, [this] { return !is_busy_; });
       else
         goOn(lock);
   }
