@@ -38,6 +38,10 @@ Bricks::Bricks(const Schema& schema, int64_t most_bytes) {
   for (size_t i = 0; i < 3; ++i) scale_[i] = static_cast<double>(digits_[i].size()) / extent_[i];
 }
 
+void Bricks::addCounts(const Bricks& other) {
+  for (size_t k = 0; k < cells_.size(); ++k) cells_[k] += other.cells_[k];
+}
+
 uint64_t Bricks::codeOf(const double place[3]) const {
   uint64_t code = 0;
   for (int i = 0; i < 3; ++i) {

@@ -25,6 +25,8 @@ class Bricks {
 
   // First every vertex,
   void count(const double place[3]) { ++cells_[codeOf(place) + 1]; }
+  // or those that another one of the same box counted;
+  void addCounts(const Bricks& other);
   // then bricks are taken, one for each of `wanted` equal parts of the vertices, but for a part
   // that has its vertices in the brick before. As many as wanted would have about `share` of the
   // vertices together.

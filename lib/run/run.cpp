@@ -2,6 +2,7 @@
 #include "run.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 
 #include "front_meter.h"
@@ -31,6 +32,8 @@ constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
 // Larger meshes are sampled, which takes this share.
 constexpr double kSampleShare = 0.1;
+// And are read in so many stretches at most: each has a table of the vertices it knows.
+constexpr size_t kMostStretches = 8;
 // A stream of so many cells, which most files hold in one piece, is not read ahead.
 constexpr int64_t kReadAtOnce = 1 << 14;
 
@@ -133,20 +136,15 @@ struct SimplifyRun::State {
     const int64_t cells = schema.cell_count, window = Simplifier::windowCells(schema, o);
     if (followsPaper(o.mode) || o.pilot != PilotUse::kAuto || cells <= window) return;
     if (o.memory_bytes == 0 && cells <= kPilotCells)
-      readAgain(stream, Part::kAll, [&](Source& source) { fly(source); });
+      flyWhole(stream);
     else if (Sampler::serves(schema, o) && Sampler::pays(schema, o))
       sample(stream);
   }
-  // False where the stream can be read but once.
-  template <class Use>
-  bool readAgain(Ordering& stream, Part part, Use use) {
-    const std::unique_ptr<Source> again = stream.source().again(part);
-    if (!again) return false;
+  void flyWhole(Ordering& stream) {
+    const std::unique_ptr<Source> again = stream.source().again(Part::kAll);
+    if (!again) return;
     const auto before = ahead(*again, stream);
-    use(before ? *before : *again);
-    return true;
-  }
-  void fly(Source& source) {
+    Source& source = before ? *before : *again;
     SimplifyOptions whole = options.simplify;
     whole.window_cells = source.schema().cell_count;
     Nowhere nowhere;
@@ -163,23 +161,23 @@ struct SimplifyRun::State {
   // Of a long stream, which is read twice for it.
   void sample(Ordering& stream) {
     Sampler sampler(stream.source().schema(), options.simplify);
-    const bool counted = readAgain(stream, Part::kPositions, [&](Source& source) {
-      const auto all = static_cast<double>(source.schema().vertex_count);
-      readSampling(source, 0, [&, seen = 0.0](const BatchView& batch) mutable {
-        sampler.count(batch);
-        return (seen += static_cast<double>(batch.vertex_count)) / all;
-      });
+    std::vector<Stretch> stretches = stretchesOf(stream, Part::kPositions, 0);
+    if (stretches.empty()) return;
+    sampler.countInStretches(stretches.size());
+    const auto vertices = static_cast<double>(stream.source().schema().vertex_count);
+    readSampling(stream, stretches, 0, [&](const BatchView& batch, size_t stretch) {
+      sampler.count(batch, stretch);
+      return static_cast<double>(batch.vertex_count) / vertices;
     });
-    if (!counted) return;
-    sampler.takeBricks();
-    const bool sampled = readAgain(stream, Part::kAll, [&](Source& source) {
-      const auto all = static_cast<double>(source.schema().cell_count);
-      readSampling(source, kSampleShare / 2, [&, seen = 0.0](const BatchView& batch) mutable {
-        sampler.put(batch);
-        return (seen += static_cast<double>(batch.cell_count)) / all;
-      });
+    stretches = stretchesOf(stream, Part::kAll, sampler.reach());
+    std::vector<Stretch::Begin> begins;
+    for (const Stretch& stretch : stretches) begins.push_back(stretch.begin);
+    sampler.takeBricks(begins);
+    const auto cells = static_cast<double>(stream.source().schema().cell_count);
+    readSampling(stream, stretches, kSampleShare / 2, [&](const BatchView& batch, size_t stretch) {
+      sampler.put(batch, stretch);
+      return static_cast<double>(batch.cell_count) / cells;
     });
-    if (!sampled) return;
     try {
       simplifier.follow(sampler.fly());
     } catch (const Error& error) {  // the run itself will say where, and what would do
@@ -187,19 +185,46 @@ struct SimplifyRun::State {
     }
     pilot_share = kSampleShare;
   }
-  // use(batch) returns how much of the stream has been read with it, of 1.
+  // One for each thread, or one of all; none where the stream can be read but once.
+  std::vector<Stretch> stretchesOf(Ordering& stream, Part part, uint64_t before) {
+    Source& source = stream.source();
+    std::vector<Stretch> stretches;
+    if (overlaps() && !stream.staysWithCaller())
+      stretches = source.againInStretches(part, std::min(tasks.threads(), kMostStretches), before);
+    if (!stretches.empty()) return stretches;
+    if (std::unique_ptr<Source> all = source.again(part)) stretches.push_back({std::move(all), {}});
+    return stretches;
+  }
+  // use(batch, stretch) returns how much of the stream has been read with it, of 1.
   template <class Use>
-  void readSampling(Source& source, double share_before, Use use) {
+  void readSampling(Ordering& stream, std::vector<Stretch>& stretches, double share_before,
+                    Use use) {
+    const size_t count = stretches.size();
+    const auto before = count == 1 ? ahead(*stretches[0].source, stream) : nullptr;
+    std::atomic<size_t> end = count;  // of no use is what comes after a part that failed
+    tasks.forParts(count, [&](size_t k) {
+      Source& source = before ? *before : *stretches[k].source;
+      BatchView batch;
+      double part = 0;
+      try {
+        while (k < end && source.next(batch)) {
+          part += static_cast<double>(count) * use(batch, k);
+          if (k == 0) tellSampling(share_before, std::min(part, 1.0), source.schema().cell_count);
+        }
+      } catch (...) {
+        for (size_t known = end; k < known && !end.compare_exchange_weak(known, k);) {
+        }
+        throw;
+      }
+    });
+  }
+  void tellSampling(double share_before, double part, int64_t cells) {
     Progress p;
     p.phase = "pilot";
-    p.cells_total = source.schema().cell_count;
-    BatchView batch;
-    while (source.next(batch)) {
-      const double part = std::min(use(batch), 1.0);
-      p.cells_read = static_cast<int64_t>(part * static_cast<double>(p.cells_total));
-      p.fraction = share_before + kSampleShare / 2 * part;
-      tell(p);
-    }
+    p.cells_total = cells;
+    p.cells_read = static_cast<int64_t>(part * static_cast<double>(cells));
+    p.fraction = share_before + kSampleShare / 2 * part;
+    tell(p);
   }
   void close() {
     report = simplifier.report();

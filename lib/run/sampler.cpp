@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 
 #include "simplifier.h"
 
@@ -40,9 +39,8 @@ static double volumeOfBox(const Schema& schema) {
   return volume;
 }
 
-// Entries of the table of rows.
-static uint64_t tableSize(const Schema& schema) {
-  return std::bit_ceil(static_cast<uint64_t>(schema.front_span) + kDeclaredAhead);
+static uint64_t reachOf(const Schema& schema) {
+  return static_cast<uint64_t>(schema.front_span) + kDeclaredAhead;
 }
 
 // Of a memory budget.
@@ -59,7 +57,7 @@ static Schema withoutFront(Schema schema) {
 
 // Rows of the sample with what is noted of them, in bytes.
 static double sampleBytes(const Schema& schema, double cells, double vertices) {
-  size_t cell = 4 * sizeof(int64_t) + 1, vertex = 3 * sizeOf(schema.position_type) + kNotedBytes;
+  size_t cell = 4 * sizeof(int64_t) + 2, vertex = 3 * sizeOf(schema.position_type) + kNotedBytes;
   for (const Column& c : schema.cell_data) cell += c.bytesPerRow();
   for (const Column& c : schema.fields) vertex += c.bytesPerRow();
   return kGrowth * (cells * static_cast<double>(cell) + vertices * static_cast<double>(vertex));
@@ -95,7 +93,7 @@ bool Sampler::serves(const Schema& schema, const SimplifyOptions& options) {
   const double volume = volumeOfBox(schema);
   if (!std::isfinite(volume) || volume <= 0) return false;
   if (options.memory_bytes == 0) return true;
-  const uint64_t table = tableSize(schema) * sizeof(uint32_t);
+  const uint64_t table = std::bit_ceil(reachOf(schema)) * sizeof(uint32_t);
   return table <= static_cast<uint64_t>(options.memory_bytes) / 2 &&
          sampleOf(schema, options) >= kLeastWorth;
 }
@@ -114,112 +112,69 @@ bool Sampler::pays(const Schema& schema, const SimplifyOptions& options) {
 Sampler::Sampler(const Schema& schema, const SimplifyOptions& options)
     : schema_(withoutFront(schema)),
       options_(options),
-      sample_(schema_),
       wanted_(sampleOf(schema, options)),
-      bricks_(schema, gridBytes(options)),
-      rows_(tableSize(schema)) {}
-
-void Sampler::placeOf(const void* positions, size_t row, double place[3]) const {
-  for (size_t i = 0; i < 3; ++i)
-    place[i] = schema_.position_type == ScalarType::kFloat32
-                   ? static_cast<double>(static_cast<const float*>(positions)[3 * row + i])
-                   : static_cast<const double*>(positions)[3 * row + i];
+      reach_(reachOf(schema)) {
+  counts_.emplace_back(schema, gridBytes(options));
 }
 
-static void copyBytes(const void* from, size_t row, size_t bytes, void* to) {
-  std::memcpy(to, static_cast<const char*>(from) + row * bytes, bytes);
+void Sampler::countInStretches(size_t stretches) {
+  counts_.resize(stretches, counts_[0]);
 }
 
-void Sampler::addVertex(const BatchView& batch, size_t row) {
-  double place[3];
-  placeOf(batch.positions, row, place);
-  const uint32_t brick = bricks_.at(place);
-  uint32_t& row_of = row_of_[(batch.first_vertex + row) & (row_of_.size() - 1)];
-  row_of = kNone;
-  if (brick == kNone || ++brick_[brick].vertices > most_) return;
-  const size_t to = sample_.addVertices(1);
-  copyBytes(batch.positions, row, 3 * sizeOf(schema_.position_type), sample_.position(to));
-  for (size_t f = 0; f < schema_.fields.size(); ++f)
-    copyBytes(batch.fields[f], row, schema_.fields[f].bytesPerRow(), sample_.field(f, to));
-  row_of = static_cast<uint32_t>(to);
-  rank_of_.push_back(batch.first_vertex + row);
-  brick_of_.push_back(brick);
-  used_.push_back(false);
-  cut_.push_back(batch.locked && batch.locked[row]);
-}
-
-// A span larger than announced gives fewer samples, not wrong ones.
-uint32_t Sampler::rowOf(int64_t vertex) const {
-  const uint32_t row = tableRow(vertex);
-  return row != kNone && rank_of_[row] == static_cast<uint64_t>(vertex) ? row : kNone;
-}
-
-// A cell with vertices of the sample is in it if all are of one brick; if not, they are on its cut.
-void Sampler::addCell(const BatchView& batch, size_t row_in_batch) {
-  const int64_t* corners = batch.cells + 4 * row_in_batch;
-  const uint64_t number = cells_seen_++;
-  uint32_t rows[4], none = kNone;
-  for (int j = 0; j < 4; ++j) none &= tableRow(corners[j]);
-  if (none == kNone) return;  // most cells
-  bool whole = true;
-  for (int j = 0; j < 4; ++j) rows[j] = rowOf(corners[j]);
-  for (int j = 0; j < 4; ++j)
-    whole = whole && rows[j] != kNone && brick_of_[rows[j]] == brick_of_[rows[0]];
-  for (uint32_t row : rows)
-    if (row != kNone) (whole ? used_ : cut_)[row] = true;
-  if (!whole) return;
-  const size_t to = sample_.addCells(1);
-  std::copy_n(rows, 4, sample_.cell(to));
-  for (size_t d = 0; d < schema_.cell_data.size(); ++d)
-    copyBytes(batch.cell_data[d], row_in_batch, schema_.cell_data[d].bytesPerRow(),
-              sample_.cellData(d, to));
-  const auto all = static_cast<uint64_t>(schema_.cell_count);
-  ++brick_[brick_of_[rows[0]]].cells[std::min(number * kParts / all, uint64_t{kParts - 1})];
-}
-
-void Sampler::count(const BatchView& batch) {
+void Sampler::count(const BatchView& batch, size_t stretch) {
   double place[3];
   for (size_t row = 0; row < batch.vertex_count; ++row) {
-    placeOf(batch.positions, row, place);
-    bricks_.count(place);
+    placeOf(schema_, batch.positions, row, place);
+    counts_[stretch].count(place);
   }
 }
 
-void Sampler::takeBricks() {
+void Sampler::takeBricks(const std::vector<Stretch::Begin>& stretches) {
+  Bricks& bricks = counts_[0];
+  for (size_t k = 1; k < counts_.size(); ++k) bricks.addCounts(counts_[k]);
+  counts_.erase(counts_.begin() + 1, counts_.end());
   const double share = wanted_ / static_cast<double>(schema_.cell_count);
   const double brick = std::min(kBrick, wanted_ / kFewestBricks);
-  bricks_.take(static_cast<size_t>(std::ceil(wanted_ / brick)), share);
-  brick_.resize(bricks_.size());
-  row_of_.assign(rows_, kNone);
-  most_ = kFullest * std::min(bricks_.usual(), static_cast<uint64_t>(kBrick));
-}
-
-void Sampler::put(const BatchView& batch) {
-  for (size_t row = 0; row < batch.vertex_count; ++row) addVertex(batch, row);
-  for (size_t row = 0; row < batch.cell_count; ++row) addCell(batch, row);
-}
-
-Schema Sampler::schema() const {
-  Schema schema = schema_;
-  schema.cell_count = static_cast<int64_t>(sample_.cellCount());
-  schema.vertex_count = static_cast<int64_t>(sample_.vertexCount());
-  return schema;
+  bricks.take(static_cast<size_t>(std::ceil(wanted_ / brick)), share);
+  const uint64_t most = kFullest * std::min(bricks.usual(), static_cast<uint64_t>(kBrick));
+  for (const Stretch::Begin& begin : stretches)
+    stretches_.emplace_back(schema_, bricks, reach_, most, begin);
 }
 
 BatchView Sampler::mesh() {
-  std::vector<uint32_t>().swap(row_of_);  // makes room for the window
-  std::vector<uint64_t>().swap(rank_of_);
-  for (Brick& brick : brick_) brick.locked = brick.free = 0;
-  for (size_t row = 0; row < brick_of_.size(); ++row) {
-    if (cut_[row]) sample_.lock(row);
-    if (used_[row]) ++(cut_[row] ? brick_[brick_of_[row]].locked : brick_[brick_of_[row]].free);
+  for (size_t k = 1; k < stretches_.size(); ++k) stretches_[0].append(stretches_[k]);
+  while (stretches_.size() > 1) stretches_.pop_back();
+  stretches_[0].forgetRanks();  // makes room for the window
+  countBricks();
+  return stretches_[0].mesh().view();
+}
+
+// And locks what is cut.
+void Sampler::countBricks() {
+  SampleStretch& all = stretches_[0];
+  Batch& mesh = all.mesh();
+  brick_.assign(counts_[0].size(), {});
+  for (size_t row = 0; row < mesh.vertexCount(); ++row) {
+    if (all.isCut(row)) mesh.lock(row);
+    Brick& brick = brick_[all.brickOf(row)];
+    if (all.isUsed(row)) ++(all.isCut(row) ? brick.locked : brick.free);
   }
-  return sample_.view();
+  for (size_t cell = 0; cell < mesh.cellCount(); ++cell)
+    ++brick_[all.brickOf(static_cast<size_t>(mesh.cell(cell)[0]))].cells[all.partOf(cell)];
+}
+
+Schema Sampler::schema() const {
+  const Batch& mesh = stretches_[0].mesh();
+  Schema schema = schema_;
+  schema.cell_count = static_cast<int64_t>(mesh.cellCount());
+  schema.vertex_count = static_cast<int64_t>(mesh.vertexCount());
+  return schema;
 }
 
 int64_t Sampler::windowBytes() const {
-  const auto cells = static_cast<double>(sample_.cellCount());
-  const auto vertices = static_cast<double>(sample_.vertexCount());
+  const Batch& mesh = stretches_[0].mesh();
+  const auto cells = static_cast<double>(mesh.cellCount());
+  const auto vertices = static_cast<double>(mesh.vertexCount());
   return options_.memory_bytes - gridBytes(options_) -
          static_cast<int64_t>(sampleBytes(schema_, cells, vertices));
 }
@@ -228,16 +183,16 @@ int64_t Sampler::windowBytes() const {
 double Sampler::ratioFor(double left) const {
   double free = 0;
   for (const Brick& brick : brick_) free += static_cast<double>(brick.free);
-  const double cells = static_cast<double>(sample_.cellCount());
+  const auto cells = static_cast<double>(stretches_[0].mesh().cellCount());
   return cells > 0 ? std::max(1 - kCellsPerCollapse * free * (1 - left) / cells, 0.05) : 1;
 }
 
 void Sampler::countSurvivors(const BatchView& simplified) {
   for (size_t row = 0; row < simplified.vertex_count; ++row) {
     double place[3];
-    placeOf(simplified.positions, row, place);
-    const uint32_t brick = bricks_.at(place);
-    if (brick != kNone) ++brick_[brick].survivors;
+    placeOf(schema_, simplified.positions, row, place);
+    const uint32_t brick = counts_[0].at(place);
+    if (brick != Bricks::kNone) ++brick_[brick].survivors;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "batch.h"
 
@@ -17,6 +18,19 @@ constexpr size_t kBatchCells = 4096;  // what our own sources put into a batch, 
 // What a reading is for. kPositions: the places of the vertices alone, in any order; fields, cells
 // and whatever else there is may be left out, and what is wrong with it is not found.
 enum class Part : uint8_t { kAll, kPositions };
+
+class Source;
+
+// A part of a stream that is read beside the others of it. Events of the part before may come first
+// again.
+struct Stretch {
+  struct Begin {
+    uint64_t vertex = 0, cell = 0;  // the first of its own
+    uint64_t first_cell = 0;        // that comes
+  };
+  std::unique_ptr<Source> source;
+  Begin begin;
+};
 
 // A mesh as a stream of events.
 class Source {
@@ -29,6 +43,12 @@ class Source {
   // Another reading of the same stream, from its first event on, while this one has not begun and
   // as long as it lives; null where the input cannot be read twice.
   virtual std::unique_ptr<Source> again(Part) { return nullptr; }
+  // The same in `most` parts or fewer, in their order, each for a thread of its own and about as
+  // long to be read. Where there are cells, the vertices of `before` ranks come again before a
+  // part's own ones. Empty where the stream can only be read from end to end, or has too little.
+  virtual std::vector<Stretch> againInStretches(Part, size_t /* most */, uint64_t /* before */) {
+    return {};
+  }
 };
 
 // A mesh whose points and cells can be read by range, as often as wanted; sequential ranges are

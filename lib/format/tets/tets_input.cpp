@@ -107,6 +107,16 @@ void SectionReader::skipBody() {
   checkBody(sum);
 }
 
+// A head that is damaged is found so by the next call.
+void SectionReader::goTo(uint64_t place, uint64_t chunks) {
+  SectionHead head = {};
+  bytes_->readAt(place, &head, sizeof head);
+  resumed_ = true;
+  offset_ = place;
+  sections_ = head.rank - 1;
+  chunks_ = chunks;
+}
+
 // ----------------------------------------------------------------------- of header and chunks
 
 Schema readHeader(SectionReader& in) {

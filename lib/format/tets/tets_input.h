@@ -30,6 +30,9 @@ class SectionReader {
   // `rank` is higher; false if there is none. Seekable input only.
   bool resume();
 
+  // Goes on with the section there, before which so many chunks stand. Seekable input only.
+  void goTo(uint64_t place, uint64_t chunks);
+
   // Chunks are counted, for messages.
   void countChunk() { ++chunks_; }
   uint64_t chunks() const { return chunks_; }

@@ -9,7 +9,7 @@ namespace {
 
 class Places final : public Source {
  public:
-  explicit Places(std::unique_ptr<ByteSource> bytes)
+  Places(std::unique_ptr<ByteSource> bytes, const ChunkRange* range)
       : in_(std::move(bytes)), stored_(readHeader(in_)), shape_(stored_), unpacked_(account_) {
     completeFromEnd(in_.bytes(), stored_);
     schema_ = stored_;
@@ -17,12 +17,16 @@ class Places final : public Source {
     schema_.cell_data.clear();
     for (std::vector<double>* corner : {&schema_.box_min, &schema_.box_max})
       if (!corner->empty()) corner->resize(schema_.boxSize());
+    if (!range) return;
+    in_.goTo(range->offset, range->first);
+    seen_ = range->vertices;
+    end_chunk_ = range->end;
   }
   const Schema& schema() const override { return schema_; }
 
   bool next(BatchView& batch) override {
     batch = BatchView{};
-    while (!ended_) {
+    while (!ended_ && in_.chunks() != end_chunk_) {
       const SectionHead& head = in_.next();
       ended_ = head.is(kEnd);
       if (!head.is(kChunk)) {
@@ -62,14 +66,14 @@ class Places final : public Source {
   Account account_;
   Array<unsigned char> unpacked_;
   const unsigned char* positions_ = nullptr;
-  uint64_t seen_ = 0;
+  uint64_t seen_ = 0, end_chunk_ = ChunkRange().end;
   bool ended_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Source> openPlaces(std::unique_ptr<ByteSource> bytes) {
-  return std::make_unique<Places>(std::move(bytes));
+std::unique_ptr<Source> openPlaces(std::unique_ptr<ByteSource> bytes, const ChunkRange* range) {
+  return std::make_unique<Places>(std::move(bytes), range);
 }
 
 }  // namespace tetstream::tets

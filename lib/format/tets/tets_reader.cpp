@@ -12,6 +12,7 @@
 #include "tets_input.h"
 #include "tets_places.h"
 #include "tets_recovery.h"
+#include "tets_stretches.h"
 
 namespace tetstream {
 namespace tets {
@@ -24,6 +25,8 @@ class Reader final : public Source {
   // With `losses`, what is damaged is gone past and told there; cells may then name vertices that
   // did not come.
   explicit Reader(std::unique_ptr<ByteSource> bytes, Losses* losses = nullptr);
+  // A part of a seekable file: what stands between its chunks is not looked at.
+  Reader(std::unique_ptr<ByteSource> bytes, const ChunkRange& range);
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
   std::unique_ptr<Source> again(Part part) override {
@@ -31,6 +34,7 @@ class Reader final : public Source {
     if (part == Part::kPositions) return openPlaces(readAgain(in_.bytes()));
     return std::make_unique<Reader>(readAgain(in_.bytes()));
   }
+  std::vector<Stretch> againInStretches(Part part, size_t most, uint64_t before) override;
 
  private:
   bool nextChunk();
@@ -82,6 +86,9 @@ class Reader final : public Source {
   std::unique_ptr<Box> box_, chunk_box_;
   std::vector<IndexEntry> not_indexed_;
   uint64_t last_index_ = 0, totals_at_ = 0;
+
+  bool is_part_ = false;
+  uint64_t end_chunk_ = 0;  // of a part
 };
 
 // ------------------------------------------------------------------------------- the sections
@@ -97,15 +104,41 @@ Reader::Reader(std::unique_ptr<ByteSource> bytes, Losses* losses)
   cell_rows_.resize(schema_.cell_data.size());
 }
 
+Reader::Reader(std::unique_ptr<ByteSource> bytes, const ChunkRange& range)
+    : Reader(std::move(bytes)) {
+  in_.goTo(range.offset, range.first);
+  seen_.vertices = static_cast<int64_t>(range.vertices);
+  seen_.cells = static_cast<int64_t>(range.cells);
+  is_part_ = true;
+  end_chunk_ = range.end;
+}
+
+std::vector<Stretch> Reader::againInStretches(Part part, size_t most, uint64_t before) {
+  if (!in_.bytes().seekable() || losses_) return {};
+  const bool all = part == Part::kAll;
+  std::vector<Stretch> stretches;
+  for (const ChunkRange& range : cutChunks(tets::readIndex(in_.bytes()), most, all ? before : 0)) {
+    std::unique_ptr<ByteSource> bytes = readAgain(in_.bytes());
+    std::unique_ptr<Source> source;
+    if (all)
+      source = std::make_unique<Reader>(std::move(bytes), range);
+    else
+      source = openPlaces(std::move(bytes), &range);
+    stretches.push_back({std::move(source), {range.own_vertex, range.own_cell, range.cells}});
+  }
+  return stretches;
+}
+
 // Reads on to the next chunk; false at the end.
 bool Reader::nextChunk() {
   while (!ended_) {
+    if (is_part_ && in_.chunks() == end_chunk_) return false;
     const SectionHead& head = in_.next();
     if (head.is(kChunk)) {
       readChunk();
       return true;
     }
-    if (losses_ && (head.is(kIndex) || head.is(kTotals)))
+    if ((losses_ || is_part_) && (head.is(kIndex) || head.is(kTotals)))
       in_.skipBody();  // they repeat what the chunks tell
     else if (losses_ && head.is(kEnd))
       ended_ = losses_->complete = true;
@@ -194,7 +227,7 @@ void Reader::readChunk() {
                       {}};
   std::memcpy(entry.box_min, chunk_box_->min.data(), sizeof entry.box_min);
   std::memcpy(entry.box_max, chunk_box_->max.data(), sizeof entry.box_max);
-  if (!losses_) {
+  if (!losses_ && !is_part_) {
     if (not_indexed_.size() == kIndexEntries)
       fail(Status::kBadData, "%s: the index of the %u chunks before is missing",
            in_.place().c_str(), kIndexEntries);

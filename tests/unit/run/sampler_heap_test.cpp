@@ -11,10 +11,10 @@
 namespace tetstream::test {
 namespace {
 
-void feed(const TestMesh& mesh, Sampler& sampler, void (Sampler::*take)(const BatchView&)) {
+void feed(const TestMesh& mesh, Sampler& sampler, void (Sampler::*take)(const BatchView&, size_t)) {
   MeshStream stream(mesh, {});
   BatchView batch;
-  while (stream.next(batch)) (sampler.*take)(batch);
+  while (stream.next(batch)) (sampler.*take)(batch, 0);
 }
 
 // `span` of the front: the larger, the more rows are noted.

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <set>
 
+#include "batch_copy.h"
 #include "memory_source.h"
 #include "ordered_source.h"
 #include "run.h"
@@ -95,6 +97,75 @@ TEST(Sampler, TakesWholeBricksAndHoldsTheirCuts) {
   EXPECT_GT(held, 0);
   // Of a small mesh the bricks are small, too, and most of their vertices at the cuts.
   EXPECT_GT(free, held / (slowRun() ? 10 : 2));
+}
+
+// Both readings in parts: a stretch begins some batches before its own.
+void readInStretches(Swept& swept, Sampler& sampler, size_t count) {
+  std::vector<std::unique_ptr<BatchCopy>> batches;
+  Account account;
+  const std::unique_ptr<Source> all = swept.stream.again(Part::kAll);
+  BatchView batch;
+  for (; all->next(batch); batches.back()->take(batch))
+    batches.push_back(std::make_unique<BatchCopy>(all->schema(), account));
+  const auto beginOf = [&](size_t stretch) { return stretch * batches.size() / count; };
+  sampler.countInStretches(count);
+  std::vector<Stretch::Begin> begins(count);
+  std::vector<size_t> first(count);
+  for (size_t k = 0; k < count; ++k) {
+    uint64_t cells = 0;
+    for (size_t b = 0; b < batches.size(); ++b) {
+      const BatchView& view = batches[b]->view();
+      if (b >= beginOf(k) && b < beginOf(k + 1)) sampler.count(view, k);
+      if (b == beginOf(k)) begins[k].vertex = view.first_vertex, begins[k].cell = cells;
+      cells += view.cell_count;
+    }
+    for (size_t b = 0; b < beginOf(k); ++b) {
+      const BatchView& view = batches[b]->view();
+      const bool is_needed =
+          view.first_vertex + view.vertex_count + sampler.reach() > begins[k].vertex;
+      if (is_needed) break;
+      first[k] = b + 1;
+      begins[k].first_cell += view.cell_count;
+    }
+  }
+  sampler.takeBricks(begins);
+  for (size_t k = count; k-- > 0;)  // in any order
+    for (size_t b = first[k]; b < beginOf(k + 1); ++b) sampler.put(batches[b]->view(), k);
+  if (!slowRun()) {
+    EXPECT_GT(first[count - 1], 0u);
+  }
+}
+
+void expectSame(const BatchView& a, const BatchView& b) {
+  ASSERT_EQ(a.vertex_count, b.vertex_count);
+  ASSERT_EQ(a.cell_count, b.cell_count);
+  EXPECT_EQ(std::memcmp(a.positions, b.positions, 24 * a.vertex_count), 0);
+  EXPECT_EQ(std::memcmp(a.fields[0], b.fields[0], 8 * a.vertex_count), 0);
+  EXPECT_EQ(std::memcmp(a.cells, b.cells, 32 * a.cell_count), 0);
+  EXPECT_EQ(std::memcmp(a.cell_data[0], b.cell_data[0], 4 * a.cell_count), 0);
+  ASSERT_TRUE(a.locked && b.locked);
+  EXPECT_EQ(std::memcmp(a.locked, b.locked, a.vertex_count), 0);
+}
+
+// Also where bricks are full before all has come: of what lies in one place.
+TEST(Sampler, TakesTheSameInStretches) {
+  TestMesh mesh = halfDetailed(slowRun() ? 20 : 100, slowRun() ? 12 : 26);
+  for (const bool crowded : {false, true}) {
+    Swept swept(mesh), again(mesh);
+    Schema schema = swept.stream.schema();
+    for (size_t i = 0; crowded && i < 3; ++i) schema.box_max[i] += 300;
+    Sampler whole(schema, {});
+    read(swept, whole, [](const BatchView&) {});
+    const BatchView sample = whole.mesh();
+    EXPECT_GT(sample.cell_count, 0u);
+    const Pilot pilot = whole.fly();
+    for (const size_t count : {2, 3}) {
+      Sampler sampler(schema, {});
+      readInStretches(again, sampler, count);
+      expectSame(sampler.mesh(), sample);
+      EXPECT_EQ(sampler.fly().share, pilot.share);
+    }
+  }
 }
 
 // More vertices are active at once than announced: those whose rows others have taken are left out

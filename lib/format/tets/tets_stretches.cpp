@@ -1,0 +1,115 @@
+#include "tets_stretches.h"
+
+#include <algorithm>
+
+#include "checksum.h"
+
+namespace tetstream::tets {
+
+// A part of fewer is not worth a thread, nor one that has more of others' cells than a share.
+constexpr uint64_t kLeastChunks = 4;
+constexpr double kMostOfOthers = 0.5;
+
+// The body of a section of that kind, of not too many bytes; empty if there is none.
+static std::vector<unsigned char> bodyAt(ByteSource& bytes, uint64_t place, const char* kind,
+                                         SectionHead* head) {
+  constexpr size_t kMostBytes = kIndexEntries * kMaxEntryBytes;
+  if (bytes.readAt(place, head, sizeof *head) != sizeof *head || faultOf(*head) ||
+      !head->is(kind) || head->length < sizeof *head || head->length - sizeof *head > kMostBytes)
+    return {};
+  std::vector<unsigned char> body(static_cast<size_t>(head->length - sizeof *head));
+  if (bytes.readAt(place + sizeof *head, body.data(), body.size()) != body.size() ||
+      checksum(0, body.data(), body.size()) != head->body_checksum)
+    return {};
+  return body;
+}
+
+static bool followEachOther(const std::vector<IndexEntry>& chunks) {
+  uint64_t vertices = 0, cells = 0, end = 0;
+  for (const IndexEntry& chunk : chunks) {
+    if (chunk.first_vertex != vertices || chunk.first_cell != cells || chunk.offset < end)
+      return false;
+    vertices += chunk.vertices;
+    cells += chunk.cells;
+    end = chunk.offset + chunk.length;
+  }
+  return true;
+}
+
+std::vector<IndexEntry> readIndex(ByteSource& bytes) {
+  SectionHead head;
+  const uint64_t size = bytes.size();
+  if (size < sizeof head || bytes.readAt(size - sizeof head, &head, sizeof head) != sizeof head ||
+      faultOf(head) || !head.is(kEnd))
+    return {};
+  std::vector<IndexEntry> chunks;  // from the last one on
+  for (uint64_t place = head.get<EndOwn>().last_index, end = size; place != 0;) {
+    const std::vector<unsigned char> body = bodyAt(bytes, place, kIndex, &head);
+    const IndexOwn own = head.get<IndexOwn>();
+    if (place >= end || own.entry_bytes < sizeof(IndexEntry) ||
+        body.size() / own.entry_bytes < head.value)
+      return {};
+    for (size_t i = head.value; i-- > 0;) {
+      chunks.emplace_back();
+      std::memcpy(&chunks.back(), body.data() + i * own.entry_bytes, sizeof(IndexEntry));
+    }
+    end = place;
+    place = own.previous;
+  }
+  std::reverse(chunks.begin(), chunks.end());
+  return followEachOther(chunks) ? chunks : std::vector<IndexEntry>();
+}
+
+// The first chunk for which it holds, as it does for all that follow.
+template <class Holds>
+static uint64_t firstThat(const std::vector<IndexEntry>& chunks, Holds holds) {
+  const auto fails = [&](const IndexEntry& chunk) { return !holds(chunk); };
+  return static_cast<uint64_t>(std::partition_point(chunks.begin(), chunks.end(), fails) -
+                               chunks.begin());
+}
+
+// Its own chunks are [own, end).
+static ChunkRange rangeOf(const std::vector<IndexEntry>& chunks, uint64_t own, uint64_t end,
+                          uint64_t before) {
+  const uint64_t own_vertex = chunks[own].first_vertex;
+  const uint64_t least = own_vertex - std::min(before, own_vertex);
+  const uint64_t first = std::min(own, firstThat(chunks, [least](const IndexEntry& chunk) {
+                                    return chunk.first_vertex + chunk.vertices > least;
+                                  }));
+  const IndexEntry& chunk = chunks[first];
+  return {first,
+          end,
+          chunk.offset,
+          chunk.first_vertex,
+          chunk.first_cell,
+          own_vertex,
+          chunks[own].first_cell};
+}
+
+std::vector<ChunkRange> cutChunks(const std::vector<IndexEntry>& chunks, size_t most,
+                                  uint64_t before) {
+  const uint64_t parts = std::min<uint64_t>(most, chunks.size() / kLeastChunks);
+  if (parts < 2) return {};
+  const IndexEntry& last = chunks.back();
+  const auto cells = static_cast<double>(last.first_cell + last.cells);
+  const auto vertices = static_cast<double>(last.first_vertex + last.vertices);
+  const auto count = static_cast<double>(parts);
+  // What comes before a part's own, in cells.
+  const double others = cells * std::min(static_cast<double>(before) / vertices, 1.0);
+  const double part = (cells + (count - 1) * others) / count;
+  if (others > kMostOfOthers * part) return cutChunks(chunks, parts - 1, before);
+  std::vector<ChunkRange> ranges;
+  for (uint64_t k = 0, own = 0; k < parts; ++k) {
+    const double until = part + static_cast<double>(k) * (part - others);
+    const uint64_t end =
+        k + 1 == parts ? chunks.size() : firstThat(chunks, [until](const IndexEntry& chunk) {
+          return static_cast<double>(chunk.first_cell) >= until;
+        });
+    if (end <= own) return {};
+    ranges.push_back(rangeOf(chunks, own, end, before));
+    own = end;
+  }
+  return ranges;
+}
+
+}  // namespace tetstream::tets
