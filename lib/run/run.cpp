@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <thread>
 
 #include "front_meter.h"
 #include "ordering.h"
@@ -32,8 +33,6 @@ constexpr double kPilotShare = 0.5;
 constexpr int64_t kPilotCells = 1 << 18;
 // Larger meshes are sampled, which takes this share.
 constexpr double kSampleShare = 0.1;
-// And are read in so many stretches at most: each has a table of the vertices it knows.
-constexpr size_t kMostStretches = 8;
 // A stream of so many cells, which most files hold in one piece, is not read ahead.
 constexpr int64_t kReadAtOnce = 1 << 14;
 
@@ -161,7 +160,8 @@ struct SimplifyRun::State {
   // Of a long stream, which is read twice for it.
   void sample(Ordering& stream) {
     Sampler sampler(stream.source().schema(), options.simplify);
-    std::vector<Stretch> stretches = stretchesOf(stream, Part::kPositions, 0);
+    const size_t most = std::min(tasks.threads(), sampler.mostStretches());
+    std::vector<Stretch> stretches = stretchesOf(stream, Part::kPositions, most, 0);
     if (stretches.empty()) return;
     sampler.countInStretches(stretches.size());
     const auto vertices = static_cast<double>(stream.source().schema().vertex_count);
@@ -169,7 +169,7 @@ struct SimplifyRun::State {
       sampler.count(batch, stretch);
       return static_cast<double>(batch.vertex_count) / vertices;
     });
-    stretches = stretchesOf(stream, Part::kAll, sampler.reach());
+    stretches = stretchesOf(stream, Part::kAll, most, sampler.reach());
     std::vector<Stretch::Begin> begins;
     for (const Stretch& stretch : stretches) begins.push_back(stretch.begin);
     sampler.takeBricks(begins);
@@ -185,12 +185,12 @@ struct SimplifyRun::State {
     }
     pilot_share = kSampleShare;
   }
-  // One for each thread, or one of all; none where the stream can be read but once.
-  std::vector<Stretch> stretchesOf(Ordering& stream, Part part, uint64_t before) {
+  // For that many threads, or one of all; none where the stream can be read but once.
+  std::vector<Stretch> stretchesOf(Ordering& stream, Part part, size_t most, uint64_t before) {
     Source& source = stream.source();
     std::vector<Stretch> stretches;
     if (overlaps() && !stream.staysWithCaller())
-      stretches = source.againInStretches(part, std::min(tasks.threads(), kMostStretches), before);
+      stretches = source.againInStretches(part, most, before);
     if (!stretches.empty()) return stretches;
     if (std::unique_ptr<Source> all = source.again(part)) stretches.push_back({std::move(all), {}});
     return stretches;
@@ -202,6 +202,8 @@ struct SimplifyRun::State {
     const size_t count = stretches.size();
     const auto before = count == 1 ? ahead(*stretches[0].source, stream) : nullptr;
     std::atomic<size_t> end = count;  // of no use is what comes after a part that failed
+    double told = 0;                  // by the caller's thread, whichever parts it reads
+    const std::thread::id caller = std::this_thread::get_id();
     tasks.forParts(count, [&](size_t k) {
       Source& source = before ? *before : *stretches[k].source;
       BatchView batch;
@@ -209,7 +211,9 @@ struct SimplifyRun::State {
       try {
         while (k < end && source.next(batch)) {
           part += static_cast<double>(count) * use(batch, k);
-          if (k == 0) tellSampling(share_before, std::min(part, 1.0), source.schema().cell_count);
+          if (std::this_thread::get_id() != caller) continue;
+          told = std::max(told, std::min(part, 1.0));
+          tellSampling(share_before, told, source.schema().cell_count);
         }
       } catch (...) {
         for (size_t known = end; k < known && !end.compare_exchange_weak(known, k);) {

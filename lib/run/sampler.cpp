@@ -17,7 +17,9 @@ constexpr double kBrick = 2500, kFewestBricks = 16;
 constexpr size_t kLeastBricks = 8;  // with fewer that have vertices to spare nothing is known
 // Of the mean: a part of the stream for which bricks left nothing is not the same all along.
 constexpr double kLeastRate = 0.1;
-constexpr int64_t kLargestSpan = 1 << 22;     // the table of rows: 32 MB at most
+constexpr int64_t kLargestSpan = 1 << 22;   // the table of rows: 32 MB at most
+constexpr size_t kLargestTables = 1 << 23;  // those of all stretches together, in rows: as much
+constexpr size_t kMostStretches = 8;
 constexpr uint64_t kDeclaredAhead = 1 << 15;  // vertices that a batch brings before their cells
 // A brick that has more than so many times the vertices that it should have is no longer filled.
 constexpr uint64_t kFullest = 4;
@@ -115,6 +117,10 @@ Sampler::Sampler(const Schema& schema, const SimplifyOptions& options)
       wanted_(sampleOf(schema, options)),
       reach_(reachOf(schema)) {
   counts_.emplace_back(schema, gridBytes(options));
+}
+
+size_t Sampler::mostStretches() const {
+  return std::clamp<size_t>(kLargestTables / std::bit_ceil(reach_), 1, kMostStretches);
 }
 
 void Sampler::countInStretches(size_t stretches) {

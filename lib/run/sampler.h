@@ -35,6 +35,8 @@ class Sampler {
   void count(const BatchView& batch, size_t stretch = 0);
   void takeBricks(const std::vector<Stretch::Begin>& stretches = {{}});
   void put(const BatchView& batch, size_t stretch = 0) { stretches_[stretch].put(batch); }
+  // Each stretch knows vertices of its own: so many do not take too much for that.
+  size_t mostStretches() const;
   // Vertices that must come again before a stretch's own, to be sampled with it.
   uint64_t reach() const { return reach_; }
 

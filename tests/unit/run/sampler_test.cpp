@@ -168,6 +168,21 @@ TEST(Sampler, TakesTheSameInStretches) {
   }
 }
 
+// Those of a wide span would have large tables.
+TEST(Sampler, HasFewerStretchesWhereSpansAreWide) {
+  TestMesh mesh = halfDetailed(4, 4);
+  const Swept swept(mesh);
+  Schema schema = swept.stream.schema();
+  size_t most = 9;
+  for (const int64_t span : {1, 1 << 20, 1 << 21, 1 << 22}) {
+    schema.front_span = span;
+    const size_t stretches = Sampler(schema, {}).mostStretches();
+    EXPECT_LT(stretches, most);
+    most = stretches;
+  }
+  EXPECT_EQ(most, 1u);
+}
+
 // More vertices are active at once than announced: those whose rows others have taken are left out
 // with their cells. So many vertices without cells come between the others and their cells that
 // they take the rows of half of them.
