@@ -108,8 +108,9 @@ struct SimplifyRun::State {
   Tasks tasks;
   RunOptions options;
   ProgressFunction progress;
-  double order_share = 0;  // of the time, of ordering that is done
-  double pilot_share = 0;  // of the time, of a pilot that is done
+  double order_share = 0;   // of the time, of ordering that is done
+  double pilot_share = 0;   // of the time, of a pilot that is done
+  double sample_share = 0;  // of the time, of what is read for a sample
   std::unique_ptr<WriteBehind> behind;
   Simplifier simplifier;
   std::unique_ptr<SpooledMesh> collector;
@@ -157,10 +158,24 @@ struct SimplifyRun::State {
     simplifier.follow(pilot.pilot());
     pilot_share = kPilotShare;
   }
-  // Of a long stream, which is read twice for it.
+  // Of a long stream, which is read twice for it. What is wrong with it is told as it is found
+  // from end to end.
   void sample(Ordering& stream) {
+    if (overlaps() && !stream.staysWithCaller()) {
+      try {
+        sampleBy(tasks.threads(), stream);
+        return;
+      } catch (const Error& error) {
+        const Status status = error.status();
+        if (status != Status::kBadData && status != Status::kIo && status != Status::kNoMemory)
+          throw;
+      }
+    }
+    sampleBy(1, stream);
+  }
+  void sampleBy(size_t threads, Ordering& stream) {
     Sampler sampler(stream.source().schema(), options.simplify);
-    const size_t most = std::min(tasks.threads(), sampler.mostStretches());
+    const size_t most = std::min(threads, sampler.mostStretches());
     std::vector<Stretch> stretches = stretchesOf(stream, Part::kPositions, most, 0);
     if (stretches.empty()) return;
     sampler.countInStretches(stretches.size());
@@ -170,6 +185,7 @@ struct SimplifyRun::State {
       return static_cast<double>(batch.vertex_count) / vertices;
     });
     stretches = stretchesOf(stream, Part::kAll, most, sampler.reach());
+    if (stretches.empty()) return;
     std::vector<Stretch::Begin> begins;
     for (const Stretch& stretch : stretches) begins.push_back(stretch.begin);
     sampler.takeBricks(begins);
@@ -189,8 +205,7 @@ struct SimplifyRun::State {
   std::vector<Stretch> stretchesOf(Ordering& stream, Part part, size_t most, uint64_t before) {
     Source& source = stream.source();
     std::vector<Stretch> stretches;
-    if (overlaps() && !stream.staysWithCaller())
-      stretches = source.againInStretches(part, most, before);
+    if (most > 1) stretches = source.againInStretches(part, most, before);
     if (!stretches.empty()) return stretches;
     if (std::unique_ptr<Source> all = source.again(part)) stretches.push_back({std::move(all), {}});
     return stretches;
@@ -202,7 +217,6 @@ struct SimplifyRun::State {
     const size_t count = stretches.size();
     const auto before = count == 1 ? ahead(*stretches[0].source, stream) : nullptr;
     std::atomic<size_t> end = count;  // of no use is what comes after a part that failed
-    double told = 0;                  // by the caller's thread, whichever parts it reads
     const std::thread::id caller = std::this_thread::get_id();
     tasks.forParts(count, [&](size_t k) {
       Source& source = before ? *before : *stretches[k].source;
@@ -212,8 +226,7 @@ struct SimplifyRun::State {
         while (k < end && source.next(batch)) {
           part += static_cast<double>(count) * use(batch, k);
           if (std::this_thread::get_id() != caller) continue;
-          told = std::max(told, std::min(part, 1.0));
-          tellSampling(share_before, told, source.schema().cell_count);
+          tellSampling(share_before, std::min(part, 1.0), source.schema().cell_count);
         }
       } catch (...) {
         for (size_t known = end; k < known && !end.compare_exchange_weak(known, k);) {
@@ -227,7 +240,8 @@ struct SimplifyRun::State {
     p.phase = "pilot";
     p.cells_total = cells;
     p.cells_read = static_cast<int64_t>(part * static_cast<double>(cells));
-    p.fraction = share_before + kSampleShare / 2 * part;
+    // Never back: the caller's thread may read several parts, and all once more.
+    p.fraction = sample_share = std::max(sample_share, share_before + kSampleShare / 2 * part);
     tell(p);
   }
   void close() {

@@ -47,7 +47,7 @@ class BatchQueue : public Work {
   void goOnUntil(Condition condition, Lock& lock) noexcept {
     while (!condition())
       if (is_busy_)
-        waitBriefly(changed_, lock, [this] { return !is_busy_; });
+        waitBriefly(changed_, lock, [&] { return !is_busy_ || condition(); });
       else
         goOn(lock);
   }

@@ -10,24 +10,38 @@ namespace tetstream::tets {
 constexpr uint64_t kLeastChunks = 4;
 constexpr double kMostOfOthers = 0.5;
 
-// The body of a section of that kind, of not too many bytes; empty if there is none.
-static std::vector<unsigned char> bodyAt(ByteSource& bytes, uint64_t place, const char* kind,
-                                         SectionHead* head) {
-  constexpr size_t kMostBytes = kIndexEntries * kMaxEntryBytes;
-  if (bytes.readAt(place, head, sizeof *head) != sizeof *head || faultOf(*head) ||
-      !head->is(kind) || head->length < sizeof *head || head->length - sizeof *head > kMostBytes)
-    return {};
-  std::vector<unsigned char> body(static_cast<size_t>(head->length - sizeof *head));
-  if (bytes.readAt(place + sizeof *head, body.data(), body.size()) != body.size() ||
-      checksum(0, body.data(), body.size()) != head->body_checksum)
-    return {};
-  return body;
+// An index section, which ends before byte `end`: adds what it tells of its chunks, the last one
+// first, and gives the place of the section before. False if it is not as it should be.
+static bool readIndexAt(ByteSource& bytes, uint64_t place, uint64_t end, uint64_t* previous,
+                        std::vector<IndexEntry>& chunks) {
+  SectionHead head;
+  if (place >= end || end - place < sizeof head ||
+      bytes.readAt(place, &head, sizeof head) != sizeof head || faultOf(head) || !head.is(kIndex) ||
+      head.length < sizeof head || head.length > end - place)
+    return false;
+  const IndexOwn own = head.get<IndexOwn>();
+  if (head.value == 0 || head.value > kIndexEntries || own.entry_bytes < sizeof(IndexEntry) ||
+      own.entry_bytes > kMaxEntryBytes || !bodyHolds(head, size_t{head.value} * own.entry_bytes))
+    return false;
+  std::vector<unsigned char> body(static_cast<size_t>(head.length - sizeof head));
+  if (bytes.readAt(place + sizeof head, body.data(), body.size()) != body.size() ||
+      checksum(0, body.data(), body.size()) != head.body_checksum)
+    return false;
+  for (size_t i = head.value; i-- > 0;) {
+    chunks.emplace_back();
+    std::memcpy(&chunks.back(), body.data() + i * own.entry_bytes, sizeof(IndexEntry));
+  }
+  *previous = own.previous;
+  return true;
 }
 
-static bool followEachOther(const std::vector<IndexEntry>& chunks) {
-  uint64_t vertices = 0, cells = 0, end = 0;
+// Within the `size` bytes of a file.
+static bool followEachOther(const std::vector<IndexEntry>& chunks, uint64_t size) {
+  uint64_t vertices = 0, cells = 0, end = sizeof(SectionHead);
   for (const IndexEntry& chunk : chunks) {
-    if (chunk.first_vertex != vertices || chunk.first_cell != cells || chunk.offset < end)
+    if (chunk.first_vertex != vertices || chunk.first_cell != cells || chunk.offset < end ||
+        chunk.offset > size || chunk.length < sizeof(SectionHead) ||
+        chunk.length > size - chunk.offset)
       return false;
     vertices += chunk.vertices;
     cells += chunk.cells;
@@ -43,21 +57,13 @@ std::vector<IndexEntry> readIndex(ByteSource& bytes) {
       faultOf(head) || !head.is(kEnd))
     return {};
   std::vector<IndexEntry> chunks;  // from the last one on
-  for (uint64_t place = head.get<EndOwn>().last_index, end = size; place != 0;) {
-    const std::vector<unsigned char> body = bodyAt(bytes, place, kIndex, &head);
-    const IndexOwn own = head.get<IndexOwn>();
-    if (place >= end || own.entry_bytes < sizeof(IndexEntry) ||
-        body.size() / own.entry_bytes < head.value)
-      return {};
-    for (size_t i = head.value; i-- > 0;) {
-      chunks.emplace_back();
-      std::memcpy(&chunks.back(), body.data() + i * own.entry_bytes, sizeof(IndexEntry));
-    }
+  for (uint64_t place = head.get<EndOwn>().last_index, end = size, before = 0; place != 0;) {
+    if (!readIndexAt(bytes, place, end, &before, chunks)) return {};
     end = place;
-    place = own.previous;
+    place = before;
   }
   std::reverse(chunks.begin(), chunks.end());
-  return followEachOther(chunks) ? chunks : std::vector<IndexEntry>();
+  return followEachOther(chunks, size) ? chunks : std::vector<IndexEntry>();
 }
 
 // The first chunk for which it holds, as it does for all that follow.

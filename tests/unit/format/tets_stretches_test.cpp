@@ -169,6 +169,42 @@ TEST(TetsStretches, AreNoneWithoutAWholeIndex) {
   EXPECT_TRUE(piped.stream->againInStretches(Part::kAll, 2, 0).empty());
 }
 
+// Sections in each other, of which each claims the bytes of all: no more is read than the file has.
+TEST(TetsStretches, AreNoneOfAnIndexThatLies) {
+  Stream s = manyChunks();
+  const Bytes file = write(s);
+  const std::vector<Section> sections = sectionsOf(file);
+  const auto index = std::find_if(sections.begin(), sections.end(),
+                                  [](const Section& x) { return x.head.is(tets::kIndex); });
+  ASSERT_NE(index, sections.end());
+  const auto sealed = [](tets::SectionHead head, size_t body_bytes, uint64_t rank) {
+    Bytes section(sizeof head + body_bytes, 1);
+    tets::seal(head, rank, section);
+    return section;
+  };
+  for (const uint64_t last : {uint64_t{1} << 63, uint64_t{64} << 20, ~uint64_t{0}}) {
+    Bytes other(file.begin(), file.end() - 64);
+    tets::SectionHead head = sections.back().head;
+    head.set(tets::EndOwn{0, last, file.size()});
+    const Bytes end = sealed(head, 0, head.rank);
+    other.insert(other.end(), end.begin(), end.end());
+    EXPECT_TRUE(indexOf(other).empty());
+  }
+  for (const uint32_t claimed : {0u, tets::kIndexEntries + 1, 1000000u}) {
+    Bytes other;
+    tets::SectionHead head = index->head;
+    head.value = claimed;
+    const Bytes section = sealed(head, size_t{96} * (tets::kIndexEntries + 1), 3);
+    other.resize(64);
+    other.insert(other.end(), section.begin(), section.end());
+    head = sections.back().head;
+    head.set(tets::EndOwn{0, 64, other.size() + 64});
+    const Bytes end = sealed(head, 0, 4);
+    other.insert(other.end(), end.begin(), end.end());
+    EXPECT_TRUE(indexOf(other).empty()) << claimed;
+  }
+}
+
 TEST(TetsStretches, NameTheChunkThatIsDamaged) {
   Stream s = manyChunks();
   Bytes file = write(s);
