@@ -11,8 +11,8 @@ import sys
 NAMES = {
     "algorithm": """all_of any_of binary_search clamp copy copy_n count count_if equal fill fill_n find
         find_if find_if_not lower_bound make_heap max max_element min min_element minmax
-        minmax_element move_backward none_of nth_element pop_heap push_heap remove remove_if replace
-        replace_if search sort stable_sort unique upper_bound""",
+        minmax_element move_backward none_of nth_element partition_point pop_heap push_heap remove
+        remove_if replace replace_if reverse search sort stable_sort unique upper_bound""",
     "array": "array",
     "atomic": "atomic atomic_ref memory_order_relaxed",
     "bit": """bit_cast bit_ceil bit_floor bit_width countl_zero countr_zero endian has_single_bit

@@ -7,6 +7,7 @@
 // what was met. What is finer than the grid is cut as if it were even there, and met in one brick.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -64,7 +65,8 @@ class Bricks {
   Piece pieceAt(uint64_t vertex) const;
 
   double low_[3], extent_[3], scale_[3];  // cells of the grid per length
-  std::vector<uint64_t> digits_[3];       // of an axis: what a row of cells adds to their code
+  // Of an axis: what a row of cells adds to their code.
+  std::array<std::vector<uint64_t>, 3> digits_;
   // Vertices of cell k - 1, by code; then of all before cell k; then the brick that cell k is of.
   std::vector<uint64_t> cells_;
   std::vector<Cut> cuts_;  // of a brick

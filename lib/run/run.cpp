@@ -187,6 +187,7 @@ struct SimplifyRun::State {
     stretches = stretchesOf(stream, Part::kAll, most, sampler.reach());
     if (stretches.empty()) return;
     std::vector<Stretch::Begin> begins;
+    begins.reserve(stretches.size());
     for (const Stretch& stretch : stretches) begins.push_back(stretch.begin);
     sampler.takeBricks(begins);
     const auto cells = static_cast<double>(stream.source().schema().cell_count);
