@@ -101,8 +101,8 @@ TEST(Sampler, TakesWholeBricksAndHoldsTheirCuts) {
 
 // Both readings in parts: a stretch begins some batches before its own.
 void readInStretches(Swept& swept, Sampler& sampler, size_t count) {
-  std::vector<std::unique_ptr<BatchCopy>> batches;
   Account account;
+  std::vector<std::unique_ptr<BatchCopy>> batches;
   const std::unique_ptr<Source> all = swept.stream.again(Part::kAll);
   BatchView batch;
   for (; all->next(batch); batches.back()->take(batch))
