@@ -1,4 +1,4 @@
-// simplify: which of some tiles is worked on next, by whichever thread asks. Depends on nothing.
+// simplify: which of some tiles is worked on next, by whichever thread asks. Depends on base.
 #pragma once
 
 #include <condition_variable>
