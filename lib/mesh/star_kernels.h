@@ -12,16 +12,18 @@ namespace tetstream {
 struct ThinAngle {
   explicit ThinAngle(double angle);  // in degrees; 0: no cell is
   double degrees;
-  double cos2;            // squared cosine
-  double shape;           // no cell of a better shape (below) is thin
-  bool barred = false;    // a thin cell counts as one that is not positive
-  double inner_cos2 = 1;  // of a smaller angle: thin cells below that one are counted, too
+  double cos2;          // squared cosine
+  double shape;         // no cell of a better shape (below) is thin
+  bool barred = false;  // a thin cell counts as one that is not positive
+  // Of smaller angles, the second smaller than the first: thin cells below those are counted, too.
+  double middle_cos2 = 1, inner_cos2 = 1;
 };
 
 struct StarShape {
   bool positive;  // every cell strictly, decided exactly; where they are barred none is thin
   size_t thin;    // cells; 0 when not positive
-  size_t inner;   // of them those below the smaller angle, if there is one
+  size_t middle;  // of them those below the first smaller angle, if there is one
+  size_t inner;   // and below the second
   size_t turned;  // when not positive: the place of a cell that is not
 };
 

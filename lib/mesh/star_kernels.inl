@@ -156,15 +156,24 @@ inline unsigned thinLanes(const Corner<LanesOf<float>>& p, const Corner<LanesOf<
          thinLanes(halfOf<4>(p), halfOf<4>(q), halfOf<4>(r), cos2, lanes >> 4) << 4;
 }
 
+// Those of the lanes below an angle, counted; all where there is no such angle.
+template <class L>
+inline unsigned countBelow(const Corner<L>& p, const Corner<L>& q, const Corner<L>& r, double cos2,
+                           unsigned lanes, size_t& count) {
+  if (lanes == 0 || !(cos2 < 1)) return lanes;
+  const unsigned below = thinLanes(p, q, r, cos2, lanes);
+  count += static_cast<size_t>(__builtin_popcount(below));
+  return below;
+}
+
 // Counts the thin ones among the lanes, and returns their bits.
 template <class L>
 inline unsigned countThin(const Corner<L>& p, const Corner<L>& q, const Corner<L>& r,
                           const ThinAngle& thin, unsigned lanes, StarShape& shape) {
   const unsigned is_thin = thinLanes(p, q, r, thin.cos2, lanes);
   shape.thin += static_cast<size_t>(__builtin_popcount(is_thin));
-  if (is_thin && thin.inner_cos2 < 1)
-    shape.inner +=
-        static_cast<size_t>(__builtin_popcount(thinLanes(p, q, r, thin.inner_cos2, is_thin)));
+  const unsigned in_middle = countBelow(p, q, r, thin.middle_cos2, is_thin, shape.middle);
+  countBelow(p, q, r, thin.inner_cos2, in_middle, shape.inner);
   return is_thin;
 }
 
@@ -212,7 +221,7 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
   using L = LanesOf<S>;
   const size_t stride = static_cast<size_t>(stride_given);
   const S unit = static_cast<S>(scale), shape = static_cast<S>(kRounding * thin.shape);
-  StarShape found = {true, 0, 0, 0};
+  StarShape found = {true, 0, 0, 0, 0};
   for (size_t first = 0; first < count; first += W::kLanes) {
     StarCell room[W::kLanes];
     const auto [c, begin, fresh] = lanesFrom<W::kLanes>(cells, first, count, room);
@@ -226,18 +235,18 @@ inline StarShape starShapeOf(const double x[3], const S* values, int stride_give
     const L det2 = det * det, sum3 = sum * sum * sum;
     const auto held = (sum > W::kLeastSum) & (sum < W::kLargestSum) & (det2 > W::kSure * sum3);
     if (const unsigned turned = bitsOf((det < 0) & held))
-      return {false, 0, 0, begin + static_cast<size_t>(__builtin_ctz(turned))};
+      return {false, 0, 0, 0, begin + static_cast<size_t>(__builtin_ctz(turned))};
     const auto sure = (det > 0) & held;
     const auto suspect = sure & (S(kRegular) * det2 < shape * sum3);
     if (const unsigned which = bitsOf(suspect) & fresh) {
       const unsigned is_thin = countThin(p, q, r, thin, which, found);
       if (is_thin && thin.barred)
-        return {false, 0, 0, begin + static_cast<size_t>(__builtin_ctz(is_thin))};
+        return {false, 0, 0, 0, begin + static_cast<size_t>(__builtin_ctz(is_thin))};
     }
     const unsigned unsure = ~bitsOf(sure) & fresh;
     for (size_t k = 0; unsure >> k; ++k)
       if ((unsure >> k & 1) && !carefully(x, values, stride, c[k], thin, found))
-        return {false, 0, 0, begin + k};
+        return {false, 0, 0, 0, begin + k};
   }
   return found;
 }

@@ -25,6 +25,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
       mesh_(mesh),
       tally_(tally),
       refusals_(account),
+      thin_counts_(core, mesh, account),
       sound_(account),
       link_(account),
       edge_faces_(mesh, core.window.faces),
@@ -35,6 +36,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
 template <class Mesh>
 void Collapser<Mesh>::forget() {
   refusals_.forget();
+  thin_counts_.forget();
   sound_.forget();
 }
 
@@ -71,9 +73,9 @@ StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size
 // Whether the share of thin cells in the two stars would not grow, so that in the end it is no
 // larger than in the input.
 template <class Mesh>
-bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after) {
+bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after) {
   if (after == 0) return true;
-  const size_t before = thinBefore(u, v, angle);
+  const size_t before = thin_counts_.count(u, v, stars_, angle);
   if (before == 0 && core_.options.shape == Shape::kSolver) {
     sound_.add(u);
     sound_.add(v);
@@ -83,8 +85,8 @@ bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, s
 }
 
 template <class Mesh>
-float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) const {
-  const auto before = static_cast<double>(thinBefore(u, v, core_.dear.back()));
+float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) {
+  const auto before = static_cast<double>(thin_counts_.count(u, v, stars_, Thin::kFlat));
   const auto left = static_cast<double>(stars_.u.size() + stars_.v.size());
   const double share_left = left / (left + static_cast<double>(stars_.ring.size()));
   const double more = static_cast<double>(flat_after) - before * share_left;
@@ -92,18 +94,15 @@ float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) cons
   return static_cast<float>(1 / std::clamp(part, 1.0 / kHighestPrice, 1.0));
 }
 
-// After the collapse: cells below the largest angle in question, and of them those below the floor,
-// which where there is no price are the same.
+// `after`: below the first dear angle, the last and the floor; without a price all below the floor.
 template <class Mesh>
-Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, size_t thin_after,
-                               size_t below_floor) {
-  if (!isPriced(most_price))
-    return thinsOut(u, v, core_.thin, thin_after) ? Outcome::kDone : Outcome::kOrientation;
-  if (!thinsOut(u, v, core_.thin, below_floor)) return Outcome::kOrientation;
-  const size_t flat_after =
-      core_.isFlat() && thin_after > 0 ? thinAfter(core_.dear.back()) : thin_after;
-  if (core_.isFlat()) price_ = std::max(price_, flatPrice(u, v, flat_after));
-  if (price_ < kThinPrice && !thinsOut(u, v, core_.dear.front(), thin_after)) price_ = kThinPrice;
+Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, const StarShape& after) {
+  const bool is_priced = isPriced(most_price);
+  if (!thinsOut(u, v, Thin::kFloor, is_priced ? after.inner : after.thin))
+    return Outcome::kOrientation;
+  if (!is_priced) return Outcome::kDone;
+  if (core_.isFlat()) price_ = std::max(price_, flatPrice(u, v, after.middle));
+  if (price_ < kThinPrice && !thinsOut(u, v, Thin::kDear, after.thin)) price_ = kThinPrice;
   return price_ > most_price ? Outcome::kDear : Outcome::kDone;
 }
 
@@ -327,6 +326,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (isPriced(most_price)) {
     angle = core_.dear.front();
     angle.inner_cos2 = core_.thin.cos2;
+    if (core_.isFlat()) angle.middle_cos2 = core_.dear.back().cos2;
   }
   const Star& farther = u_first ? stars_.u : stars_.v;
   const StarShape a = shapeFrom(merged_.data(), farther.begin(), farther.size(), angle);
@@ -335,11 +335,10 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const Star& nearer = u_first ? stars_.v : stars_.u;
   const StarShape b = shapeFrom(merged_.data(), nearer.begin(), nearer.size(), angle);
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);
-  const size_t thin = a.thin + b.thin;
-  if (const Outcome o = thins(u, v, most_price, thin, a.inner + b.inner); o != Outcome::kDone)
-    return o;
+  const StarShape both = {true, a.thin + b.thin, a.middle + b.middle, a.inner + b.inner, 0};
+  if (const Outcome o = thins(u, v, most_price, both); o != Outcome::kDone) return o;
   if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
-  leaves_thin_ = thin > 0;
+  leaves_thin_ = both.thin > 0;
   return Outcome::kDone;
 }
 
@@ -413,6 +412,7 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   const double in_users_terms = static_cast<double>(error) * core_.error_unit;
   if (core_.tracer) trace(u, v, in_users_terms);
   mesh_.merge(u, v, stars_);
+  thin_counts_.merged(stars_);
   core_.window.curves.merge(mesh_.slotOf(u), mesh_.slotOf(v));
   std::copy(merged_.begin(), merged_.end(), mesh_.values(u));
   S *a = mesh_.quadric(u), *b = mesh_.quadric(v);

@@ -13,6 +13,7 @@
 #include "sound.h"
 #include "star_kernels.h"
 #include "strata.h"
+#include "thin_counts.h"
 
 namespace tetstream {
 
@@ -103,24 +104,14 @@ class Collapser {
   bool placeAt(uint32_t u, uint32_t v, S* z);
   StarShape shapeFrom(const S* place, const StarCell* cells, size_t count,
                       const ThinAngle& angle) const;
-  size_t thinIn(const Star& star, const S* centre, const ThinAngle& angle) const {
-    return shapeFrom(centre, star.begin(), star.size(), angle).thin;
-  }
-  size_t thinAfter(const ThinAngle& angle) const {
-    return thinIn(stars_.u, merged_.data(), angle) + thinIn(stars_.v, merged_.data(), angle);
-  }
   // Whether its thin cells may cost a collapse more than that.
   bool isPriced(float most_price) const {
     return !core_.dear.empty() && most_price < (core_.isFlat() ? kHighestPrice : kThinPrice);
   }
-  Outcome thins(uint32_t u, uint32_t v, float most_price, size_t thin_after, size_t below_floor);
-  size_t thinBefore(uint32_t u, uint32_t v, const ThinAngle& angle) const {
-    const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
-    return thinIn(stars_.u, at_u, angle) + thinIn(stars_.ring, at_u, angle) +
-           thinIn(stars_.v, at_v, angle);
-  }
-  bool thinsOut(uint32_t u, uint32_t v, const ThinAngle& angle, size_t after);
-  float flatPrice(uint32_t u, uint32_t v, size_t flat_after) const;
+  using Thin = ThinCounts<Mesh>;
+  Outcome thins(uint32_t u, uint32_t v, float most_price, const StarShape& after);
+  bool thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after);
+  float flatPrice(uint32_t u, uint32_t v, size_t flat_after);
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
@@ -131,6 +122,7 @@ class Collapser {
   Tally& tally_;
   // The cell for which an edge was refused: tried again, it mostly is for the same.
   EdgeNotes<uint32_t> refusals_;
+  Thin thin_counts_;
   SoundVertices sound_;       // where shapes come first
   bool leaves_thin_ = false;  // the edge that was tested
   float price_ = 1;

@@ -110,8 +110,10 @@ struct Fan {
     return starShape(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
                      cells.size(), angle);
   }
-  StarShape shapeOfTwo(double degrees, double inner) const {
+  // With one or two smaller angles; 90: none.
+  StarShape shapeOf(double degrees, double middle, double inner) const {
     ThinAngle angle(degrees);
+    if (middle < degrees) angle.middle_cos2 = ThinAngle(middle).cos2;
     angle.inner_cos2 = ThinAngle(inner).cos2;
     return starShape(x.data(), values.data(), static_cast<int>(kStride), scale, cells.data(),
                      cells.size(), angle);
@@ -148,13 +150,20 @@ void expectTruthWhereBarred(const Fan<S>& fan, double degrees) {
   EXPECT_TRUE(!alone.shape(degrees).positive || alone.shape(degrees).thin == 1) << degrees;
 }
 
-// Below a smaller angle are as many as where it is the only one.
+// Below smaller angles are as many as where each is the only one.
 template <class S>
-void expectTruthOfTwo(const Fan<S>& fan, double degrees) {
-  EXPECT_EQ(fan.shape(degrees).inner, 0u);
-  const StarShape two = fan.shapeOfTwo(degrees, degrees / 3), inner = fan.shape(degrees / 3);
-  EXPECT_EQ(two.thin, fan.shape(degrees).thin);
+void expectTruthOfSmaller(const Fan<S>& fan, double degrees) {
+  const StarShape one = fan.shape(degrees), inner = fan.shape(degrees / 3);
+  EXPECT_EQ(one.middle, 0u);
+  EXPECT_EQ(one.inner, 0u);
+  const StarShape two = fan.shapeOf(degrees, 90, degrees / 3);
+  EXPECT_EQ(two.thin, one.thin);
+  EXPECT_EQ(two.middle, 0u);
   EXPECT_EQ(two.inner, inner.thin) << degrees;
+  const StarShape three = fan.shapeOf(degrees, degrees / 2, degrees / 3);
+  EXPECT_EQ(three.thin, one.thin);
+  EXPECT_EQ(three.middle, fan.shape(degrees / 2).thin) << degrees;
+  EXPECT_EQ(three.inner, inner.thin) << degrees;
 }
 
 // A cell within a hair of the angle may count or not.
@@ -174,7 +183,7 @@ void expectTruth(const Fan<S>& fan) {
     EXPECT_LE(got.thin, thin + hair) << degrees;
     EXPECT_GE(got.thin + hair, thin) << degrees;
     expectTruthWhereBarred(fan, degrees);
-    if (degrees == 40) expectTruthOfTwo(fan, degrees);
+    if (degrees == 40) expectTruthOfSmaller(fan, degrees);
   }
 }
 
