@@ -21,10 +21,19 @@ class Heirs {
     uint32_t dying, cell[2], count;
   };
 
+  // Of the stars, a cell that may be an heir.
+  struct Beside {
+    uint64_t bits;
+    const StarCell* cell;
+  };
+
   template <class Mesh>
   void find(Mesh& mesh, uint32_t v, const Stars& stars);
+  void listBeside(uint32_t v, const Stars& stars);
 
   std::vector<Of> heirs_;
+  std::vector<Beside> beside_;
+  size_t beside_count_ = 0;
 };
 
 }  // namespace tetstream
