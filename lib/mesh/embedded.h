@@ -17,14 +17,13 @@ struct CellLabels {
   int count = 0;
   const uint32_t* slots = nullptr;  // of the cells of a patch, in the window; null: their own
 
-  bool differ(uint32_t a, uint32_t b) const {
-    if (slots) a = slots[a], b = slots[b];
+  const int64_t* rowOf(uint32_t cell) const { return rows + (slots ? slots[cell] : cell) * stride; }
+  bool differ(const int64_t* a, const int64_t* b) const {
     for (int i = 0; i < count; ++i)
-      if (rows[a * stride + static_cast<size_t>(columns[i])] !=
-          rows[b * stride + static_cast<size_t>(columns[i])])
-        return true;
+      if (a[columns[i]] != b[columns[i]]) return true;
     return false;
   }
+  bool differ(uint32_t a, uint32_t b) const { return differ(rowOf(a), rowOf(b)); }
 };
 
 struct Embedded {

@@ -9,50 +9,67 @@ namespace tetstream {
 // Of the largest gradient, squared: what the sheets do not determine stays as it is.
 constexpr double kRegular = 1e-4;
 
-RegionVolumes::Change& RegionVolumes::of(uint32_t cell, const CellLabels& labels) {
-  for (Change& change : changes_)
-    if (!labels.differ(change.cell, cell)) return change;
-  changes_.push_back({cell, 0, {0, 0, 0}});
-  return changes_.back();
+// `likely`: the region of the cell before.
+inline size_t RegionVolumes::of(const int64_t* row, const CellLabels& labels, size_t likely) {
+  if (likely < changes_.size() && !labels.differ(changes_[likely].row, row)) return likely;
+  for (size_t i = 0; i < changes_.size(); ++i)
+    if (i != likely && !labels.differ(changes_[i].row, row)) return i;
+  changes_.push_back({row, 0, {}, {}});
+  return changes_.size() - 1;
 }
 
 // Parts are numbered as they are met.
-RegionVolumes::Change& RegionVolumes::ofPart(size_t part, uint32_t cell) {
-  if (part == changes_.size()) changes_.push_back({cell, 0, {0, 0, 0}});
-  return changes_[part];
+size_t RegionVolumes::ofPart(size_t part) {
+  if (part == changes_.size()) changes_.push_back({nullptr, 0, {}, {}});
+  return part;
 }
 
+template <class S>
+static void place(const S* at, double out[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = static_cast<double>(at[i]);
+}
+
+// A cell with the vertex at c has 6 V = (t0 - c) . n with n = (t1 - t0) x (t2 - t0): from there to
+// the origin its volume grows by c . n, and -n is its gradient.
 template <class S>
 void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S* values,
                             size_t stride, const double x[3], const CellLabels& labels,
                             const SheetSides* sides) {
   changes_.clear();
-  size_t place = 0;
-  const auto relative = [&](uint32_t v, double* out) {
-    for (size_t i = 0; i < 3; ++i) out[i] = static_cast<double>(values[v * stride + i]) - x[i];
-  };
   double tip[2][3];
-  for (size_t k = 0; k < 2; ++k) relative(ends[k], tip[k]);
-  for (size_t i = 0; i < 3; ++i) edge_[i] = tip[1][i] - tip[0][i];
-  for (const Star* star : {&stars.u, &stars.ring, &stars.v}) {
-    double centre[3];
-    relative(ends[star == &stars.v], centre);
-    for (const StarCell& s : *star) {
-      double t[3][3], e[2][3], before[3][3];
-      for (size_t k = 0; k < 3; ++k) relative(s.t[k], t[k]);
-      for (size_t i = 0; i < 3; ++i) {
-        for (size_t k = 0; k < 3; ++k) before[k][i] = t[k][i] - centre[i];
-        for (size_t k = 0; k < 2; ++k) e[k][i] = t[k + 1][i] - t[0][i];
-      }
-      Change& change = sides ? ofPart(sides->of(place++), s.cell) : of(s.cell, labels);
-      change.volume -= determinant(before[0], before[1], before[2]) / 6;
-      if (star == &stars.ring) continue;
-      change.volume += determinant(t[0], t[1], t[2]) / 6;
-      for (size_t i = 0; i < 3; ++i)
-        change.gradient[i] -=
-            (e[0][(i + 1) % 3] * e[1][(i + 2) % 3] - e[0][(i + 2) % 3] * e[1][(i + 1) % 3]) / 6;
-    }
+  for (size_t k = 0; k < 2; ++k) {
+    place(values + ends[k] * stride, tip[k]);
+    for (size_t i = 0; i < 3; ++i) tip[k][i] -= x[i];
   }
+  for (size_t i = 0; i < 3; ++i) edge_[i] = tip[1][i] - tip[0][i];
+  size_t cell = 0, region = 0;
+  for (const Star* star : {&stars.u, &stars.ring, &stars.v})
+    for (const StarCell& s : *star) {
+      double t[3][3], n[3];
+      for (size_t k = 0; k < 3; ++k) place(values + s.t[k] * stride, t[k]);
+      for (size_t i = 0; i < 3; ++i) {
+        t[1][i] -= t[0][i];
+        t[2][i] -= t[0][i];
+      }
+      cross(t[1], t[2], n);
+      region = sides ? ofPart(sides->of(cell++)) : of(labels.rowOf(s.cell), labels, region);
+      Change& change = changes_[region];
+      if (star != &stars.ring) {
+        for (size_t i = 0; i < 3; ++i) change.faces[star == &stars.v][i] += n[i];
+        continue;
+      }
+      for (size_t i = 0; i < 3; ++i) change.volume -= (t[0][i] - x[i] - tip[0][i]) * n[i];
+    }
+  close(tip);
+}
+
+// The sums over all cells of each end.
+void RegionVolumes::close(const double ends[2][3]) {
+  for (Change& change : changes_)
+    for (size_t k = 0; k < 2; ++k) {
+      change.volume += dot(ends[k], change.faces[k]);
+      for (size_t i = 0; i < 3; ++i) change.gradient[i] -= change.faces[k][i];
+    }
 }
 
 // Least squares: sum of g g^T times the step is minus the sum of g times the change.

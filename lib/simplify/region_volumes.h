@@ -17,8 +17,9 @@ class RegionVolumes {
   // Of one region, or side: its volume's change, if the vertex were at the origin, and the gradient
   // of that.
   struct Change {
-    uint32_t cell;  // one of them
-    double volume, gradient[3];
+    const int64_t* row;          // of labels, where these tell regions apart
+    double volume, gradient[3];  // times 6
+    double faces[2][3];          // sums of (t1 - t0) x (t2 - t0) over the cells of each end
   };
 
   // The cells round u and v, with coordinates relative to x, of which three numbers of `stride` to
@@ -32,8 +33,9 @@ class RegionVolumes {
   bool step(double out[3]) const;
 
  private:
-  Change& of(uint32_t cell, const CellLabels& labels);
-  Change& ofPart(size_t part, uint32_t cell);
+  size_t of(const int64_t* row, const CellLabels& labels, size_t likely);
+  size_t ofPart(size_t part);
+  void close(const double ends[2][3]);
 
   std::vector<Change> changes_;
   double edge_[3] = {0, 0, 0};  // from one end to the other
