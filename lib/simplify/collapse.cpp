@@ -98,8 +98,7 @@ float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) {
 template <class Mesh>
 Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, const StarShape& after) {
   const bool is_priced = isPriced(most_price);
-  if (!thinsOut(u, v, Thin::kFloor, is_priced ? after.inner : after.thin))
-    return Outcome::kOrientation;
+  if (!thinsOut(u, v, Thin::kFloor, is_priced ? after.inner : after.thin)) return Outcome::kThin;
   if (!is_priced) return Outcome::kDone;
   if (core_.isFlat()) price_ = std::max(price_, flatPrice(u, v, after.middle));
   if (price_ < kThinPrice && !thinsOut(u, v, Thin::kDear, after.thin)) price_ = kThinPrice;
@@ -365,7 +364,7 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
       outcome = Outcome::kTooFar;
     }
   }
-  count(outcome);
+  tally_.count(outcome);
   if (outcome == Outcome::kDone) {
     mergeInto(u, v, error);
     if (core_.options.shape == Shape::kSolver) sound_.merged(u, stars_, leaves_thin_);
@@ -376,30 +375,6 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
 template <class Mesh>
 bool Collapser<Mesh>::passesLimit(uint32_t u, uint32_t v, S error) {
   return core_.errorWith(tally_) + growth(u, v, error) > core_.error_limit;
-}
-
-template <class Mesh>
-void Collapser<Mesh>::count(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::kDone:
-      ++tally_.collapses;
-      break;
-    case Outcome::kLocked:
-      ++tally_.rejected_locked;
-      break;
-    case Outcome::kTopology:
-      ++tally_.rejected_link;
-      break;
-    case Outcome::kOrientation:
-      ++tally_.rejected_orientation;
-      break;
-    case Outcome::kTooMany:
-    case Outcome::kTooFar:
-    case Outcome::kDear:
-    case Outcome::kNotFinite:
-      ++tally_.rejected_other;
-      break;
-  }
 }
 
 template <class Mesh>

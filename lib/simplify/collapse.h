@@ -20,17 +20,6 @@ namespace tetstream {
 // An edge whose collapse makes more cells thin than it should is taken at this times its error.
 constexpr float kThinPrice = 2, kHighestPrice = 64;
 
-enum class Outcome {
-  kDone,
-  kLocked,
-  kTooMany,
-  kTooFar,
-  kTopology,
-  kOrientation,
-  kDear,
-  kNotFinite
-};
-
 template <class Mesh>
 class Collapser {
  public:
@@ -100,7 +89,6 @@ class Collapser {
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
-  void count(Outcome outcome);
   bool placeAt(uint32_t u, uint32_t v, S* z);
   StarShape shapeFrom(const S* place, const StarCell* cells, size_t count,
                       const ThinAngle& angle) const;

@@ -12,6 +12,7 @@
 #include "queued_edges.h"
 #include "ranked_cell.h"
 #include "star_kernels.h"
+#include "tally.h"
 #include "tasks.h"
 #include "tracer.h"
 #include "window.h"
@@ -90,28 +91,6 @@ inline int64_t tileVertices(const SimplifyOptions& options, int64_t vertex_bytes
   if (options.memory_bytes == 0) return kTileVertices;
   return std::clamp<int64_t>(options.memory_bytes / (6 * vertex_bytes), 128, kTileVertices);
 }
-
-// What collapses did: to the whole mesh, or to a part of the window that is worked on beside others
-// and is added when its turn comes. Sums of errors are added part by part, whoever worked on them.
-struct Tally {
-  int64_t collapses = 0, flips = 0;
-  int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
-  double error = 0;            // made: volume times squared error, normalised
-  double largest_error = 0;    // in the report's unit
-  bool error_reached = false;  // a collapse was refused for the limit on the error
-
-  void add(const Tally& part) {
-    collapses += part.collapses;
-    flips += part.flips;
-    rejected_orientation += part.rejected_orientation;
-    rejected_link += part.rejected_link;
-    rejected_locked += part.rejected_locked;
-    rejected_other += part.rejected_other;
-    error += part.error;
-    largest_error = std::max(largest_error, part.largest_error);
-    error_reached |= part.error_reached;
-  }
-};
 
 template <class S>
 struct Core {
@@ -243,8 +222,10 @@ struct Core {
   double shape_weight;                  // of a cell's regulariser (kernels.h)
   double face_weight = 0;               // of a face on the boundary
   ThinAngle thin;                       // no more cells below than the input has
-  double poor = 1;                      // cells thinner than this are worth a flip (thinness.h)
-  std::vector<ThinAngle> dear;          // falling, above: more cells below have their price
+  // In degrees: a larger one stood against the goal.
+  double largest_floor = std::numeric_limits<double>::infinity();
+  double poor = 1;              // cells thinner than this are worth a flip (thinness.h)
+  std::vector<ThinAngle> dear;  // falling, above: more cells below have their price
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();

@@ -16,6 +16,10 @@ namespace tetstream {
 constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
 constexpr double kSolverFloors[] = {10, 8, 6, 4.5, 3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
 constexpr double kShareBelow = 0.01;
+// Cells just above a floor can hardly become others: of stretched meshes, all of whose cells are
+// alike, nearly every edge would be refused for it. No more than this share may be below so many
+// floors; where shapes come first the floor is what was asked for.
+constexpr double kShareNear = 0.05, kNearFloor = 3;
 // Where shapes come first, cells are flipped whose smallest angle is below this many floors. At 2
 // it takes twice the time.
 constexpr double kPoor = 1.5;
@@ -42,6 +46,9 @@ Metric<S>::Metric(Core<S>& core)
   else
     for (double degrees : kFloors) floors_.emplace_back(degrees);
   below_.assign(floors_.size(), 0);
+  if (core.options.shape != Shape::kSolver && !followsPaper(core.options.mode))
+    for (const ThinAngle& floor : floors_) near_.emplace_back(kNearFloor * floor.degrees);
+  below_near_.assign(near_.size(), 0);
   if (!followsPaper(core.options.mode))
     for (double degrees : kDear) dear_.emplace_back(degrees);
   below_dear_.assign(dear_.size(), 0);
@@ -261,24 +268,27 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
       }
     };
     count(floors_, below_);
+    count(near_, below_near_);
     count(dear_, below_dear_);
   }
 }
 
 template <class S>
 void Metric<S>::chooseFloor() {
+  const auto all = static_cast<double>(sampled_);
+  const auto isTooHigh = [&](size_t i) {
+    return static_cast<double>(below_[i]) > kShareBelow * all ||
+           (!near_.empty() && static_cast<double>(below_near_[i]) > kShareNear * all);
+  };
   size_t i = 0;
-  while (i + 1 < floors_.size() &&
-         static_cast<double>(below_[i]) > kShareBelow * static_cast<double>(sampled_))
-    ++i;
-  core_.thin = floors_[i];
+  while (i + 1 < floors_.size() && isTooHigh(i)) ++i;
+  core_.thin = ThinAngle(std::min(floors_[i].degrees, core_.largest_floor));
   core_.dear.clear();
   for (size_t k = 0; k < dear_.size(); ++k) {
     const bool is_above = dear_[k].cos2 < core_.thin.cos2;
     const auto below = static_cast<double>(below_dear_[k]);
     const bool is_asked_for = k == 0 && core_.options.effort == Effort::kHigh;
-    if (is_above && (is_asked_for || below > kShareToSpare * static_cast<double>(sampled_)))
-      core_.dear.push_back(dear_[k]);
+    if (is_above && (is_asked_for || below > kShareToSpare * all)) core_.dear.push_back(dear_[k]);
   }
   const bool to_dear = !core_.shapesFirst() && !core_.dear.empty();
   core_.poor = thinnessOfAngle(to_dear ? core_.dear.back().degrees

@@ -44,9 +44,10 @@ class Metric {
 
   Core<S>& core_;
   std::vector<ThinAngle> floors_;  // falling
+  std::vector<ThinAngle> near_;    // each so many times its floor
   std::vector<ThinAngle> dear_;
-  std::vector<int64_t> below_, below_dear_;  // of the cells sampled: those below each angle
-  int64_t sampled_ = 0, seen_ = 0;           // cells
+  std::vector<int64_t> below_, below_near_, below_dear_;  // of the cells sampled
+  int64_t sampled_ = 0, seen_ = 0;                        // cells
   bool box_known_, unit_known_ = false;
   double length_unit_ = 1, fields_together_ = 1;
   std::vector<double> low_, high_;  // x y z, then measured components

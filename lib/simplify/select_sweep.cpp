@@ -8,6 +8,7 @@
 #include "patch_sweep.h"
 #include "reshape.h"
 #include "select.h"
+#include "settled.h"
 #include "sweep_bounds.h"
 #include "tasks.h"
 #include "tile_queue.h"
@@ -22,6 +23,10 @@ constexpr size_t kTilesTogether = 64;  // then what they did is added, for progr
 // A pass takes half of the cells, or less; less to take is shared by fewer tiles, and in the end is
 // taken by one after the other.
 constexpr double kLeastShare = 0.6, kLeastShareOfSlices = 0.5;
+// A pass that missed its goal with this many edges refused for thin cells to one that is collapsed
+// needs another floor, not a higher bound: of stretched meshes whose cells all lie just above the
+// floor what was left at last was collapsed at any error. Elsewhere it is 7 at most.
+constexpr int64_t kThinToDone = 10;
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
@@ -83,6 +88,8 @@ class SweepSelector final : public Selector {
   void begin(Lane& lane);
   Lane& lane() { return *lanes_[0]; }
   void sweep(const std::function<void()>& tick);
+  bool isStoppedByFloor(const Tally& before) const;
+  void lowerFloor();
   void sweepOut(const std::function<void()>& tick);
   double firstBound();
   void listErrors(Lane& lane, std::vector<float>& errors);
@@ -148,6 +155,7 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
     tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll, layout());
     if (!(bound > 0)) bound = firstBound();
     const int64_t before = core_.window.liveCells();
+    const Tally so_far = core_.tally;
     bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
     // What is left out, of a pass that could do nothing, is left to what comes after all passes.
     more |= tiling_.leavesOut() && core_.window.liveCells() < before;
@@ -156,10 +164,30 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
     if (!more) return;
     const bool on_the_way = approaches-- > 0 && core_.window.liveCells() > goal_.enough_cells;
     if (!on_the_way && (reached() || core_.tally.error >= goal_.most_error)) return;
+    if (isStoppedByFloor(so_far)) {
+      lowerFloor();
+      continue;
+    }
     if (!first)  // in that, most vertices are new
       bounds_.learn(before - core_.window.liveCells(), tiling_.looking());
     bound = on_the_way ? goal_.step * bound : bounds_.next(bound, goal_);
   }
+}
+
+template <class S>
+bool SweepSelector<S>::isStoppedByFloor(const Tally& before) const {
+  return !core_.shapesFirst() && core_.thin.degrees > kLeastFloor &&
+         core_.tally.rejected_thin - before.rejected_thin >
+             kThinToDone * (core_.tally.collapses - before.collapses);
+}
+
+// From now on; what was refused is tried again.
+template <class S>
+void SweepSelector<S>::lowerFloor() {
+  core_.largest_floor = std::max(core_.thin.degrees / 2, kLeastFloor);
+  core_.thin = ThinAngle(core_.largest_floor);
+  for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v)
+    if (core_.window.isFree(v) && settledOf(core_.window, v).refused) unsettle(core_.window, v);
 }
 
 // Works on a patch, or on its halves where it is too large for one.

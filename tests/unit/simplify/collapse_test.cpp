@@ -118,7 +118,9 @@ TYPED_TEST(Collapsers, RefuseToTurnACellOver) {
   EXPECT_EQ(collapse(w, u, v, z), Outcome::kOrientation);
   // By little less, and cells are too thin.
   z[0] = 1.49999 * w.core.scale[0];
-  EXPECT_EQ(collapse(w, u, v, z), Outcome::kOrientation);
+  EXPECT_EQ(collapse(w, u, v, z), Outcome::kThin);
+  EXPECT_EQ(w.core.tally.rejected_orientation, 3);
+  EXPECT_EQ(w.core.tally.rejected_thin, 1);
   z[0] = 0;
   EXPECT_EQ(collapse(w, u, v, z), Outcome::kDone);
   EXPECT_EQ(w.values(u)[0], 2.5);
@@ -139,7 +141,7 @@ TYPED_TEST(Collapsers, SpareCellsOfDearAngles) {
   const uint32_t u = slotAt(w.mesh, 2, 2, 2), v = slotAt(w.mesh, 3, 2, 2);
   const double distance = 1.5 * w.core.scale[0];  // of the star's outer faces
   double z[4] = {0.98 * distance, 0, 0, 0};
-  EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kOrientation);
+  EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kThin);
   z[0] = 0.9 * distance;
   EXPECT_EQ(collapse(w, u, v, z, 0, 0, 1), Outcome::kDear);
   EXPECT_EQ(w.core.tally.rejected_other, 1);
