@@ -161,10 +161,11 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
     more |= tiling_.leavesOut() && core_.window.liveCells() < before;
     // A pass that the limit on the error ended was left half done: the one before tells the bound.
     if (!core_.tally.error_reached || first) bound_ = bound;
-    if (!more) return;
+    const bool by_floor = isStoppedByFloor(so_far);
+    if (!more && (mustStop() || !by_floor)) return;
     const bool on_the_way = approaches-- > 0 && core_.window.liveCells() > goal_.enough_cells;
     if (!on_the_way && (reached() || core_.tally.error >= goal_.most_error)) return;
-    if (isStoppedByFloor(so_far)) {
+    if (by_floor) {
       lowerFloor();
       continue;
     }
@@ -174,9 +175,11 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
   }
 }
 
+// A limit on the error is reached by the bound alone.
 template <class S>
 bool SweepSelector<S>::isStoppedByFloor(const Tally& before) const {
   return !core_.shapesFirst() && core_.thin.degrees > kLeastFloor &&
+         !std::isfinite(core_.error_limit) &&
          core_.tally.rejected_thin - before.rejected_thin >
              kThinToDone * (core_.tally.collapses - before.collapses);
 }
