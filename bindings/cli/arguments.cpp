@@ -43,6 +43,13 @@ Failure usageFailure(std::string sentence, const std::string& command) {
   return {kUsage, sentence + "; see `" + name + " --help`"};
 }
 
+constexpr const char* kCommandsText =
+    "simplify, info, convert, layout, generate, diagram, compare, help or completion";
+
+Failure unknownCommand(const std::string& word) {
+  return usageFailure("there is no command \"" + word + "\", but " + kCommandsText, "");
+}
+
 // A word that has to be there.
 void addArgument(CLI::App* command, const char* name, std::string& word, const char* text) {
   command->add_option(name, word, text)->required()->option_text(" ");
@@ -386,7 +393,7 @@ std::string Parser::helpOf(const std::string& command) const {
   for (const auto& [app, id] : commands_)
     if (app->get_name() == command)
       return app->get_formatter()->make_help(app, "tetstream " + command, {});
-  throw usageFailure("there is no command \"" + command + "\"", "");
+  throw unknownCommand(command);
 }
 
 // --format is for "-", on either side; if there is none, for OUT.
@@ -414,6 +421,7 @@ Arguments Parser::parse(int argc, const char* const* argv) {
     throw usageFailure(std::string(what.substr(0, what.find(':'))) + " takes one value, once",
                        chosenCommand());
   } catch (const CLI::ParseError& error) {
+    if (chosenCommand().empty() && argv[1][0] != '-') throw unknownCommand(argv[1]);
     throw usageFailure(error.what(), chosenCommand());
   }
   if (version_) {
@@ -427,10 +435,7 @@ Arguments Parser::parse(int argc, const char* const* argv) {
       settleFormats();
       return arguments_;
     }
-  throw usageFailure(
-      "which command? simplify, info, convert, layout, generate, diagram, compare, help or "
-      "completion",
-      "");
+  throw usageFailure(std::string("which command? ") + kCommandsText, "");
 }
 
 }  // namespace

@@ -140,6 +140,8 @@ static int64_t takeSuffix(const OptionRow& row, std::string& text) {
   return factor;
 }
 
+constexpr char kNoInteger[] = "is no integer, which k, M or G may follow";
+
 static int64_t parseInteger(const OptionRow& row, const std::string& whole) {
   std::string text = whole;
   const int64_t factor = takeSuffix(row, text);
@@ -152,9 +154,9 @@ static int64_t parseInteger(const OptionRow& row, const std::string& whole) {
   }
   double real = 0;
   const auto rounded = std::from_chars(text.data(), end, real);
-  if (rounded.ec != std::errc() || rounded.ptr != end) failText(row, whole, "is no integer");
+  if (rounded.ec != std::errc() || rounded.ptr != end) failText(row, whole, kNoInteger);
   real *= static_cast<double>(factor);
-  if (real != std::floor(real)) failText(row, whole, "is no integer");
+  if (real != std::floor(real)) failText(row, whole, kNoInteger);
   if (!(std::fabs(real) < 0x1p63)) failText(row, whole, "is too large");
   return static_cast<int64_t>(real);
 }

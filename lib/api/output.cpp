@@ -13,7 +13,7 @@ const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept 
 }
 
 const Format& writtenFormat(const std::string& name, const std::string& path) {
-  const Format& format = needFormat(name, path);
+  const Format& format = needFormat(name, path, FormatUse::kWriting);
   if (!format.create)
     fail(Status::kUnsupported, "the format \"%s\" is read, but not written", format.name);
   return format;

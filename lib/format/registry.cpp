@@ -149,11 +149,13 @@ const Format* formatOfPath(const std::string& wrapped_path) {
   return nullptr;
 }
 
-const Format& needFormat(const std::string& name, const std::string& path) {
+const Format& needFormat(const std::string& name, const std::string& path, FormatUse use) {
   const Format* found = name.empty() ? formatOfPath(path) : findFormat(name);
   if (found) return *found;
   std::string known;
-  for (const Format& f : kFormats) known += std::string(known.empty() ? "" : ", ") + f.name;
+  for (const Format& f : kFormats)
+    if (use == FormatUse::kReading || f.create)
+      known += std::string(known.empty() ? "" : ", ") + f.name;
   if (!name.empty())
     fail(Status::kUnsupported, "there is no format \"%s\"; there are %s", name.c_str(),
          known.c_str());

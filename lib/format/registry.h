@@ -10,8 +10,10 @@ const Format* formats(size_t* count);
 const Format* findFormat(const std::string& name);  // null: no such format
 // By extension, after which .gz or .zst may follow; null: unknown.
 const Format* formatOfPath(const std::string& path);
-// As above, but throw kUnsupported with a sentence that lists what there is. `name` may be empty:
-// then the path's extension decides.
-const Format& needFormat(const std::string& name, const std::string& path);
+// As above, but throw kUnsupported with a sentence that lists what there is, for that use. `name`
+// may be empty: then the path's extension decides.
+enum class FormatUse { kReading, kWriting };
+const Format& needFormat(const std::string& name, const std::string& path,
+                         FormatUse use = FormatUse::kReading);
 
 }  // namespace tetstream

@@ -32,5 +32,7 @@ contains "$out" "determinant, garland-zhou; default determinant"
 
 expect_error 1 "no command" help nonsense
 expect_error 1 "which command" 
-expect_error 1 "nonsense" nonsense
+expect_error 1 'no command "smplify", but simplify, info, convert' smplify a.tets b.tets
+expect_error 1 "not expected: --nonsense" --nonsense
+expect_error 1 "which k, M or G may follow" simplify a.tets b.tets --ratio 0.1 --memory 16MiB
 expect_error 1 "tetstream simplify --help" simplify --nonsense 1 a.tets b.tets --ratio 0.1
