@@ -33,6 +33,10 @@ static std::string rejectionText(const tetstream_report& r) {
          " other";
 }
 
+// Percent of the range: fields with such errors may be of no use, and what is left of the domain
+// neither.
+constexpr double kLargeError = 20;
+
 std::string reportText(const tetstream_report& r) {
   std::string ratio;
   if (r.cells_in > 0)
@@ -53,6 +57,9 @@ std::string reportText(const tetstream_report& r) {
     text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
   if (r.unused_vertices > 0)
     text += row("left out", countText(r.unused_vertices) + " vertices that are in no cell");
+  if (r.estimated_error > kLargeError)
+    text += row("caution",
+                "the error is large: `tetstream compare` tells where, more cells make it less");
   if (r.reached && *r.reached) text += row("reached", r.reached);
   if (r.limited_by && *r.limited_by) text += row("limited by", oneLine(r.limited_by));
   return text;

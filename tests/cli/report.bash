@@ -11,6 +11,9 @@ done
 contains "$out" " -> $(cells_in out.tets), ratio 0."
 [[ $out == *$'\nreached       ratio' ]] || fail "the last row is not the target: $out"
 [[ -z $err ]] || fail "a report on standard output is enough: $err"
+contains_not "$out" "caution"
+expect 0 simplify in.tets coarse.tets --cells 30
+contains "$out" $'\ncaution       the error is large'
 
 # To standard error if the mesh goes to standard output, by whatever name.
 code=0
