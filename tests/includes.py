@@ -50,8 +50,8 @@ NAMES = {
     "string_view": "string_view",
     "system_error": "errc system_error",
     "thread": "this_thread thread",
-    "type_traits": """conditional_t is_enum_v is_floating_point_v is_integral_v is_trivially_copyable_v
-        is_void_v make_unsigned_t""",
+    "type_traits": """conditional_t is_enum_v is_floating_point_v is_integral_v is_same_v
+        is_trivially_copyable_v is_void_v make_unsigned_t""",
     "unordered_map": "unordered_map",
     "utility": "declval exchange in_range move pair swap",
     "variant": "variant",

@@ -86,7 +86,7 @@ bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angl
 
 template <class Mesh>
 float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) {
-  const auto before = static_cast<double>(thin_counts_.count(u, v, stars_, Thin::kFlat));
+  const auto before = static_cast<double>(thin_counts_.count(u, v, stars_, Thin::kLastDear));
   const auto left = static_cast<double>(stars_.u.size() + stars_.v.size());
   const double share_left = left / (left + static_cast<double>(stars_.ring.size()));
   const double more = static_cast<double>(flat_after) - before * share_left;
@@ -101,7 +101,7 @@ Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, const S
   if (!thinsOut(u, v, Thin::kFloor, is_priced ? after.inner : after.thin)) return Outcome::kThin;
   if (!is_priced) return Outcome::kDone;
   if (core_.isFlat()) price_ = std::max(price_, flatPrice(u, v, after.middle));
-  if (price_ < kThinPrice && !thinsOut(u, v, Thin::kDear, after.thin)) price_ = kThinPrice;
+  if (price_ < kThinPrice && !thinsOut(u, v, Thin::kFirstDear, after.thin)) price_ = kThinPrice;
   return price_ > most_price ? Outcome::kDear : Outcome::kDone;
 }
 

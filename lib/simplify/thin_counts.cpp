@@ -11,7 +11,7 @@ void ThinCounts<Mesh>::start() {
   size_ = mesh_.cellEnd();
   if (known_.size() < size_) known_.resize(size_ + size_ / 4);
   std::fill_n(known_.data(), size_, uint8_t{0});
-  for (const Angle angle : {kFloor, kDear, kFlat}) cos2_[angle] = angleOf(angle).cos2;
+  for (const Angle angle : {kFloor, kFirstDear, kLastDear}) cos2_[angle] = angleOf(angle).cos2;
 }
 
 // Up to kThinLanes cells; returns how many are below the angle.

@@ -19,7 +19,7 @@ class ThinCounts {
   using S = typename Mesh::Scalar;
   // The angles below which a cell is thin: the floor, and of those that have their price the first
   // and the last.
-  enum Angle : unsigned { kFloor, kDear, kFlat };
+  enum Angle : unsigned { kFloor, kFirstDear, kLastDear };
 
   ThinCounts(const Core<S>& core, const Mesh& mesh, Account& account)
       : core_(core), mesh_(mesh), known_(account) {}
@@ -48,7 +48,7 @@ class ThinCounts {
   void start();
   const ThinAngle& angleOf(Angle angle) const {
     return angle == kFloor || core_.dear.empty() ? core_.thin
-           : angle == kDear                      ? core_.dear.front()
+           : angle == kFirstDear                 ? core_.dear.front()
                                                  : core_.dear.back();
   }
 

@@ -96,11 +96,11 @@ TYPED_TEST(ThinCountsOf, OtherAnglesAreCountedAnew) {
   const uint32_t v = stars.u.size() > 0 ? stars.u[0].t[0] : stars.ring[0].t[0];
   layers.patch.gather(u, v, stars.u, stars.ring);
   layers.patch.gather(v, u, stars.v, stars.ring_from_v);
-  const size_t before = counts.count(u, v, stars, Counts::kDear);
+  const size_t before = counts.count(u, v, stars, Counts::kFirstDear);
   layers.core.dear = {ThinAngle(89), ThinAngle(88)};
-  EXPECT_EQ(counts.count(u, v, stars, Counts::kDear), before);
+  EXPECT_EQ(counts.count(u, v, stars, Counts::kFirstDear), before);
   counts.forget();
-  EXPECT_EQ(counts.count(u, v, stars, Counts::kDear),
+  EXPECT_EQ(counts.count(u, v, stars, Counts::kFirstDear),
             stars.u.size() + stars.ring.size() + stars.v.size());
 }
 
