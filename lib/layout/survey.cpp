@@ -12,8 +12,8 @@
 namespace tetstream {
 
 // One cell in so many is looked at for the direction, within limits: some thirty directions are
-// tried. Of fewer cells fronts became wider by up to a sixth.
-constexpr uint64_t kCellsPerSampled = 8, kLeastSampled = 8192, kMostSampled = 65536;
+// tried. Of fewer cells fronts became wider by up to a fifth.
+constexpr uint64_t kCellsPerSampled = 4, kLeastSampled = 8192, kMostSampled = 65536;
 constexpr size_t kSlices = 4096;        // of a direction
 constexpr double kWorthTilting = 0.95;  // what a direction that is no axis must save
 

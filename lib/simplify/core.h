@@ -222,10 +222,8 @@ struct Core {
   double shape_weight;                  // of a cell's regulariser (kernels.h)
   double face_weight = 0;               // of a face on the boundary
   ThinAngle thin;                       // no more cells below than the input has
-  // In degrees: a larger one stood against the goal.
-  double largest_floor = std::numeric_limits<double>::infinity();
-  double poor = 1;              // cells thinner than this are worth a flip (thinness.h)
-  std::vector<ThinAngle> dear;  // falling, above: more cells below have their price
+  double poor = 1;                      // cells thinner than this are worth a flip (thinness.h)
+  std::vector<ThinAngle> dear;          // falling, above: more cells below have their price
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();

@@ -19,7 +19,7 @@ constexpr double kShareBelow = 0.01;
 // Cells just above a floor can hardly become others: of stretched meshes, all of whose cells are
 // alike, nearly every edge would be refused for it. No more than this share may be below so many
 // floors; where shapes come first the floor is what was asked for.
-constexpr double kShareNear = 0.05, kNearFloor = 3;
+constexpr double kShareNear = 0.25, kNearFloor = 3;
 // Where shapes come first, cells are flipped whose smallest angle is below this many floors. At 2
 // it takes twice the time.
 constexpr double kPoor = 1.5;
@@ -282,7 +282,7 @@ void Metric<S>::chooseFloor() {
   };
   size_t i = 0;
   while (i + 1 < floors_.size() && isTooHigh(i)) ++i;
-  core_.thin = ThinAngle(std::min(floors_[i].degrees, core_.largest_floor));
+  core_.thin = floors_[i];
   core_.dear.clear();
   for (size_t k = 0; k < dear_.size(); ++k) {
     const bool is_above = dear_[k].cos2 < core_.thin.cos2;

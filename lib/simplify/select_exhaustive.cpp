@@ -117,7 +117,7 @@ bool ExhaustiveSelector<Mesh>::tryEdge(uint32_t u, uint32_t v, const Goal& goal)
   for (size_t i : order) {
     const Outcome outcome = collapser_.collapse(u, v, z_[i].data(), error[i], goal.least_cells);
     if (outcome == Outcome::kDone) return true;
-    if (outcome != Outcome::kOrientation && outcome != Outcome::kNotFinite) return false;
+    if (!mayFitElsewhere(outcome)) return false;
   }
   return false;
 }

@@ -23,10 +23,11 @@ constexpr size_t kTilesTogether = 64;  // then what they did is added, for progr
 // A pass takes half of the cells, or less; less to take is shared by fewer tiles, and in the end is
 // taken by one after the other.
 constexpr double kLeastShare = 0.6, kLeastShareOfSlices = 0.5;
-// A pass that missed its goal with this many edges refused for thin cells to one that is collapsed
-// needs another floor, not a higher bound: of stretched meshes whose cells all lie just above the
-// floor what was left at last was collapsed at any error. Elsewhere it is 7 at most.
-constexpr int64_t kThinToDone = 10;
+// A pass that missed its goal with this many edges refused for thin cells to one that is collapsed,
+// and with one to so many cells of the window, needs another floor, not a higher bound: of
+// stretched meshes whose cells all lie just above the floor what was left at last was collapsed at
+// any error.
+constexpr int64_t kThinToDone = 10, kCellsToThin = 4;
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
@@ -88,7 +89,7 @@ class SweepSelector final : public Selector {
   void begin(Lane& lane);
   Lane& lane() { return *lanes_[0]; }
   void sweep(const std::function<void()>& tick);
-  bool isStoppedByFloor(const Tally& before) const;
+  bool isStoppedByFloor(const Tally& before, int64_t cells_before) const;
   void lowerFloor();
   void sweepOut(const std::function<void()>& tick);
   double firstBound();
@@ -161,7 +162,7 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
     more |= tiling_.leavesOut() && core_.window.liveCells() < before;
     // A pass that the limit on the error ended was left half done: the one before tells the bound.
     if (!core_.tally.error_reached || first) bound_ = bound;
-    const bool by_floor = isStoppedByFloor(so_far);
+    const bool by_floor = isStoppedByFloor(so_far, before);
     if (!more && (mustStop() || !by_floor)) return;
     const bool on_the_way = approaches-- > 0 && core_.window.liveCells() > goal_.enough_cells;
     if (!on_the_way && (reached() || core_.tally.error >= goal_.most_error)) return;
@@ -177,18 +178,19 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
 
 // A limit on the error is reached by the bound alone.
 template <class S>
-bool SweepSelector<S>::isStoppedByFloor(const Tally& before) const {
-  return !core_.shapesFirst() && core_.thin.degrees > kLeastFloor &&
-         !std::isfinite(core_.error_limit) &&
-         core_.tally.rejected_thin - before.rejected_thin >
-             kThinToDone * (core_.tally.collapses - before.collapses);
+bool SweepSelector<S>::isStoppedByFloor(const Tally& before, int64_t cells_before) const {
+  if (core_.options.shape == Shape::kSolver || core_.thin.degrees <= kLeastFloor ||
+      std::isfinite(core_.error_limit) || core_.window.liveCells() <= goal_.cells)
+    return false;
+  const int64_t thin = core_.tally.rejected_thin - before.rejected_thin;
+  return thin > kThinToDone * (core_.tally.collapses - before.collapses) &&
+         kCellsToThin * thin > cells_before;
 }
 
-// From now on; what was refused is tried again.
+// For the rest of this window; what was refused is tried again.
 template <class S>
 void SweepSelector<S>::lowerFloor() {
-  core_.largest_floor = std::max(core_.thin.degrees / 2, kLeastFloor);
-  core_.thin = ThinAngle(core_.largest_floor);
+  core_.thin = ThinAngle(std::max(core_.thin.degrees / 2, kLeastFloor));
   for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v)
     if (core_.window.isFree(v) && settledOf(core_.window, v).refused) unsettle(core_.window, v);
 }

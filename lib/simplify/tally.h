@@ -19,6 +19,12 @@ enum class Outcome {
   kNotFinite
 };
 
+// Whether an edge that was refused at one place may be legal at another.
+inline bool mayFitElsewhere(Outcome outcome) {
+  return outcome == Outcome::kOrientation || outcome == Outcome::kThin ||
+         outcome == Outcome::kNotFinite;
+}
+
 // What collapses did: to the whole mesh, or to a part of the window that is worked on beside others
 // and is added when its turn comes. Sums of errors are added part by part, whoever worked on them.
 struct Tally {

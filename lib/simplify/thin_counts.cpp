@@ -8,10 +8,11 @@ namespace tetstream {
 
 template <class Mesh>
 void ThinCounts<Mesh>::start() {
-  size_ = mesh_.cellEnd();
-  if (known_.size() < size_) known_.resize(size_ + size_ / 4);
-  std::fill_n(known_.data(), size_, uint8_t{0});
+  const size_t cells = mesh_.cellEnd();
+  if (known_.size() < cells) known_.resize(cells + cells / 4);
+  std::fill_n(known_.data(), cells, uint8_t{0});
   for (const Angle angle : {kFloor, kFirstDear, kLastDear}) cos2_[angle] = angleOf(angle).cos2;
+  size_ = cells;
 }
 
 // Up to kThinLanes cells; returns how many are below the angle.

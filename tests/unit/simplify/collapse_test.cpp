@@ -132,6 +132,17 @@ TYPED_TEST(Collapsers, RefuseToTurnACellOver) {
   EXPECT_EQ(facts.negative, 0);
 }
 
+// What turns a cell over, or makes it thin, at the best place may be legal at an end: all are
+// tried.
+TEST(Exhaustive, TriesOtherPlacesWhereTheBestMakesCellsThin) {
+  EXPECT_TRUE(mayFitElsewhere(Outcome::kOrientation));
+  EXPECT_TRUE(mayFitElsewhere(Outcome::kThin));
+  EXPECT_TRUE(mayFitElsewhere(Outcome::kNotFinite));
+  for (Outcome outcome : {Outcome::kDone, Outcome::kLocked, Outcome::kTooMany, Outcome::kTooFar,
+                          Outcome::kTopology, Outcome::kDear})
+    EXPECT_FALSE(mayFitElsewhere(outcome));
+}
+
 // Angles between the floor and a dear one are spared, and taken where nobody asks for that; below
 // the floor it makes no difference.
 TYPED_TEST(Collapsers, SpareCellsOfDearAngles) {
