@@ -19,7 +19,7 @@ constexpr double kShareBelow = 0.01;
 // Cells just above a floor can hardly become others: of stretched meshes, all of whose cells are
 // alike, nearly every edge would be refused for it. No more than this share may be below so many
 // floors; where shapes come first the floor is what was asked for.
-constexpr double kShareNear = 0.25, kNearFloor = 3;
+constexpr double kShareNear = 0.05, kNearFloor = 3;
 // Where shapes come first, cells are flipped whose smallest angle is below this many floors. At 2
 // it takes twice the time.
 constexpr double kPoor = 1.5;

@@ -27,7 +27,7 @@ constexpr double kLeastShare = 0.6, kLeastShareOfSlices = 0.5;
 // and with one to so many cells of the window, needs another floor, not a higher bound: of
 // stretched meshes whose cells all lie just above the floor what was left at last was collapsed at
 // any error.
-constexpr int64_t kThinToDone = 10, kCellsToThin = 4;
+constexpr int64_t kThinToDone = 10, kCellsToThin = 16;
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
