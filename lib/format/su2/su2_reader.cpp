@@ -1,6 +1,7 @@
 // Reads SU2's meshes: text of NAME= sections. Points are numbered from 0 in their order; markers
 // label faces, zones label cells.
 #include <algorithm>
+#include <cstring>
 #include <map>
 
 #include "file_scan.h"
@@ -90,7 +91,23 @@ class Su2Reader {
     } else if (name == "MARKER_TAG") {
       readMarker();
     } else {
-      intake_.note("what " + name + "= says is left out");
+      const bool is_box = name.rfind("FFD_", 0) == 0;
+      if (is_box)
+        intake_.leaveOut("sections of boxes for shape optimisation (FFD_)");
+      else
+        intake_.note("what " + name + "= says is left out");
+      file_.line();
+      skipRows(is_box);
+    }
+  }
+
+  // Of a section that is left out: numbers, or up to the next NAME=, as those of boxes for shape
+  // optimisation (FFD_SURFACE_POINTS=) begin with the names of markers.
+  void skipRows(bool any) {
+    for (;;) {
+      const std::string_view word = file_.peekWord();
+      const bool is_number = !word.empty() && std::strchr("+-.0123456789", word[0]);
+      if (word.empty() || word.find('=') != word.npos || !(any || is_number)) return;
       file_.line();
     }
   }
@@ -189,8 +206,7 @@ class Su2Reader {
   void skipSendReceive() {
     file_.line();
     intake_.leaveOut("markers between parts");
-    while (!file_.peekWord().empty() && file_.peekWord().find('=') == std::string_view::npos)
-      file_.line();
+    skipRows(true);
   }
 
   void noteMarkers() {
