@@ -30,6 +30,7 @@ class MeditReader {
 
   std::unique_ptr<IndexedSource> read() {
     for (MeditSection section; scan_.next(&section);) readSection(section);
+    if (!scan_.saysEnd()) intake_.note(std::string("it ") + kNoEnd);
     if (!any_vertices_) scan_.file().failBad("there are no Vertices");
     rows_.points = intake_.mesh().pointCount();
     readSolutions();

@@ -51,9 +51,20 @@ bool MeditScan::nextBinary(MeditSection* section) {
   return true;
 }
 
+// A file that was cut in a number would be read with another one.
+static bool endsWithLine(ByteSource* file) {
+  char last = 0;
+  return file && file->size() > 0 && file->readAt(file->size() - 1, &last, 1) == 1 && last == '\n';
+}
+
 bool MeditScan::nextText(MeditSection* section) {
   const std::string_view word = file_.word();
-  if (word.empty()) file_.failBad("the file ends without the word End: is all of it here?");
+  if (word.empty()) {
+    if (!endsWithLine(file_.source().get()))
+      file_.failBad("the file ends without the word End: is all of it here?");
+    says_end_ = false;
+    return false;
+  }
   const MeditKeyword* keyword = meditKeyword(word);
   if (keyword && keyword->number == kMeditEnd) return false;
   if (!std::isalpha(static_cast<unsigned char>(word[0])))

@@ -17,6 +17,9 @@ struct MeditSection {
   std::string name;  // "keyword 99" where that is all there is
 };
 
+// What is noted of a file that several programs write so, and others after a cut.
+constexpr char kNoEnd[] = "ends after a whole line, without the word End: is all of it here?";
+
 class MeditScan {
  public:
   // Reads the version and the byte order.
@@ -24,7 +27,8 @@ class MeditScan {
 
   // The next section, whose contents come next; false at the end.
   bool next(MeditSection* section);
-  void skip();  // the contents, or what is left of them
+  bool saysEnd() const { return says_end_; }  // then
+  void skip();                                // the contents, or what is left of them
   // The number of rows, each of so many integers and reals.
   uint64_t rows(size_t integers, size_t reals, const char* what);
   // Before they are read.
@@ -63,6 +67,7 @@ class MeditScan {
   FileScan file_;
   NumberScan numbers_;
   int version_ = 0;
+  bool says_end_ = true;
   size_t integer_bytes_ = 4, real_bytes_ = 8, place_bytes_ = 4;
   uint64_t next_ = 0;  // binary: where the next section begins; 0: the end
 };

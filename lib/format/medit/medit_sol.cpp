@@ -94,6 +94,7 @@ void MeditSolutions::readFile(MeditScan& scan, MeshIntake& intake, const MeditRo
       scan.skip();
     }
   }
+  if (!scan.saysEnd()) intake.note(scan.file().name() + " " + kNoEnd);
 }
 
 bool exists(const std::string& path) {

@@ -146,6 +146,18 @@ TEST(Medit, ReadsTextBehindAByteOrderMark) {
   }
 }
 
+// As sfepy's meshes do; not where the last number may have been cut.
+TEST(Medit, ReadsAWholeLastLineWithoutEndWithANote) {
+  std::string text(kMeditText);
+  text.resize(text.rfind("End"));
+  std::vector<std::string> notes;
+  Input input = openText(openMedit, text, {}, &notes);
+  EXPECT_EQ(readAll(input).cells.size(), 2u);
+  EXPECT_TRUE(anyNote(notes, "without the word End"));
+  text.pop_back();
+  EXPECT_NE(problemOf(openMedit, text).find("without the word End"), std::string::npos);
+}
+
 TEST(Medit, SaysWhatIsWrongAndWhere) {
   const std::string head = "MeshVersionFormatted 2\nDimension 3\n";
   const std::string vertices = head + "Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";
@@ -161,7 +173,7 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
       {vertices + "Triangles 1\n1 2 -9223372036854775808 0\nEnd\n",
        "line 9: vertex -9223372036854775808, where there are 1 to 4"},
       {vertices + "Tetrahedra 1\n1 2 3 0 0\nEnd\n", "vertex 0"},
-      {vertices + "Tetrahedra 1\n1 2 3 4 0\n", "without the word End"},
+      {vertices + "Tetrahedra 1\n1 2 3 4 0", "without the word End"},
       {vertices + "Prisms 1\n1 2 3 4 1 2 0\nEnd\n", "cell 1 is a prism"},
       {vertices + "End\n", "no tetrahedron"},
       {head + "Tetrahedra 1\n1 2 3 9 0\nVertices 1\n0 0 0 0\nEnd\n",
