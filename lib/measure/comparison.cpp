@@ -77,7 +77,7 @@ void Comparison::matchRegions(const Schema& original, const Schema& simplified, 
     return isFloat(column.type) || column.components != 1 ? -1 : at;
   };
   for (const Column& column : original.cell_data) {
-    if (wish != "auto" && column.name != wish) continue;
+    if (wish == "auto" ? namesPartition(column.name) : column.name != wish) continue;
     const int ours = labels(original, column.name), theirs = labels(simplified, column.name);
     if (ours >= 0 && theirs < 0) region_words_ = "the simplified mesh has no " + column.name;
     if (ours < 0 || theirs < 0) continue;

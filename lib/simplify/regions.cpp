@@ -15,6 +15,10 @@ Regions<S>::Regions(Core<S>& core) : core_(core) {
     fail(Status::kBadArgument, "there is no cell array \"%s\" to take as regions", wish.c_str());
   for (size_t i = 0; i < columns.size(); ++i) {
     if (wish != "auto" && columns[i].name != wish) continue;
+    if (wish == "auto" && namesPartition(columns[i].name)) {
+      partitions_ += (partitions_.empty() ? "" : ", ") + columns[i].name;
+      continue;
+    }
     if (isFloat(columns[i].type)) {
       if (wish == "auto") continue;
       fail(Status::kBadArgument, "cell array \"%s\" holds no integers: it labels no regions",
@@ -56,6 +60,8 @@ void Regions<S>::decide() {
   }
   core_.report.regions = taken.empty() ? "none" : "by " + taken;
   if (!ids.empty()) core_.report.regions += " (" + ids + ": nearly all different, taken as ids)";
+  if (!partitions_.empty())
+    core_.report.regions += " (" + partitions_ + ": parts of a parallel run by name, not taken)";
 }
 
 template class Regions<float>;

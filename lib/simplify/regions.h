@@ -7,8 +7,8 @@ namespace tetstream {
 
 // Decides once, on the first window's cells, which picks of a cell are its labels: "none": none; a
 // name: that array; "auto": every integer array, but for those whose values are nearly all
-// different, which are ids. Says in the report what was taken. Throws kBadArgument for a name that
-// is no integer cell array.
+// different, which are ids, and those that tell by their names how a mesh was divided for a run.
+// Says in the report what was taken. Throws kBadArgument for a name that is no integer cell array.
 template <class S>
 class Regions {
  public:
@@ -20,6 +20,7 @@ class Regions {
   Core<S>& core_;
   bool decided_ = false;
   std::vector<int> columns_;  // candidates, by column
+  std::string partitions_;    // names of arrays that are none
 };
 
 }  // namespace tetstream

@@ -1,5 +1,9 @@
 #include "schema.h"
 
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+
 #include "status.h"
 
 namespace tetstream {
@@ -45,6 +49,20 @@ int findColumn(const std::vector<Column>& columns, const std::string& name) {
   for (size_t i = 0; i < columns.size(); ++i)
     if (columns[i].name == name) return static_cast<int>(i);
   return -1;
+}
+
+bool namesPartition(const std::string& name) {
+  static constexpr const char* kNames[] = {
+      "decomposition", "ghosttype",   "gmshpartition", "metispartition", "mpirank",
+      "ownerrank",     "partition",   "partitionid",   "proc",           "processid",
+      "processor",     "processorid", "procid",        "rank",           "vtkghostlevels",
+      "vtkghosttype",  "vtkprocessid"};
+  std::string plain;  // letters alone, in lower case
+  for (char c : name)
+    if (std::isalpha(static_cast<unsigned char>(c)))
+      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::any_of(std::begin(kNames), std::end(kNames),
+                     [&](const char* known) { return plain == known; });
 }
 
 }  // namespace tetstream

@@ -50,5 +50,8 @@ void checkSchema(const Schema& schema);
 
 // Index of the column of that name, or -1.
 int findColumn(const std::vector<Column>& columns, const std::string& name);
+// Whether a cell array of this name tells which process had a cell, or whose copy it is, as
+// parallel programs write it: where such parts meet is nothing of the domain's.
+bool namesPartition(const std::string& name);
 
 }  // namespace tetstream

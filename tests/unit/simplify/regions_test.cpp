@@ -99,6 +99,25 @@ TEST(SimplifierRegions, KeepTheirInterface) {
   for (Mode mode : kModes) expectInterfaceKept(mesh, n, mode);
 }
 
+// Which process had a cell is nothing of the domain's, unless it is asked for.
+TEST(SimplifierRegions, AreNotThePartsOfAParallelRun) {
+  TestMesh mesh = twoMaterials(4);
+  for (const char* name : {"Proc_ID", "vtkProcessId", "mpi rank", "PARTITION", "vtkGhostType"}) {
+    mesh.schema.cell_data[0].name = name;
+    const Result result = withRegions(mesh, "auto", 0);
+    EXPECT_EQ(result.report.regions.rfind("none (", 0), 0u);
+    EXPECT_NE(result.report.regions.find(std::string(" (") + name + ": parts"), std::string::npos);
+    EXPECT_LT(interfaceOf(result.out.mesh).size(), interfaceOf(mesh).size());
+  }
+  mesh.schema.cell_data[0].name = "Proc_ID";
+  EXPECT_EQ(withRegions(mesh, "Proc_ID", 0).report.regions.rfind("by Proc_ID", 0), 0u);
+  for (const char* name : {"material", "DOMAIN_ID", "block_id", "part", "process"}) {
+    mesh.schema.cell_data[0].name = name;
+    const std::string taken = withRegions(mesh, "auto", 0).report.regions;
+    EXPECT_EQ(taken.rfind(std::string("by ") + name, 0), 0u) << taken;
+  }
+}
+
 // A plane interface costs nothing: it becomes as coarse as the rest, and stays a plane.
 TEST(SimplifierRegions, LetAPlaneInterfaceBecomeCoarse) {
   const int n = 6;
