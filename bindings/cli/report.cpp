@@ -53,6 +53,7 @@ std::string reportText(const tetstream_report& r) {
       row("largest error", textOf("%.6g", r.largest_error)) +
       row("order", oneLine(r.order ? r.order : "")) +
       row("regions", oneLine(r.regions ? r.regions : ""));
+  if (r.balance && *r.balance) text += row("balance", r.balance);
   if (r.locked_cells > 0)
     text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
   if (r.unused_vertices > 0)
@@ -119,6 +120,7 @@ std::string reportJson(const tetstream_report& r, tetstream_status status) {
   add("peak_resident_bytes", r.peak_resident_bytes);
   add("order", words(r.order));
   add("regions", words(r.regions));
+  add("balance", words(r.balance));
   add("reached", words(r.reached));
   add("limited_by", words(r.limited_by));
   return json.close('}').take();

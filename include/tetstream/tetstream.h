@@ -108,6 +108,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_ERROR 102           /* double, RMS field error in percent of the range */
 #define TETSTREAM_OPTION_BOUNDARY_WEIGHT 110 /* double, dimensionless: boundary against field */
 #define TETSTREAM_OPTION_FIELD_RANGE 111     /* text: "free": values may leave their range; "keep" */
+#define TETSTREAM_OPTION_BALANCE 112         /* text: "auto": boundaries never starve fields; "none" */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
 #define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: none */
 #define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */
@@ -509,6 +510,8 @@ typedef struct tetstream_report {
                                    rule not less than the true one. Since 0.1 */
   const char *reached;          /* the target that ended the run: "ratio", "cells", "error", or "" */
   const char *order;            /* how the input was ordered, in words. Since 0.1 */
+  const char *balance;          /* what the boundary and interfaces count for less than asked, in
+                                   words, or "". Since 0.1 */
 } tetstream_report;
 
 typedef struct tetstream_simplifier tetstream_simplifier;

@@ -184,6 +184,7 @@ static tetstream_report publicReport(const Report& report) {
   out.estimated_error = report.estimated_error;
   out.reached = report.reached.c_str();
   out.order = report.order.c_str();
+  out.balance = report.balance.c_str();
   return out;
 }
 

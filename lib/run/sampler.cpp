@@ -256,7 +256,8 @@ Pilot Sampler::pilot(double ratio) const {
   std::vector<double> rates = ratesFrom(left, met, bricks);
   for (double& rate : rates) rate = std::max(rate, kLeastRate * survivors / free);
   const double scale = scaleFor(rates, ratio);
-  Pilot pilot{0, {0}};
+  Pilot pilot;
+  pilot.share = {0};
   for (double rate : rates) pilot.share.push_back(pilot.share.back() + std::min(scale * rate, 1.0));
   for (double& share : pilot.share) share /= pilot.share.back();
   return pilot;
@@ -288,13 +289,16 @@ Pilot Sampler::fly() {
   whole.window_cells = static_cast<int64_t>(all.cell_count);
   whole.cells = 0;
   whole.ratio = ratioFor(kLeft);
+  whole.balance_ratio = static_cast<double>(Simplifier::targetCells(schema_, options_)) /
+                        static_cast<double>(schema_.cell_count);
   Survivors survivors(*this);
   Simplifier simplifier(whole, survivors, nullptr);
   simplifier.begin(schema());
   simplifier.put(all);
   simplifier.finish();
-  const auto wanted = static_cast<double>(Simplifier::targetCells(schema_, options_));
-  return pilot(wanted / static_cast<double>(schema_.cell_count));
+  Pilot found = pilot(whole.balance_ratio);
+  found.balance = simplifier.pilot().balance;
+  return found;
 }
 
 }  // namespace tetstream

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "balance.h"
 #include "front.h"
 #include "kernels.h"
 #include "options.h"
@@ -220,10 +221,12 @@ struct Core {
   std::vector<S> least, most;           // per dimension: the values a merged vertex may have
   double error_unit = 1;                // times a quadric error: the report's unit
   double shape_weight;                  // of a cell's regulariser (kernels.h)
-  double face_weight = 0;               // of a face on the boundary
-  ThinAngle thin;                       // no more cells below than the input has
-  double poor = 1;                      // cells thinner than this are worth a flip (thinness.h)
-  std::vector<ThinAngle> dear;          // falling, above: more cells below have their price
+  double face_weight = 0;               // of a face on the boundary, before it is balanced
+  Balance balance;
+  double balance_ratio = 0;     // that it is chosen for; 0: it is not
+  ThinAngle thin;               // no more cells below than the input has
+  double poor = 1;              // cells thinner than this are worth a flip (thinness.h)
+  std::vector<ThinAngle> dear;  // falling, above: more cells below have their price
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();

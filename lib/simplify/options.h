@@ -21,6 +21,7 @@ constexpr bool followsPaper(Mode mode) {
 }
 enum class PilotUse { kAuto, kNever };
 enum class ReleaseOrder { kArrival, kError };
+enum class BalanceUse { kAuto, kNever };
 enum class FieldRange { kFree, kKeep };
 enum class Shape { kField, kSolver };
 enum class Effort { kNormal, kHigh };
@@ -33,6 +34,7 @@ struct SimplifyOptions {
   double error = 0;   // RMS error of the measured fields, percent of their range
   std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
   double boundary_weight = 10;
+  BalanceUse balance = BalanceUse::kAuto;  // of the boundary's weight and the fields
   FieldRange field_range = FieldRange::kFree;
   std::string regions = "auto";
   double feature_angle = 0;  // degrees by which a sheet bends at least to make a curve; 0: none
@@ -50,6 +52,7 @@ struct SimplifyOptions {
   const Tasks* tasks = nullptr;  // for a sweep; null: the caller's thread alone
   // For comparisons, beyond what users are offered.
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
+  double balance_ratio = 0;    // of the run that a sample is taken for; 0: this one's
   bool uniform_ratio = false;  // all along the stream, whatever the mode
   int64_t tile_vertices = 0;   // of a patch, at most; 0: what fits the cache and the memory budget
   bool renews = true;          // mode sweep: quadrics, from the cells that are there (renewal.h)
@@ -71,6 +74,7 @@ struct Report {
   uint64_t peak_window_bytes = 0;
   std::string order;       // how the input was ordered
   std::string regions;     // what was taken as region labels, a sentence
+  std::string balance;     // of sheets that count less than asked for, in words; or empty
   std::string reached;     // the target that ended the run: "ratio", "cells", "error"; or empty
   std::string limited_by;  // what stopped the run short of its target; empty: reached
 };

@@ -1,8 +1,10 @@
-// simplify: what is known of the whole stream before it is simplified. Depends on nothing.
+// simplify: what is known of the whole stream before it is simplified. Depends on balance.h.
 #pragma once
 
 #include <cstdint>
 #include <vector>
+
+#include "balance.h"
 
 namespace tetstream {
 
@@ -21,6 +23,7 @@ constexpr double kLeastFronts = 1.5;
 struct Pilot {
   double bound = 0;           // in the report's unit; 0: not known
   std::vector<double> share;  // share[k]: of all cells out, those of the first k / (size - 1) in
+  Balance balance = {};       // of what was looked at
 
   bool known() const { return !share.empty(); }
   // The share of the cells out that the first `part` (0 to 1) of the cells in leaves.

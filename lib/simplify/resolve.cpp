@@ -148,6 +148,8 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
     window.scratch()[vertices[i]] = kNone;
   }
   const int64_t front = takeNew(first_new);
+  const bool is_balanced = isBalanced();
+  if (!is_balanced) pickSamples(vertices, count);
   if (open_.size() < count) open_.resize(count);
   size_t open = 0;
   for (size_t i = 0; i < count; ++i) {
@@ -159,6 +161,7 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
     startUnsettled(window, v, window.scratch()[v] < first_new);
   }
   std::fill_n(window.scratch(), mesh.vertexEnd(), 0u);
+  if (!is_balanced) balance();
   for (size_t done = 0; done < open;) {
     for (size_t i = done; i < open; ++i)
       window.scratch()[open_[i]] = static_cast<uint32_t>(i - done + 1);
@@ -301,8 +304,11 @@ const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t other, uint32_t v, u
                                     cornerAcross(mesh, other, v, a, b), v, a, b);
 }
 
+// Of the star that was gathered: visit(a, b, first, count) for each edge of its link, with the
+// `count` cells that have it from `first` on.
 template <class S>
-void Resolver<S>::resolveFaces(uint32_t v) {
+template <class Visit>
+void Resolver<S>::forLinkEdges(Visit visit) {
   // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
   // 2^31. The lowest bit is the direction.
   if (edges_.size() < 3 * first_.star.size()) edges_.resize(6 * first_.star.size());
@@ -314,27 +320,108 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     }
   std::sort(edges_.data(), edges_.data() + count,
             [](const LinkEdge& a, const LinkEdge& b) { return a.key < b.key; });
-  const CellLabels labels = core_.cellLabels();
-  boundary_.clear();
-  sheets_.clear();
   for (size_t i = 0, j; i < count; i = j) {
     const uint64_t pair = edges_[i].key >> 1;
     for (j = i + 1; j < count && edges_[j].key >> 1 == pair;) ++j;
-    const uint32_t a = static_cast<uint32_t>(pair >> 32), b = static_cast<uint32_t>(pair);
-    if (j - i == 1) {
+    visit(static_cast<uint32_t>(pair >> 32), static_cast<uint32_t>(pair), &edges_[i], j - i);
+  }
+}
+
+template <class S>
+void Resolver<S>::resolveFaces(uint32_t v) {
+  const CellLabels labels = core_.cellLabels();
+  boundary_.clear();
+  sheets_.clear();
+  forLinkEdges([&](uint32_t a, uint32_t b, const LinkEdge* edge, size_t cells) {
+    if (cells == 1) {
       boundary_.push_back(uint64_t{a} << 32 | b);
-      addFace(v, a, b, SheetFace::kOuter, labelOf(edges_[i].cell, edges_[i].cell, v, a, b));
-    } else if (j - i == 2) {
-      if ((edges_[i].key & 1) == (edges_[i + 1].key & 1)) lockFold(a, b);
-      const int64_t* label = labelOf(edges_[i].cell, edges_[i + 1].cell, v, a, b);
-      if (labels.differ(edges_[i].cell, edges_[i + 1].cell))
+      addFace(v, a, b, SheetFace::kOuter, labelOf(edge[0].cell, edge[0].cell, v, a, b));
+    } else if (cells == 2) {
+      if ((edge[0].key & 1) == (edge[1].key & 1)) lockFold(a, b);
+      const int64_t* label = labelOf(edge[0].cell, edge[1].cell, v, a, b);
+      if (labels.differ(edge[0].cell, edge[1].cell))
         addFace(v, a, b, SheetFace::kInterface, label);
       else if (label)
         addFace(v, a, b, SheetFace::kInner, label);
     } else {
       lockNonManifold(v);  // a face of three cells or more
     }
+  });
+}
+
+// Interfaces may come later.
+template <class S>
+bool Resolver<S>::isBalanced() const {
+  const bool has_more = !core_.balance.knows_interfaces && !core_.region_picks.empty();
+  return !(core_.balance_ratio > 0) || (core_.balance.knows_outer && !has_more);
+}
+
+// Before the links' sums are written over: some of the vertices of each group, evenly spread.
+template <class S>
+void Resolver<S>::pickSamples(const uint32_t* vertices, size_t count) {
+  const Topology& mesh = core_.window.mesh;
+  const auto groupOf = [&](uint32_t v) -> Sampled& {
+    if (core_.window.outRank(v) != 0) return sampled_[0];
+    return sampled_[mesh.vertexFlags(v) & kInterface ? 1 : 2];
+  };
+  for (size_t i = 0; i < count; ++i)
+    if (!(mesh.vertexFlags(vertices[i]) & kLocked)) ++groupOf(vertices[i]).of;
+  size_t met[3] = {};
+  for (size_t i = 0; i < count; ++i) {
+    if (mesh.vertexFlags(vertices[i]) & kLocked) continue;
+    Sampled& group = groupOf(vertices[i]);
+    const size_t step = group.of / BalanceSample<S>::kSampled + 1;
+    if (met[&group - sampled_]++ % step == step / 2) group.vertices.push_back(vertices[i]);
   }
+}
+
+// From what was picked, before it has the quadrics of its sheets.
+template <class S>
+void Resolver<S>::balance() {
+  BalanceSample<S> sample(core_);
+  RemovalCosts& costs = sample.costs();
+  costs.outer.vertices = static_cast<double>(sampled_[0].of);
+  costs.interfaces.vertices = static_cast<double>(sampled_[1].of);
+  costs.inside.vertices = static_cast<double>(sampled_[2].of);
+  sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
+  sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
+  forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, first_.star); });
+  chooseBalance(costs, core_.balance_ratio, &core_.balance);
+  for (Sampled& group : sampled_) group = {};
+}
+
+// Each star is gathered first; of as many vertices as fit what lists them.
+template <class S>
+template <class Visit>
+void Resolver<S>::forStarsOf(const std::vector<uint32_t>& vertices, Visit visit) {
+  uint32_t* const place = core_.window.scratch();
+  for (size_t i = 0; i < vertices.size(); ++i) place[vertices[i]] = static_cast<uint32_t>(i + 1);
+  const size_t listed = listStars(vertices.size());
+  for (uint32_t v : vertices) place[v] = 0;
+  for (size_t i = 0; i < listed; ++i) {
+    gather(cornersOf(i), first_.star);
+    visit(vertices[i]);
+  }
+}
+
+template <class S>
+void Resolver<S>::sampleSheet(const std::vector<uint32_t>& vertices, SheetFace kind,
+                              BalanceSample<S>& sample) {
+  const CellLabels labels = core_.cellLabels();
+  const Topology& mesh = core_.window.mesh;
+  std::vector<typename BalanceSample<S>::Face> faces;
+  forStarsOf(vertices, [&](uint32_t v) {
+    faces.clear();
+    forLinkEdges([&](uint32_t a, uint32_t b, const LinkEdge* edge, size_t cells) {
+      const bool is_inner = cells == 2 && labels.differ(edge[0].cell, edge[1].cell);
+      if (kind == SheetFace::kOuter ? cells == 1 : is_inner) faces.push_back({a, b});
+    });
+    const auto is_told = [&](const auto& face) {
+      return (mesh.vertexFlags(face.a) | mesh.vertexFlags(face.b)) & kResolved;
+    };
+    if (!faces.empty() && std::none_of(faces.begin(), faces.end(), is_told))
+      sample.addOnSheet(v, faces, kind);
+  });
 }
 
 template <class S>

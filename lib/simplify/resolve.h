@@ -1,9 +1,10 @@
 // simplify: what becomes known when a vertex is final: boundary, folds, non-manifold places,
-// interfaces. Depends on link_border.h, metric.h, sheets.h.
+// interfaces. Depends on balance_sample.h, link_border.h, metric.h, sheets.h.
 #pragma once
 
 #include <optional>
 
+#include "balance_sample.h"
 #include "link_border.h"
 #include "metric.h"
 #include "sheets.h"
@@ -73,6 +74,14 @@ class Resolver {
   void resolveOpen(uint32_t v, Corners corners);
   void finishFaces(uint32_t v, bool is_disk);
   void resolveFaces(uint32_t v);
+  template <class Visit>
+  void forLinkEdges(Visit visit);
+  void pickSamples(const uint32_t* vertices, size_t count);
+  void balance();
+  bool isBalanced() const;
+  template <class Visit>
+  void forStarsOf(const std::vector<uint32_t>& vertices, Visit visit);
+  void sampleSheet(const std::vector<uint32_t>& vertices, SheetFace kind, BalanceSample<S>& sample);
   void addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind, const int64_t* label);
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
   void lockFold(uint32_t a, uint32_t b);
@@ -92,6 +101,11 @@ class Resolver {
   };
   Array<LinkEdge> edges_;
   std::vector<uint64_t> boundary_;
+  struct Sampled {
+    std::vector<uint32_t> vertices;
+    size_t of = 0;
+  };
+  Sampled sampled_[3];  // of the boundary, of interfaces, inside
 };
 
 }  // namespace tetstream

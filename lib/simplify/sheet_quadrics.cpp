@@ -16,7 +16,11 @@ template <class S>
 static double weightOf(const Core<S>& core, SheetFace kind) {
   const bool is_dear =
       kind == SheetFace::kInner || (kind == SheetFace::kInterface && core.plan.dimension > 3);
-  return (is_dear ? kInterfaceShare : 1) * core.face_weight;
+  const double balance = kind == SheetFace::kOuter ? core.balance.outer
+                         : kind == SheetFace::kInterface
+                             ? core.balance.outer * core.balance.interfaces
+                             : 1;
+  return (is_dear ? kInterfaceShare : 1) * balance * core.face_weight;
 }
 
 // Where the field is steep across the boundary, as in the layer at a heated wall, what comes to lie
@@ -29,6 +33,11 @@ void addFaceQuadric(const Core<S>& core, const S* const x[3], SheetFace kind, S*
   const bool has_beyond = kind == SheetFace::kOuter && !followsPaper(core.options.mode);
   core.kernels.addFace(x, core.scale.data(), core.plan.dimension, weightOf(core, kind),
                        has_beyond ? kSlopeBeyond : 0, q);
+}
+
+template <class S>
+void addFaceShape(const Core<S>& core, const S* const x[3], SheetFace kind, S* const q[3]) {
+  core.kernels.addFace(x, core.scale.data(), core.plan.dimension, weightOf(core, kind), 0, q);
 }
 
 // The squared distance to the line of the edge, with the weight of two faces that are squares on
@@ -72,6 +81,9 @@ void addCurveQuadric(const Core<S>& core, const S* const x[2], bool inner, S* co
 template void addFaceQuadric(const Core<float>&, const float* const[3], SheetFace, float* const[3]);
 template void addFaceQuadric(const Core<double>&, const double* const[3], SheetFace,
                              double* const[3]);
+template void addFaceShape(const Core<float>&, const float* const[3], SheetFace, float* const[3]);
+template void addFaceShape(const Core<double>&, const double* const[3], SheetFace,
+                           double* const[3]);
 template void addCurveQuadric(const Core<float>&, const float* const[2], bool, float* const[2]);
 template void addCurveQuadric(const Core<double>&, const double* const[2], bool, double* const[2]);
 

@@ -19,9 +19,11 @@ namespace {
 constexpr int64_t kTurnsPerWindow = 8;                        // at most, where its vertices are few
 constexpr int64_t kLongStream = 10;                           // windows
 constexpr int64_t kMildReduction = 12, kStrongReduction = 4;  // cells in over cells out
+constexpr double kUsualRatio = 0.1;
+
 Target targetOf(const Schema& schema, const SimplifyOptions& options) {
   Target target{options.ratio, options.error, options.cells};
-  if (!(target.ratio > 0 || target.error > 0 || target.cells > 0)) target.ratio = 0.1;
+  if (!(target.ratio > 0 || target.error > 0 || target.cells > 0)) target.ratio = kUsualRatio;
   if (target.cells > 0 && schema.cell_count < 0)
     fail(Status::kUnsupported,
          "a number of cells was asked for, but the stream does not say how many it has: give a "
@@ -77,6 +79,7 @@ class WindowedEngine final : public Simplifier::Engine {
         release_(core_, out, account_) {
     if (sinks.any()) core_.tracer = &tracer_.emplace(core_.window, plan_, sinks, account_);
     core_.report.window_cells = capacity_;
+    prepareBalance(pilot);
     turn_at_ = firstTurn();
   }
 
@@ -88,10 +91,32 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   const Report& report() const override { return core_.report; }
-  Pilot pilot() const override { return pilot_; }
+  Pilot pilot() const override {
+    Pilot pilot = pilot_;
+    pilot.balance = core_.balance;
+    return pilot;
+  }
 
  private:
   Topology& mesh() { return core_.window.mesh; }
+
+  // What a pilot found stands for the whole stream; without one the first window does.
+  void prepareBalance(const Pilot& pilot) {
+    const bool has_fields = plan_.dimension > 3 && plan_.layout == QuadricLayout::kFields;
+    const bool is_asked_for = options_.boundary_weight != SimplifyOptions{}.boundary_weight;
+    if (options_.balance == BalanceUse::kNever || is_asked_for || followsPaper(options_.mode) ||
+        !has_fields)
+      return;
+    core_.balance = pilot.balance;
+    core_.balance_ratio = options_.balance_ratio;
+    if (options_.balance_ratio > 0) return;
+    const Target target = targetOf(plan_.schema, options_);
+    core_.balance_ratio = kUsualRatio;
+    if (target.ratio > 0) core_.balance_ratio = target.ratio;
+    if (target.cells > 0)
+      core_.balance_ratio = static_cast<double>(target.cellsOf(plan_.schema.cell_count)) /
+                            static_cast<double>(plan_.schema.cell_count);
+  }
 
   void take(const BatchView& batch) {
     intake_.startBatch(batch);
@@ -288,7 +313,8 @@ class WindowedEngine final : public Simplifier::Engine {
       if (mesh().isLive(c)) ++left[size_t{c} * kParts / static_cast<size_t>(read) + 1];
     for (size_t k = 1; k <= kParts; ++k) left[k] += left[k - 1];
     for (double& share : left) share /= std::max(left[kParts], 1.0);
-    pilot_ = {selector_->bound() * core_.error_unit, left};
+    pilot_.bound = selector_->bound() * core_.error_unit;
+    pilot_.share = left;
   }
 
   // The window's cells beyond its goal are what is left to do of what was read.
@@ -331,6 +357,7 @@ class WindowedEngine final : public Simplifier::Engine {
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
     r.peak_window_bytes = account_.peak();
     r.estimated_error = percentOf(core_, core_.tally.error);
+    r.balance = balanceText();
     tell(0);
     const Target target = targetOf(plan_.schema, options_);
     const bool by_count = target.ratio > 0 || target.cells > 0;
@@ -341,6 +368,18 @@ class WindowedEngine final : public Simplifier::Engine {
       r.reached = std::min(target.cells, r.cells_in) == r.target_cells ? "cells" : "ratio";
     else if (by_count)
       explainMiss();
+  }
+
+  std::string balanceText() const {
+    const Balance& b = core_.balance;
+    const double interfaces = core_.interfaces ? b.outer * b.interfaces : 1;
+    std::string text;
+    if (b.outer < 1) text = textOf("the boundary counts 1/%.0f of its weight", 1 / b.outer);
+    if (interfaces < 1)
+      text +=
+          textOf(b.outer < 1 ? ", interfaces 1/%.0f" : "interfaces count 1/%.0f of their weight",
+                 1 / interfaces);
+    return text.empty() ? text : text + ": more would leave the fields too little";
   }
 
   void explainMiss() {

@@ -110,7 +110,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_progress, fraction, 32);
   MEMBER(tetstream_progress, phase, 40);
   MEMBER(tetstream_progress, temporary_bytes, 48);
-  CHECK_EQUAL(sizeof(tetstream_report), 208);
+  CHECK_EQUAL(sizeof(tetstream_report), 216);
   MEMBER(tetstream_report, struct_size, 0);
   MEMBER(tetstream_report, cells_in, 8);
   MEMBER(tetstream_report, vertices_in, 16);
@@ -137,6 +137,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_report, estimated_error, 184);
   MEMBER(tetstream_report, reached, 192);
   MEMBER(tetstream_report, order, 200);
+  MEMBER(tetstream_report, balance, 208);
   CHECK_EQUAL(sizeof(tetstream_front_info), 72);
   MEMBER(tetstream_front_info, struct_size, 0);
   MEMBER(tetstream_front_info, width, 8);
@@ -211,6 +212,7 @@ static void numbers_keep_their_values(void) {
   CHECK_EQUAL(TETSTREAM_OPTION_ERROR, 102);
   CHECK_EQUAL(TETSTREAM_OPTION_BOUNDARY_WEIGHT, 110);
   CHECK_EQUAL(TETSTREAM_OPTION_FIELD_RANGE, 111);
+  CHECK_EQUAL(TETSTREAM_OPTION_BALANCE, 112);
   CHECK_EQUAL(TETSTREAM_OPTION_FEATURE_ANGLE, 121);
   CHECK_EQUAL(TETSTREAM_OPTION_REGIONS, 120);
   CHECK_EQUAL(TETSTREAM_OPTION_MODE, 130);

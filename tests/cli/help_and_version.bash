@@ -24,7 +24,7 @@ done
 
 # The flags come from the library's table.
 expect 0 simplify --help
-for flag in ratio cells boundary-weight field-range regions feature-angle mode seed quadric candidates effort shape window memory tmpdir \
+for flag in ratio cells boundary-weight balance field-range regions feature-angle mode seed quadric candidates effort shape window memory tmpdir \
   axis field format-in format report quiet progress; do
   contains "$out" "  --$flag"
 done

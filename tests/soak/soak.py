@@ -87,6 +87,7 @@ class Case:
         perhaps(0.2, ["--quadric", "garland-zhou"])
         if "--mode" not in words:
             perhaps(0.2, ["--shape", "solver"])
+            perhaps(0.2, ["--balance", "none"])
             perhaps(0.2, ["--effort", "high"])
         perhaps(0.2, ["--release", "error"])
         perhaps(0.2, ["--field-range", "keep"])

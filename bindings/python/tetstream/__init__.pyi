@@ -31,6 +31,7 @@ class _Options(TypedDict, total=False):
     candidates: int | str
     pilot: Literal["auto", "none"]
     release: Literal["order", "error"]
+    balance: Literal["auto", "none"]
     effort: Literal["normal", "high"]
     shape: Literal["field", "solver"]
     samples: int | str
@@ -93,6 +94,7 @@ class Report(Record):
     limited_by: str
     reached: str
     order: str
+    balance: str
     notes: list[str]
 
 class LayoutReport(Record):
@@ -152,6 +154,7 @@ class Options:
     candidates: int | str
     pilot: str
     release: str
+    balance: str
     effort: str
     shape: str
     samples: int | str

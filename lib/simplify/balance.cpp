@@ -1,0 +1,147 @@
+#include "balance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetstream {
+namespace {
+
+constexpr double kLeastBalance = 1.0 / 128;
+// A step halves a weight. The logarithm of the product of both squared errors has to fall by so
+// much for it, or noise would take it.
+constexpr double kWorth = 0.1;
+// A sheet that adds less than this share of the fields' error, as a plane one does, starves none.
+constexpr double kNegligible = 1e-3;
+// Edges do not become longer than so many times their length, nor what costs nothing free: of the
+// mean cost.
+constexpr double kLongest = 12, kLeastCost = 1e-6;
+constexpr int kSteps = 16;  // of the search for t
+
+struct Kind {
+  double cost_power, density_power;
+};
+constexpr Kind kInside = {7, 3}, kOnSheet = {6, 2};
+
+struct Item {
+  double log_cost, field, sheet, count;
+};
+
+class Model {
+ public:
+  explicit Model(const RemovalCosts& costs) : costs_(costs) {}
+
+  struct Logs {
+    double field, sheet;  // of squared errors
+    double product() const { return field + sheet; }
+  };
+
+  // Of the sheet `of`, which is one of the groups.
+  Logs foretell(const Balance& balance, double ratio, const RemovalCosts::Group& of) {
+    inside_ = items(costs_.inside, 0);
+    outer_ = items(costs_.outer, balance.outer);
+    interfaces_ = items(costs_.interfaces, balance.outer * balance.interfaces);
+    const double log_cost = commonCost(ratio);
+    const double field = errorOf(inside_, kInside, log_cost, &Item::field) +
+                         errorOf(outer_, kOnSheet, log_cost, &Item::field) +
+                         errorOf(interfaces_, kOnSheet, log_cost, &Item::field);
+    const std::vector<Item>& sheet = &of == &costs_.outer ? outer_ : interfaces_;
+    return {std::log(field), std::log(errorOf(sheet, kOnSheet, log_cost, &Item::sheet))};
+  }
+
+ private:
+  static std::vector<Item> items(const RemovalCosts::Group& group, double weight) {
+    std::vector<Item> all;
+    double sum = 0;
+    for (const Removal& r : group.sample) sum += r.field + weight * r.sheet;
+    const auto size = static_cast<double>(group.sample.size());
+    const double least = kLeastCost * sum / size;
+    for (const Removal& r : group.sample) {
+      const double cost = std::max(r.field + weight * r.sheet, least);
+      if (cost > 0) all.push_back({std::log(cost), r.field, r.sheet, group.vertices / size});
+    }
+    return all;
+  }
+
+  static double logLength(const Item& item, const Kind& kind, double log_cost) {
+    static const double longest = std::log(kLongest);
+    return std::clamp((log_cost - item.log_cost) / kind.cost_power, 0.0, longest);
+  }
+
+  static double left(const std::vector<Item>& items, const Kind& kind, double log_cost) {
+    double sum = 0;
+    for (const Item& item : items)
+      sum += item.count * std::exp(-kind.density_power * logLength(item, kind, log_cost));
+    return sum;
+  }
+  double left(double log_cost) const {
+    return left(inside_, kInside, log_cost) + left(outer_, kOnSheet, log_cost) +
+           left(interfaces_, kOnSheet, log_cost);
+  }
+
+  double commonCost(double ratio) const {
+    double low = 1e300, high = -1e300, all = 0;
+    for (const auto* group : {&inside_, &outer_, &interfaces_})
+      for (const Item& item : *group) {
+        low = std::min(low, item.log_cost);
+        high = std::max(high, item.log_cost);
+        all += item.count;
+      }
+    high += kInside.cost_power * std::log(kLongest);
+    for (int k = 0; k < kSteps; ++k) {
+      const double middle = (low + high) / 2;
+      (left(middle) > ratio * all ? low : high) = middle;
+    }
+    return high;
+  }
+
+  static double errorOf(const std::vector<Item>& items, const Kind& kind, double log_cost,
+                        double Item::*part) {
+    double sum = 0;
+    for (const Item& item : items) {
+      const double length = logLength(item, kind, log_cost);
+      const double power = (part == &Item::field ? kInside : kOnSheet).cost_power;
+      sum += item.count * item.*part * std::exp((power - kind.density_power) * length);
+    }
+    return sum;
+  }
+
+  const RemovalCosts& costs_;
+  std::vector<Item> inside_, outer_, interfaces_;
+};
+
+}  // namespace
+
+// Halves the weight as often as is worth it most. All are tried: of what is far too heavy nothing
+// moves at first.
+static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
+                  double Balance::*weight, Balance* balance) {
+  const Model::Logs now = model.foretell(*balance, ratio, sheet);
+  if (sheet.sample.empty() || !std::isfinite(now.product()) ||
+      now.sheet < now.field + std::log(kNegligible))
+    return;
+  double least = now.product(), asked = 0;
+  Balance next = *balance;
+  while (next.*weight > kLeastBalance) {
+    next.*weight /= 2;
+    asked += kWorth;
+    const double product = model.foretell(next, ratio, sheet).product() + asked;
+    if (!(product < least)) continue;
+    least = product;
+    balance->*weight = next.*weight;
+  }
+}
+
+void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
+  if (costs.inside.vertices < kLeastVertices) return;
+  Model model(costs);
+  if (!balance->knows_outer && costs.outer.vertices >= kLeastVertices) {
+    lower(model, ratio, costs.outer, &Balance::outer, balance);
+    balance->knows_outer = true;
+  }
+  if (!balance->knows_interfaces && costs.interfaces.vertices >= kLeastVertices) {
+    lower(model, ratio, costs.interfaces, &Balance::interfaces, balance);
+    balance->knows_interfaces = true;
+  }
+}
+
+}  // namespace tetstream

@@ -1,0 +1,45 @@
+// simplify: how much the shapes of sheets should count beside the fields. Depends on nothing.
+//
+// One weight of the boundary does not suit all: where it bends more than the fields do, nearly all
+// vertices that are left lie on it, and few more inside would halve the fields' error. The weight
+// with the least product of the RMS errors of the fields and of the sheet is looked for, downwards
+// from the one that was asked for, with errors foretold from a sample of the mesh as it comes:
+//   What is added by taking a vertex out, c, grows with the length of edges, s times that of the
+//   input: inside as s^7 (a squared error, s^4, times a volume), on a sheet as s^6 (s^4 times an
+//   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that
+//   s = (t / c)^(1/7) or (t / c)^(1/6), where that is more than 1; t is what leaves the ratio of
+//   vertices that is asked for. Errors are the sums of what was added for those that are left.
+#pragma once
+
+#include <vector>
+
+namespace tetstream {
+
+// Times the weight of all sheets, and that of interfaces besides; 1 where it is not known.
+struct Balance {
+  double outer = 1, interfaces = 1;
+  bool knows_outer = false, knows_interfaces = false;
+};
+
+// What taking a vertex out adds to the error of the fields and, with its weight, to that of the
+// sheet that it lies on.
+struct Removal {
+  double field, sheet;
+};
+
+// Of vertices inside regions, on the boundary, and on interfaces.
+struct RemovalCosts {
+  struct Group {
+    std::vector<Removal> sample;
+    double vertices = 0;  // that it stands for
+  };
+  Group inside, outer, interfaces;
+};
+
+// Chooses what is not known of sheets, where they and the inside have enough vertices, for a mesh
+// that is to keep this part of its vertices: 1 where less would gain nothing. Of few vertices too
+// many are edges and corners, and where none is inside nothing starves.
+constexpr double kLeastVertices = 256;
+void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);
+
+}  // namespace tetstream

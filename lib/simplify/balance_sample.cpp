@@ -1,0 +1,74 @@
+#include "balance_sample.h"
+
+#include <algorithm>
+
+namespace tetstream {
+
+template <class S>
+BalanceSample<S>::BalanceSample(Core<S>& core)
+    : core_(core),
+      sheet_(static_cast<size_t>(quadricSize(core.plan.layout, core.plan.dimension))),
+      nowhere_(sheet_.size()),
+      difference_(static_cast<size_t>(core.plan.dimension)),
+      nothing_(sheet_.size()) {}
+
+// Its own minimum is at v, where it is 0.
+template <class S>
+double BalanceSample<S>::errorTowards(const S* quadric, uint32_t v, uint32_t other) {
+  const S *x = core_.window.values(v), *y = core_.window.values(other);
+  for (size_t i = 0; i < difference_.size(); ++i) difference_[i] = core_.scale[i] * (y[i] - x[i]);
+  return static_cast<double>(core_.kernels.errorAt(quadric, x, nothing_.data(), x,
+                                                   core_.scale.data(), core_.plan.dimension,
+                                                   difference_.data()));
+}
+
+template <class S>
+double BalanceSample<S>::third(std::vector<double>& costs) {
+  const auto place = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 3);
+  std::nth_element(costs.begin(), place, costs.end());
+  return std::max(*place, 0.0);
+}
+
+template <class S>
+void BalanceSample<S>::keepUnique() {
+  std::sort(others_.begin(), others_.end());
+  others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
+}
+
+template <class S>
+void BalanceSample<S>::addInside(uint32_t v, const Star& star) {
+  others_.clear();
+  for (const StarCell& cell : star) others_.insert(others_.end(), cell.t, cell.t + 3);
+  keepUnique();
+  field_costs_.clear();
+  for (uint32_t other : others_)
+    field_costs_.push_back(errorTowards(core_.window.quadric(v), v, other));
+  costs_.inside.sample.push_back({third(field_costs_), 0});
+}
+
+template <class S>
+void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind) {
+  others_.clear();
+  std::fill(sheet_.begin(), sheet_.end(), S(0));
+  for (const Face& face : faces) {
+    others_.insert(others_.end(), {face.a, face.b});
+    const S* x[3] = {core_.window.values(v), core_.window.values(face.a),
+                     core_.window.values(face.b)};
+    S* q[3] = {sheet_.data(), nowhere_.data(), nowhere_.data()};
+    addFaceShape(core_, x, kind, q);
+  }
+  keepUnique();
+  field_costs_.clear();
+  sheet_costs_.clear();
+  for (uint32_t other : others_) {
+    field_costs_.push_back(errorTowards(core_.window.quadric(v), v, other));
+    sheet_costs_.push_back(errorTowards(sheet_.data(), v, other));
+  }
+  RemovalCosts::Group& group = kind == SheetFace::kOuter ? costs_.outer : costs_.interfaces;
+  group.sample.push_back({third(field_costs_), third(sheet_costs_)});
+}
+
+template class BalanceSample<float>;
+template class BalanceSample<double>;
+
+}  // namespace tetstream

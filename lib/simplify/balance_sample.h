@@ -1,0 +1,42 @@
+// simplify: what taking vertices out of the mesh as it comes would cost, from their stars. Depends
+// on balance.h, sheet_quadrics.h.
+#pragma once
+
+#include "balance.h"
+#include "sheet_quadrics.h"
+
+namespace tetstream {
+
+// Used while the quadrics have what they have from cells alone, nothing of sheets.
+template <class S>
+class BalanceSample {
+ public:
+  explicit BalanceSample(Core<S>& core);
+
+  static constexpr size_t kSampled = 128;  // vertices of each group
+  // A face of the sheet at a vertex, by its other two.
+  struct Face {
+    uint32_t a, b;
+  };
+  // A vertex goes to one of its neighbours, on a sheet along that; a third of them cost less.
+  // The cheapest would be too cheap: along a cylinder half of all vertices go for nothing, then
+  // none.
+  void addInside(uint32_t v, const Star& star);
+  void addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind);
+
+  RemovalCosts& costs() { return costs_; }
+
+ private:
+  double errorTowards(const S* quadric, uint32_t v, uint32_t other);
+  static double third(std::vector<double>& costs);
+  void keepUnique();
+
+  Core<S>& core_;
+  RemovalCosts costs_;
+  std::vector<S> sheet_, nowhere_, difference_;
+  const std::vector<S> nothing_;
+  std::vector<uint32_t> others_;
+  std::vector<double> field_costs_, sheet_costs_;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,142 @@
+// The weight of the boundary beside the fields: lowered where the boundary bends so much more than
+// they do that it would take nearly all vertices, and nowhere else.
+#include "balance.h"
+
+#include <cmath>
+#include <functional>
+
+#include "field_error.h"
+#include "simplify_testing.h"
+
+namespace tetstream::test {
+namespace {
+
+RemovalCosts costsOf(Removal inside, double inside_vertices, Removal outer, double outer_vertices) {
+  RemovalCosts costs;
+  costs.inside = {std::vector<Removal>(64, inside), inside_vertices};
+  costs.outer = {std::vector<Removal>(64, outer), outer_vertices};
+  return costs;
+}
+
+Balance chosen(const RemovalCosts& costs, double ratio) {
+  Balance balance;
+  chooseBalance(costs, ratio, &balance);
+  return balance;
+}
+
+// As many vertices inside as on it, and a boundary that costs a million times as much.
+TEST(Balance, LowersARoughBoundaryBesideASmoothField) {
+  const Balance balance = chosen(costsOf({1e-4, 0}, 500, {1e-4, 1}, 500), 0.1);
+  EXPECT_TRUE(balance.knows_outer);
+  EXPECT_LT(balance.outer, 0.05);
+}
+
+TEST(Balance, LeavesABoundaryThatCostsNothing) {
+  EXPECT_EQ(chosen(costsOf({1, 0}, 500, {1, 0}, 500), 0.1).outer, 1);
+  EXPECT_EQ(chosen(costsOf({1, 0}, 500, {1, 1e-9}, 500), 0.1).outer, 1);
+}
+
+TEST(Balance, LeavesABoundaryBesideAFieldThatCostsAsMuch) {
+  EXPECT_EQ(chosen(costsOf({1, 0}, 500, {1, 1}, 500), 0.1).outer, 1);
+}
+
+// A boundary with few of the vertices cannot starve those inside.
+TEST(Balance, LeavesTheBoundaryOfABulkyBody) {
+  EXPECT_EQ(chosen(costsOf({1e-6, 0}, 1e6, {1e-6, 1e-4}, 5e3), 0.1).outer, 1);
+}
+
+TEST(Balance, KnowsNothingOfTooFewVertices) {
+  RemovalCosts costs = costsOf({1e-6, 0}, 500, {1e-6, 1}, 500);
+  costs.outer.vertices = kLeastVertices - 1;
+  const Balance balance = chosen(costs, 0.1);
+  EXPECT_FALSE(balance.knows_outer);
+  EXPECT_EQ(balance.outer, 1);
+  costs.inside.vertices = costs.outer.vertices;
+  costs.outer.vertices = 2 * kLeastVertices;
+  EXPECT_FALSE(chosen(costs, 0.1).knows_outer);
+}
+
+TEST(Balance, ComesToAnEndWithoutFieldErrors) {
+  EXPECT_EQ(chosen(costsOf({0, 0}, 500, {0, 1}, 500), 0.1).outer, 1);
+  EXPECT_EQ(chosen(costsOf({0, 0}, 500, {0, 0}, 500), 0.1).outer, 1);
+  EXPECT_EQ(chosen({}, 0.1).outer, 1);
+}
+
+// A slab whose faces go up and down by a part of a cube from one vertex to the next, or do not,
+// with a field that hardly bends.
+TestMesh slab(int n, double roughness) {
+  const TestMesh grid = fullGrid(n, n, 4);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v) {
+    double x[3];
+    for (int i = 0; i < 3; ++i) x[i] = grid.position(v, i);
+    const bool on_face = x[2] < 0.5 || x[2] > 3.5;
+    x[2] += on_face ? roughness * std::sin(7 * x[0] + 11 * x[1] + 3 * x[0] * x[1]) : 0;
+    positions.insert(positions.end(), x, x + 3);
+  }
+  TestMesh mesh = makeMesh(k64, positions, grid.cells);
+  addPositionField(mesh, {"f", 1, k64}, [n](double x, double y, double z) {
+    return std::sin(3 * x / n) + std::cos(2 * y / n) + 0.2 * std::sin(z / 2);
+  });
+  return mesh;
+}
+
+SimplifyOptions unbalanced(SimplifyOptions options) {
+  options.balance = BalanceUse::kNever;
+  return options;
+}
+
+// Half of the error of the field for as many cells; of a stream less is gained, since some windows
+// go by before enough is known.
+TEST(SimplifierBalance, FollowsASmoothFieldInARoughBody) {
+  const TestMesh mesh = slab(slowRun() ? 12 : 24, 0.2);
+  const double gain = slowRun() ? 0.85 : 0.6;
+  for (int64_t window : {0, 1500}) {
+    const Result with = simplified(mesh, toRatio(0.2, window));
+    const Result without = simplified(mesh, unbalanced(toRatio(0.2, window)));
+    expectSound(mesh, with);
+    expectReached(with);
+    EXPECT_NE(with.report.balance.find("the boundary counts 1/"), std::string::npos);
+    EXPECT_EQ(without.report.balance, "");
+    EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0],
+              (window > 0 ? 0.9 : gain) * fieldErrors(mesh, without.out.mesh)[0]);
+    EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(with.out.mesh)), "");
+  }
+}
+
+void expectSame(const TestMesh& mesh, const SimplifyOptions& options) {
+  const Result with = simplified(mesh, options);
+  const Result without = simplified(mesh, unbalanced(options));
+  EXPECT_EQ(with.report.balance, "");
+  EXPECT_EQ(with.out.mesh.cells, without.out.mesh.cells);
+  EXPECT_EQ(with.out.mesh.positions.bytes, without.out.mesh.positions.bytes);
+}
+
+TEST(SimplifierBalance, IsNotForPlaneBoundaries) {
+  expectSame(slab(12, 0), toRatio(0.2));
+}
+
+TEST(SimplifierBalance, LeavesAWeightThatIsAskedFor) {
+  SimplifyOptions options = toRatio(0.2);
+  options.boundary_weight = 100;
+  expectSame(slab(12, 0.2), options);
+}
+
+TEST(SimplifierBalance, IsNotForThePaper) {
+  expectSame(slab(6, 0.2), toRatio(0.2, 0, Mode::kPaper));
+}
+
+// What was chosen depends on what was read, not on how it came.
+TEST(SimplifierBalance, IsTheSameForAnyBatches) {
+  const TestMesh mesh = slab(12, 0.2);
+  const Result whole = simplified(mesh, toRatio(0.2, 800));
+  Cut cut;
+  cut.batch_cells = 7;
+  const Result cut_up = simplified(mesh, toRatio(0.2, 800), cut);
+  EXPECT_EQ(whole.report.balance, cut_up.report.balance);
+  EXPECT_EQ(whole.out.mesh.cells, cut_up.out.mesh.cells);
+  EXPECT_EQ(whole.out.mesh.positions.bytes, cut_up.out.mesh.positions.bytes);
+}
+
+}  // namespace
+}  // namespace tetstream::test
