@@ -41,7 +41,7 @@ class Model {
     outer_ = items(costs_.outer, balance.outer);
     interfaces_ = items(costs_.interfaces, balance.outer * balance.interfaces);
     const double log_cost = commonCost(ratio);
-    const double field = errorOf(inside_, kInside, log_cost, &Item::field) +
+    const double field = costs_.least_field + errorOf(inside_, kInside, log_cost, &Item::field) +
                          errorOf(outer_, kOnSheet, log_cost, &Item::field) +
                          errorOf(interfaces_, kOnSheet, log_cost, &Item::field);
     const std::vector<Item>& sheet = &of == &costs_.outer ? outer_ : interfaces_;
@@ -111,17 +111,21 @@ class Model {
 
 }  // namespace
 
+constexpr size_t kLeastSamples = 32;
+
+static bool isEnough(const RemovalCosts::Group& sheet) {
+  return sheet.vertices >= kLeastVertices && sheet.sample.size() >= kLeastSamples;
+}
+
 // Halves the weight as often as is worth it most. All are tried: of what is far too heavy nothing
 // moves at first.
 static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
                   double Balance::*weight, Balance* balance) {
   const Model::Logs now = model.foretell(*balance, ratio, sheet);
-  if (sheet.sample.empty() || !std::isfinite(now.product()) ||
-      now.sheet < now.field + std::log(kNegligible))
-    return;
+  if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(kNegligible)) return;
   double least = now.product(), asked = 0;
   Balance next = *balance;
-  while (next.*weight > kLeastBalance) {
+  while (next.outer * next.interfaces > kLeastBalance) {
     next.*weight /= 2;
     asked += kWorth;
     const double product = model.foretell(next, ratio, sheet).product() + asked;
@@ -134,11 +138,11 @@ static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
   if (costs.inside.vertices < kLeastVertices) return;
   Model model(costs);
-  if (!balance->knows_outer && costs.outer.vertices >= kLeastVertices) {
+  if (!balance->knows_outer && isEnough(costs.outer)) {
     lower(model, ratio, costs.outer, &Balance::outer, balance);
     balance->knows_outer = true;
   }
-  if (!balance->knows_interfaces && costs.interfaces.vertices >= kLeastVertices) {
+  if (!balance->knows_interfaces && isEnough(costs.interfaces)) {
     lower(model, ratio, costs.interfaces, &Balance::interfaces, balance);
     balance->knows_interfaces = true;
   }

@@ -34,11 +34,12 @@ struct RemovalCosts {
     double vertices = 0;  // that it stands for
   };
   Group inside, outer, interfaces;
+  double least_field = 0;  // error of the fields, of all, that counts as none
 };
 
-// Chooses what is not known of sheets, where they and the inside have enough vertices, for a mesh
-// that is to keep this part of its vertices: 1 where less would gain nothing. Of few vertices too
-// many are edges and corners, and where none is inside nothing starves.
+// Chooses what is not known of sheets, where they and the inside have enough vertices and samples,
+// for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
+// vertices too many are edges and corners, and where none is inside nothing starves.
 constexpr double kLeastVertices = 256;
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);
 

@@ -1,6 +1,7 @@
 #include "balance_sample.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tetstream {
 
@@ -22,11 +23,23 @@ double BalanceSample<S>::errorTowards(const S* quadric, uint32_t v, uint32_t oth
                                                    difference_.data()));
 }
 
+// Without what the regulariser of shapes adds: of a linear field that is all.
+template <class S>
+double BalanceSample<S>::fieldErrorTowards(uint32_t v, uint32_t other) {
+  const double error = errorTowards(core_.window.quadric(v), v, other);
+  double square = 0;
+  for (size_t i = 0; i < 3; ++i)
+    square += static_cast<double>(difference_[i]) * static_cast<double>(difference_[i]);
+  return error - core_.shape_weight * volumeAt(core_, v) * square;
+}
+
 template <class S>
 double BalanceSample<S>::third(std::vector<double>& costs) {
   const auto place = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 3);
+  for (double& cost : costs)
+    if (!std::isfinite(cost)) cost = 0;
   std::nth_element(costs.begin(), place, costs.end());
-  return std::max(*place, 0.0);
+  return *place > 0 ? *place : 0;
 }
 
 template <class S>
@@ -41,8 +54,7 @@ void BalanceSample<S>::addInside(uint32_t v, const Star& star) {
   for (const StarCell& cell : star) others_.insert(others_.end(), cell.t, cell.t + 3);
   keepUnique();
   field_costs_.clear();
-  for (uint32_t other : others_)
-    field_costs_.push_back(errorTowards(core_.window.quadric(v), v, other));
+  for (uint32_t other : others_) field_costs_.push_back(fieldErrorTowards(v, other));
   costs_.inside.sample.push_back({third(field_costs_), 0});
 }
 
@@ -61,7 +73,7 @@ void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, Sh
   field_costs_.clear();
   sheet_costs_.clear();
   for (uint32_t other : others_) {
-    field_costs_.push_back(errorTowards(core_.window.quadric(v), v, other));
+    field_costs_.push_back(fieldErrorTowards(v, other));
     sheet_costs_.push_back(errorTowards(sheet_.data(), v, other));
   }
   RemovalCosts::Group& group = kind == SheetFace::kOuter ? costs_.outer : costs_.interfaces;

@@ -26,7 +26,14 @@ class BalanceSample {
 
   RemovalCosts& costs() { return costs_; }
 
+  // A quarter of the volume of a vertex's cells, normalised; 0 for one without.
+  static double volumeAt(Core<S>& core, uint32_t v) {
+    const int weight = quadricSize(QuadricLayout::kFields, core.plan.dimension) - 2;
+    return static_cast<double>(core.window.quadric(v)[weight]);
+  }
+
  private:
+  double fieldErrorTowards(uint32_t v, uint32_t other);
   double errorTowards(const S* quadric, uint32_t v, uint32_t other);
   static double third(std::vector<double>& costs);
   void keepUnique();

@@ -360,34 +360,49 @@ bool Resolver<S>::isBalanced() const {
 template <class S>
 void Resolver<S>::pickSamples(const uint32_t* vertices, size_t count) {
   const Topology& mesh = core_.window.mesh;
-  const auto groupOf = [&](uint32_t v) -> Sampled& {
-    if (core_.window.outRank(v) != 0) return sampled_[0];
-    return sampled_[mesh.vertexFlags(v) & kInterface ? 1 : 2];
+  const auto groupOf = [&](uint32_t v) -> Sampled* {
+    if ((mesh.vertexFlags(v) & kLocked) || !(BalanceSample<S>::volumeAt(core_, v) > 0))
+      return nullptr;
+    if (core_.window.outRank(v) != 0) return &sampled_[0];
+    return &sampled_[mesh.vertexFlags(v) & kInterface ? 1 : 2];
   };
+  for (Sampled& group : sampled_) group = {};
   for (size_t i = 0; i < count; ++i)
-    if (!(mesh.vertexFlags(vertices[i]) & kLocked)) ++groupOf(vertices[i]).of;
+    if (Sampled* const group = groupOf(vertices[i])) {
+      ++group->of;
+      group->volume += BalanceSample<S>::volumeAt(core_, vertices[i]);
+    }
   size_t met[3] = {};
   for (size_t i = 0; i < count; ++i) {
-    if (mesh.vertexFlags(vertices[i]) & kLocked) continue;
-    Sampled& group = groupOf(vertices[i]);
-    const size_t step = group.of / BalanceSample<S>::kSampled + 1;
-    if (met[&group - sampled_]++ % step == step / 2) group.vertices.push_back(vertices[i]);
+    Sampled* const group = groupOf(vertices[i]);
+    if (!group) continue;
+    const size_t step = group->of / BalanceSample<S>::kSampled + 1;
+    if (met[group - sampled_]++ % step == step / 2) group->vertices.push_back(vertices[i]);
   }
 }
 
-// From what was picked, before it has the quadrics of its sheets.
+// Of the range of the fields: smaller errors are alike.
+constexpr double kLeastFieldError = 1e-5;
+
+// From what was picked, before it has the quadrics of its sheets. Where there is too little of it
+// no star is looked at, which may be as large as the window.
 template <class S>
 void Resolver<S>::balance() {
+  const auto isFew = [](const Sampled& group) {
+    return static_cast<double>(group.of) < kLeastVertices;
+  };
+  if (isFew(sampled_[2]) || (isFew(sampled_[0]) && isFew(sampled_[1]))) return;
   BalanceSample<S> sample(core_);
   RemovalCosts& costs = sample.costs();
   costs.outer.vertices = static_cast<double>(sampled_[0].of);
   costs.interfaces.vertices = static_cast<double>(sampled_[1].of);
   costs.inside.vertices = static_cast<double>(sampled_[2].of);
+  const double least = kLeastFieldError * core_.extent;
+  for (const Sampled& group : sampled_) costs.least_field += least * least * group.volume;
   sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
   sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
   forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, first_.star); });
   chooseBalance(costs, core_.balance_ratio, &core_.balance);
-  for (Sampled& group : sampled_) group = {};
 }
 
 // Each star is gathered first; of as many vertices as fit what lists them.

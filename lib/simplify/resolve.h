@@ -104,6 +104,7 @@ class Resolver {
   struct Sampled {
     std::vector<uint32_t> vertices;
     size_t of = 0;
+    double volume = 0;
   };
   Sampled sampled_[3];  // of the boundary, of interfaces, inside
 };

@@ -16,9 +16,8 @@
 namespace tetstream {
 namespace {
 
-constexpr int64_t kTurnsPerWindow = 8;                        // at most, where its vertices are few
-constexpr int64_t kLongStream = 10;                           // windows
-constexpr int64_t kMildReduction = 12, kStrongReduction = 4;  // cells in over cells out
+constexpr int64_t kTurnsPerWindow = 8;  // at most, where its vertices are few
+constexpr int64_t kLongStream = 10;     // windows
 constexpr double kUsualRatio = 0.1;
 
 Target targetOf(const Schema& schema, const SimplifyOptions& options) {

@@ -11,6 +11,9 @@ constexpr int64_t kFrontsPerWindow = 4;
 // 14 % of the time of two threads at a ratio of 0.01. Errors are those of four, as no more stays.
 constexpr int64_t kWideFront = 1 << 18, kFrontsOfWide = 6;
 
+// Reductions, cells in over cells out.
+constexpr int64_t kMildReduction = 12, kStrongReduction = 4;
+
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.
 uint64_t expectedSpan(const Schema& schema);
 
@@ -41,6 +44,7 @@ class WindowSize {
 
  private:
   int64_t knownFront() const;
+  bool gainsWhole() const;
 
   const Schema& schema_;
   const SimplifyOptions& options_;

@@ -1,7 +1,6 @@
 // Reads SU2's meshes: text of NAME= sections. Points are numbered from 0 in their order; markers
 // label faces, zones label cells.
 #include <algorithm>
-#include <cstring>
 #include <map>
 
 #include "file_scan.h"
@@ -91,24 +90,26 @@ class Su2Reader {
     } else if (name == "MARKER_TAG") {
       readMarker();
     } else {
-      const bool is_box = name.rfind("FFD_", 0) == 0;
-      if (is_box)
-        intake_.leaveOut("sections of boxes for shape optimisation (FFD_)");
-      else
-        intake_.note("what " + name + "= says is left out");
-      file_.line();
-      skipRows(is_box);
+      leaveOut(name);
     }
   }
 
-  // Of a section that is left out: numbers, or up to the next NAME=, as those of boxes for shape
-  // optimisation (FFD_SURFACE_POINTS=) begin with the names of markers.
-  void skipRows(bool any) {
+  // Boxes for shape optimisation have so many rows, which may begin with the names of markers; of
+  // other sections rows of numbers are passed over.
+  void leaveOut(const std::string& name) {
+    if (name.rfind("FFD_", 0) == 0) {
+      intake_.leaveOut("sections of boxes for shape optimisation (FFD_)");
+      const bool has_rows = name.size() > 7 && name.compare(name.size() - 7, 7, "_POINTS") == 0;
+      if (!has_rows) file_.line();
+      for (uint64_t rows = has_rows ? count("the rows of a box") : 0; rows > 0; --rows)
+        file_.line();
+      return;
+    }
+    intake_.note("what " + name + "= says is left out");
     for (;;) {
-      const std::string_view word = file_.peekWord();
-      const bool is_number = !word.empty() && std::strchr("+-.0123456789", word[0]);
-      if (word.empty() || word.find('=') != word.npos || !(any || is_number)) return;
       file_.line();
+      const std::string_view word = file_.peekWord();
+      if (word.empty() || std::string_view("+-.0123456789").find(word[0]) == word.npos) return;
     }
   }
 
@@ -206,7 +207,8 @@ class Su2Reader {
   void skipSendReceive() {
     file_.line();
     intake_.leaveOut("markers between parts");
-    skipRows(true);
+    while (!file_.peekWord().empty() && file_.peekWord().find('=') == std::string_view::npos)
+      file_.line();
   }
 
   void noteMarkers() {

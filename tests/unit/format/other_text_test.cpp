@@ -41,9 +41,9 @@ TEST(Su2, ReadsTextBehindAByteOrderMark) {
 TEST(Su2, LeavesOutBoxes) {
   std::vector<std::string> notes;
   const std::string boxes =
-      "NPERIODIC= 1\nPERIODIC_INDEX= 0\n0.0 0.0 0.0\n-1 +2 .5\nFFD_NBOX= 1\nFFD_TAG= MAIN_BOX\n"
+      "NPERIODIC= 1\nPERIODIC_INDEX= 0\n0.0 0.0 0.0\n-1 +2 .5\nFFD_NBOX = 1\nFFD_TAG= MAIN_BOX\n"
       "FFD_CORNER_POINTS= 2\n0.1 0 0\n1 0 1\nFFD_SURFACE_POINTS= 2\nwall 0 0.1 0.2 0.3\n"
-      "wall 1 0.1 0.2 0.3\nFFD_PARENTS= 0\n";
+      "wall=left 1 0.1 0.2 0.3\nFFD_PARENTS= 0\n";
   Input input = openText(openSu2, boxes + (kSu2 + 12) + boxes, {}, &notes);
   EXPECT_EQ(readAll(input).cells.size(), 2u);
   EXPECT_TRUE(anyNote(notes, "boxes for shape optimisation"));

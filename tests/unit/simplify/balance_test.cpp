@@ -126,6 +126,42 @@ TEST(SimplifierBalance, IsNotForThePaper) {
   expectSame(slab(6, 0.2), toRatio(0.2, 0, Mode::kPaper));
 }
 
+// Nothing is gained for them, and rounding would choose.
+TEST(SimplifierBalance, IsNotForFieldsWithoutError) {
+  TestMesh mesh = slab(12, 0.2);
+  mesh.fields.clear();
+  mesh.schema.fields.clear();
+  addPositionField(mesh, {"constant", 1, k64}, [](double, double, double) { return 3.0; });
+  expectSame(mesh, toRatio(0.2));
+  addPositionField(mesh, {"linear", 1, k64},
+                   [](double x, double y, double z) { return 0.3 * x - 0.7 * y + z; });
+  expectSame(mesh, toRatio(0.2));
+}
+
+TEST(SimplifierBalance, KnowsNothingOfVerticesWithoutCells) {
+  TestMesh none = makeMesh(k64, {0, 0, 0}, {});
+  addPositionField(none, {"f", 1, k64}, [](double, double, double) { return 1.0; });
+  EXPECT_EQ(simplified(none, toRatio(0.5)).report.balance, "");
+  const TestMesh mesh = slab(12, 0.2);
+  std::vector<double> positions;
+  for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    for (int i = 0; i < 3; ++i) positions.push_back(mesh.position(v, i));
+  positions.insert(positions.end(), 9000, 5);
+  TestMesh more = makeMesh(k64, positions, mesh.cells);
+  addPositionField(more, {"f", 1, k64},
+                   [](double x, double y, double z) { return std::sin(x / 4 + y / 6) + z / 40; });
+  TestMesh same = mesh;
+  same.fields.clear();
+  same.schema.fields.clear();
+  addPositionField(same, {"f", 1, k64},
+                   [](double x, double y, double z) { return std::sin(x / 4 + y / 6) + z / 40; });
+  const Result with = simplified(inStreamOrder(more, true), toRatio(0.2));
+  const Result without = simplified(inStreamOrder(same), toRatio(0.2));
+  EXPECT_EQ(with.report.unused_vertices, 3000);
+  EXPECT_NE(with.report.balance, "");
+  EXPECT_EQ(with.report.balance, without.report.balance);
+}
+
 // What was chosen depends on what was read, not on how it came.
 TEST(SimplifierBalance, IsTheSameForAnyBatches) {
   const TestMesh mesh = slab(12, 0.2);

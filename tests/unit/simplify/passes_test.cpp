@@ -17,8 +17,17 @@ int64_t windowOf(int64_t cells, int64_t front, const SimplifyOptions& options) {
 
 TEST(SimplifierWindow, HoldsSmallMeshesWhole) {
   EXPECT_EQ(windowOf(262144, 500, {}), 262144);
-  EXPECT_EQ(windowOf(262145, 500, {}), 131072);
-  EXPECT_EQ(windowOf(262145, 50000, {}), 200000);
+  EXPECT_EQ(windowOf(1048576, 500, {}), 1048576);
+  EXPECT_EQ(windowOf(1048577, 500, {}), 131072);
+  EXPECT_EQ(windowOf(1048577, 50000, {}), 200000);
+  EXPECT_EQ(windowOf(262144, 500, toRatio(0.02)), 262144);
+  EXPECT_EQ(windowOf(262145, 500, toRatio(0.02)), 131072);
+  EXPECT_EQ(windowOf(262144, 500, toRatio(0.5)), 262144);
+  EXPECT_EQ(windowOf(262145, 500, toRatio(0.5)), 131072);
+  SimplifyOptions counted;
+  counted.cells = 30000;
+  EXPECT_EQ(windowOf(360000, 500, counted), 360000);
+  EXPECT_EQ(windowOf(360001, 500, counted), 131072);
   EXPECT_EQ(windowOf(-1, 500, {}), 131072) << "nobody knows how small it is";
   EXPECT_EQ(windowOf(200000, 500, toRatio(0.1, 3000)), 3000);
   EXPECT_EQ(windowOf(200000, 500, inMode(Mode::kPaper)), 16384);
