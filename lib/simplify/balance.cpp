@@ -17,10 +17,10 @@ constexpr double kNegligible = 1e-3;
 constexpr double kLongest = 12, kLeastCost = 1e-6;
 constexpr int kSteps = 16;  // of the search for t
 
-struct Kind {
+struct Law {
   double cost_power, density_power;
 };
-constexpr Kind kInside = {7, 3}, kOnSheet = {6, 2};
+constexpr Law kInsideLaw = {7, 3}, kSheetLaw = {6, 2};
 
 struct Item {
   double log_cost, field, sheet, count;
@@ -41,11 +41,11 @@ class Model {
     outer_ = items(costs_.outer, balance.outer);
     interfaces_ = items(costs_.interfaces, balance.outer * balance.interfaces);
     const double log_cost = commonCost(ratio);
-    const double field = costs_.least_field + errorOf(inside_, kInside, log_cost, &Item::field) +
-                         errorOf(outer_, kOnSheet, log_cost, &Item::field) +
-                         errorOf(interfaces_, kOnSheet, log_cost, &Item::field);
+    const double field = costs_.least_field + errorOf(inside_, kInsideLaw, log_cost, &Item::field) +
+                         errorOf(outer_, kSheetLaw, log_cost, &Item::field) +
+                         errorOf(interfaces_, kSheetLaw, log_cost, &Item::field);
     const std::vector<Item>& sheet = &of == &costs_.outer ? outer_ : interfaces_;
-    return {std::log(field), std::log(errorOf(sheet, kOnSheet, log_cost, &Item::sheet))};
+    return {std::log(field), std::log(errorOf(sheet, kSheetLaw, log_cost, &Item::sheet))};
   }
 
  private:
@@ -62,20 +62,20 @@ class Model {
     return all;
   }
 
-  static double logLength(const Item& item, const Kind& kind, double log_cost) {
+  static double logLength(const Item& item, const Law& law, double log_cost) {
     static const double longest = std::log(kLongest);
-    return std::clamp((log_cost - item.log_cost) / kind.cost_power, 0.0, longest);
+    return std::clamp((log_cost - item.log_cost) / law.cost_power, 0.0, longest);
   }
 
-  static double left(const std::vector<Item>& items, const Kind& kind, double log_cost) {
+  static double left(const std::vector<Item>& items, const Law& law, double log_cost) {
     double sum = 0;
     for (const Item& item : items)
-      sum += item.count * std::exp(-kind.density_power * logLength(item, kind, log_cost));
+      sum += item.count * std::exp(-law.density_power * logLength(item, law, log_cost));
     return sum;
   }
   double left(double log_cost) const {
-    return left(inside_, kInside, log_cost) + left(outer_, kOnSheet, log_cost) +
-           left(interfaces_, kOnSheet, log_cost);
+    return left(inside_, kInsideLaw, log_cost) + left(outer_, kSheetLaw, log_cost) +
+           left(interfaces_, kSheetLaw, log_cost);
   }
 
   double commonCost(double ratio) const {
@@ -86,7 +86,7 @@ class Model {
         high = std::max(high, item.log_cost);
         all += item.count;
       }
-    high += kInside.cost_power * std::log(kLongest);
+    high += kInsideLaw.cost_power * std::log(kLongest);
     for (int k = 0; k < kSteps; ++k) {
       const double middle = (low + high) / 2;
       (left(middle) > ratio * all ? low : high) = middle;
@@ -94,13 +94,13 @@ class Model {
     return high;
   }
 
-  static double errorOf(const std::vector<Item>& items, const Kind& kind, double log_cost,
+  static double errorOf(const std::vector<Item>& items, const Law& law, double log_cost,
                         double Item::*part) {
     double sum = 0;
     for (const Item& item : items) {
-      const double length = logLength(item, kind, log_cost);
-      const double power = (part == &Item::field ? kInside : kOnSheet).cost_power;
-      sum += item.count * item.*part * std::exp((power - kind.density_power) * length);
+      const double length = logLength(item, law, log_cost);
+      const double power = (part == &Item::field ? kInsideLaw : kSheetLaw).cost_power;
+      sum += item.count * item.*part * std::exp((power - law.density_power) * length);
     }
     return sum;
   }

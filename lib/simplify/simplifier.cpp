@@ -18,7 +18,6 @@ namespace {
 
 constexpr int64_t kTurnsPerWindow = 8;  // at most, where its vertices are few
 constexpr int64_t kLongStream = 10;     // windows
-constexpr double kUsualRatio = 0.1;
 
 Target targetOf(const Schema& schema, const SimplifyOptions& options) {
   Target target{options.ratio, options.error, options.cells};

@@ -13,7 +13,6 @@ constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
 // with 75 MB for 1e6. At 0.5 it would be 0.87 times in 1.2 to 1.4 times the time, at 0.02 1.08
 // times.
 constexpr int64_t kSmallMesh = 1 << 18, kLargestWhole = 1 << 20;
-constexpr double kUsualRatio = 0.1;
 // Without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstWindow = 32768;
 // A header that claims more is not believed: the window grows when such a front comes.

@@ -11,6 +11,7 @@ constexpr int64_t kFrontsPerWindow = 4;
 // 14 % of the time of two threads at a ratio of 0.01. Errors are those of four, as no more stays.
 constexpr int64_t kWideFront = 1 << 18, kFrontsOfWide = 6;
 
+constexpr double kUsualRatio = 0.1;  // where there is no target
 // Reductions, cells in over cells out.
 constexpr int64_t kMildReduction = 12, kStrongReduction = 4;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 
 #include "status.h"
 
@@ -61,7 +60,7 @@ bool namesPartition(const std::string& name) {
   for (char c : name)
     if (std::isalpha(static_cast<unsigned char>(c)))
       plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::any_of(std::begin(kNames), std::end(kNames),
+  return std::any_of(kNames, kNames + sizeof kNames / sizeof *kNames,
                      [&](const char* known) { return plain == known; });
 }
 
