@@ -104,7 +104,7 @@ TEST(SimplifierBalance, FollowsASmoothFieldInARoughBody) {
   }
 }
 
-void expectSame(const TestMesh& mesh, const SimplifyOptions& options) {
+void expectBytesOfUnbalanced(const TestMesh& mesh, const SimplifyOptions& options) {
   const Result with = simplified(mesh, options);
   const Result without = simplified(mesh, unbalanced(options));
   EXPECT_EQ(with.report.balance, "");
@@ -113,17 +113,17 @@ void expectSame(const TestMesh& mesh, const SimplifyOptions& options) {
 }
 
 TEST(SimplifierBalance, IsNotForPlaneBoundaries) {
-  expectSame(slab(12, 0), toRatio(0.2));
+  expectBytesOfUnbalanced(slab(12, 0), toRatio(0.2));
 }
 
 TEST(SimplifierBalance, LeavesAWeightThatIsAskedFor) {
   SimplifyOptions options = toRatio(0.2);
   options.boundary_weight = 100;
-  expectSame(slab(12, 0.2), options);
+  expectBytesOfUnbalanced(slab(12, 0.2), options);
 }
 
 TEST(SimplifierBalance, IsNotForThePaper) {
-  expectSame(slab(6, 0.2), toRatio(0.2, 0, Mode::kPaper));
+  expectBytesOfUnbalanced(slab(6, 0.2), toRatio(0.2, 0, Mode::kPaper));
 }
 
 // Nothing is gained for them, and rounding would choose.
@@ -132,10 +132,10 @@ TEST(SimplifierBalance, IsNotForFieldsWithoutError) {
   mesh.fields.clear();
   mesh.schema.fields.clear();
   addPositionField(mesh, {"constant", 1, k64}, [](double, double, double) { return 3.0; });
-  expectSame(mesh, toRatio(0.2));
+  expectBytesOfUnbalanced(mesh, toRatio(0.2));
   addPositionField(mesh, {"linear", 1, k64},
                    [](double x, double y, double z) { return 0.3 * x - 0.7 * y + z; });
-  expectSame(mesh, toRatio(0.2));
+  expectBytesOfUnbalanced(mesh, toRatio(0.2));
 }
 
 TEST(SimplifierBalance, KnowsNothingOfVerticesWithoutCells) {
