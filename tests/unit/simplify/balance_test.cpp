@@ -92,6 +92,7 @@ TEST(SimplifierBalance, FollowsASmoothFieldInARoughBody) {
   const TestMesh mesh = slab(slowRun() ? 12 : 24, 0.2);
   const double gain = slowRun() ? 0.85 : 0.6;
   for (int64_t window : {0, 1500}) {
+    if (slowRun() && window > 0) continue;  // too few vertices in any window
     const Result with = simplified(mesh, toRatio(0.2, window));
     const Result without = simplified(mesh, unbalanced(toRatio(0.2, window)));
     expectSound(mesh, with);
