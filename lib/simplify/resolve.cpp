@@ -399,9 +399,12 @@ void Resolver<S>::balance() {
   costs.inside.vertices = static_cast<double>(sampled_[2].of);
   const double least = kLeastFieldError * core_.extent;
   for (const Sampled& group : sampled_) costs.least_field += least * least * group.volume;
+  const Balance known = core_.balance;
+  core_.balance = {};  // costs are those of the weights that were asked for
   sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
   sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
   forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, first_.star); });
+  core_.balance = known;
   chooseBalance(costs, core_.balance_ratio, &core_.balance);
 }
 
