@@ -125,7 +125,11 @@ static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
   if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(kNegligible)) return;
   double least = now.product(), asked = 0;
   Balance next = *balance;
-  while (next.outer * next.interfaces > kLeastBalance) {
+  const auto isLeast = [&] {
+    const bool of_all = weight == &Balance::outer;
+    return (of_all ? next.outer : next.outer * next.interfaces) <= kLeastBalance;
+  };
+  while (!isLeast()) {
     next.*weight /= 2;
     asked += kWorth;
     const double product = model.foretell(next, ratio, sheet).product() + asked;
@@ -135,7 +139,25 @@ static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
   }
 }
 
+// Of interfaces that are rough: a fortieth of what the boundary counts. With 4 times as much and
+// a tenth of it fields are as close within a fifth; distances are a tenth of the edges left.
+constexpr double kRoughBalance = 1.0 / 2048;
+
+// By more than half of the samples. Fields without errors would gain nothing.
+static bool areRough(const RemovalCosts& costs) {
+  if (costs.plain_interfaces < kLeastPlain || 2 * costs.rough_interfaces < costs.plain_interfaces)
+    return false;
+  double field = 0;
+  for (const Removal& r : costs.interfaces.sample) field += r.field;
+  const auto sampled = static_cast<double>(costs.interfaces.sample.size());
+  return field * costs.interfaces.vertices > costs.least_field * sampled;
+}
+
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
+  if (!balance->knows_interfaces && areRough(costs)) {
+    balance->interfaces = kRoughBalance;
+    balance->knows_interfaces = balance->rough_interfaces = true;
+  }
   if (costs.inside.vertices < kLeastVertices) return;
   Model model(costs);
   if (!balance->knows_outer && isEnough(costs.outer)) {

@@ -9,6 +9,9 @@
 //   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that
 //   s = (t / c)^(1/7) or (t / c)^(1/6), where that is more than 1; t is what leaves the ratio of
 //   vertices that is asked for. Errors are the sums of what was added for those that are left.
+// Interfaces that are rough everywhere, as where cells have the label of the side that their
+// centres lie on, are another matter: what bends there is noise of the size of the input's cells,
+// and no cell of the output is small enough for it.
 #pragma once
 
 #include <vector>
@@ -19,6 +22,7 @@ namespace tetstream {
 struct Balance {
   double outer = 1, interfaces = 1;
   bool knows_outer = false, knows_interfaces = false;
+  bool rough_interfaces = false;
 };
 
 // What taking a vertex out adds to the error of the fields and, with its weight, to that of the
@@ -34,13 +38,18 @@ struct RemovalCosts {
     double vertices = 0;  // that it stands for
   };
   Group inside, outer, interfaces;
+  // Samples of the interface between two regions, and those of them where the area of its faces is
+  // well above that of their projection along their mean normal.
+  size_t plain_interfaces = 0, rough_interfaces = 0;
   double least_field = 0;  // error of the fields, of all, that counts as none
 };
 
 // Chooses what is not known of sheets, where they and the inside have enough vertices and samples,
 // for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
 // vertices too many are edges and corners, and where none is inside nothing starves.
+// Whether an interface is rough is told by a few.
 constexpr double kLeastVertices = 256;
+constexpr size_t kLeastPlain = 32;
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);
 
 }  // namespace tetstream

@@ -3,7 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vector3.h"
+
 namespace tetstream {
+
+// Of the faces' area, what they cover in the plane across their mean normal. Of interfaces that
+// were meshed as such nearly all vertices are above it, edges and corners of them apart; of labels
+// by the cells' centres nine of ten are below, of organs in a scanned brain three of ten.
+constexpr double kCoherent = 0.9;
 
 template <class S>
 BalanceSample<S>::BalanceSample(Core<S>& core)
@@ -78,6 +85,26 @@ void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, Sh
   }
   RemovalCosts::Group& group = kind == SheetFace::kOuter ? costs_.outer : costs_.interfaces;
   group.sample.push_back({third(field_costs_), third(sheet_costs_)});
+}
+
+template <class S>
+void BalanceSample<S>::addRoughness(uint32_t v, const std::vector<Face>& faces) {
+  double x[3], sum[3] = {0, 0, 0}, area = 0;
+  positionOf(core_.window, v, x);
+  for (const Face& face : faces) {
+    double a[3], b[3], normal[3];
+    positionOf(core_.window, face.a, a);
+    positionOf(core_.window, face.b, b);
+    for (size_t i = 0; i < 3; ++i) {
+      a[i] = (a[i] - x[i]) * static_cast<double>(core_.scale[0]);
+      b[i] = (b[i] - x[i]) * static_cast<double>(core_.scale[0]);
+    }
+    cross(a, b, normal);
+    for (size_t i = 0; i < 3; ++i) sum[i] += normal[i];
+    area += std::sqrt(dot(normal, normal));
+  }
+  ++costs_.plain_interfaces;
+  costs_.rough_interfaces += std::sqrt(dot(sum, sum)) < kCoherent * area;
 }
 
 template class BalanceSample<float>;

@@ -23,6 +23,8 @@ class BalanceSample {
   // none.
   void addInside(uint32_t v, const Star& star);
   void addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind);
+  // Of an interface between two regions, all seen from the same one.
+  void addRoughness(uint32_t v, const std::vector<Face>& faces);
 
   RemovalCosts& costs() { return costs_; }
 

@@ -385,13 +385,14 @@ void Resolver<S>::pickSamples(const uint32_t* vertices, size_t count) {
 constexpr double kLeastFieldError = 1e-5;
 
 // From what was picked, before it has the quadrics of its sheets. Where there is too little of it
-// no star is looked at, which may be as large as the window.
+// no star is looked at, which may be as large as the window; those of interfaces will be anyway.
 template <class S>
 void Resolver<S>::balance() {
   const auto isFew = [](const Sampled& group) {
     return static_cast<double>(group.of) < kLeastVertices;
   };
-  if (isFew(sampled_[2]) || (isFew(sampled_[0]) && isFew(sampled_[1]))) return;
+  const bool is_enough = !isFew(sampled_[2]) && !(isFew(sampled_[0]) && isFew(sampled_[1]));
+  if (!is_enough && sampled_[1].of < kLeastPlain) return;
   BalanceSample<S> sample(core_);
   RemovalCosts& costs = sample.costs();
   costs.outer.vertices = static_cast<double>(sampled_[0].of);
@@ -401,9 +402,11 @@ void Resolver<S>::balance() {
   for (const Sampled& group : sampled_) costs.least_field += least * least * group.volume;
   const Balance known = core_.balance;
   core_.balance = {};  // costs are those of the weights that were asked for
-  sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
   sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
-  forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, first_.star); });
+  if (is_enough) {
+    sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
+    forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, first_.star); });
+  }
   core_.balance = known;
   chooseBalance(costs, core_.balance_ratio, &core_.balance);
 }
@@ -422,23 +425,42 @@ void Resolver<S>::forStarsOf(const std::vector<uint32_t>& vertices, Visit visit)
   }
 }
 
+// Of the star that was gathered; those of interfaces as seen from one region. Returns whether they
+// all have that region on one side and the same on the other.
+template <class S>
+bool Resolver<S>::listSheet(SheetFace kind, std::vector<SampledFace>& faces) {
+  const CellLabels labels = core_.cellLabels();
+  uint32_t near = kNone, far = kNone;  // cells of the two regions
+  bool is_plain = true;
+  faces.clear();
+  forLinkEdges([&](uint32_t a, uint32_t b, const LinkEdge* edge, size_t cells) {
+    const bool is_inner = cells == 2 && labels.differ(edge[0].cell, edge[1].cell);
+    if (kind == SheetFace::kOuter && cells == 1) faces.push_back({a, b});
+    if (kind == SheetFace::kOuter || !is_inner) return;
+    if (near == kNone) {
+      near = edge[0].cell;
+      far = edge[1].cell;
+    }
+    const size_t k = labels.differ(near, edge[0].cell) ? 1 : 0;
+    is_plain &= !labels.differ(near, edge[k].cell) && !labels.differ(far, edge[1 - k].cell);
+    faces.push_back(edge[k].key & 1 ? SampledFace{b, a} : SampledFace{a, b});
+  });
+  return is_plain;
+}
+
 template <class S>
 void Resolver<S>::sampleSheet(const std::vector<uint32_t>& vertices, SheetFace kind,
                               BalanceSample<S>& sample) {
-  const CellLabels labels = core_.cellLabels();
   const Topology& mesh = core_.window.mesh;
-  std::vector<typename BalanceSample<S>::Face> faces;
+  std::vector<SampledFace> faces;
   forStarsOf(vertices, [&](uint32_t v) {
-    faces.clear();
-    forLinkEdges([&](uint32_t a, uint32_t b, const LinkEdge* edge, size_t cells) {
-      const bool is_inner = cells == 2 && labels.differ(edge[0].cell, edge[1].cell);
-      if (kind == SheetFace::kOuter ? cells == 1 : is_inner) faces.push_back({a, b});
-    });
-    const auto is_told = [&](const auto& face) {
+    const bool is_plain = listSheet(kind, faces);
+    const auto is_told = [&](const SampledFace& face) {
       return (mesh.vertexFlags(face.a) | mesh.vertexFlags(face.b)) & kResolved;
     };
-    if (!faces.empty() && std::none_of(faces.begin(), faces.end(), is_told))
-      sample.addOnSheet(v, faces, kind);
+    if (faces.empty() || std::any_of(faces.begin(), faces.end(), is_told)) return;
+    sample.addOnSheet(v, faces, kind);
+    if (kind == SheetFace::kInterface && is_plain) sample.addRoughness(v, faces);
   });
 }
 

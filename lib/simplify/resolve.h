@@ -81,6 +81,8 @@ class Resolver {
   bool isBalanced() const;
   template <class Visit>
   void forStarsOf(const std::vector<uint32_t>& vertices, Visit visit);
+  using SampledFace = typename BalanceSample<S>::Face;
+  bool listSheet(SheetFace kind, std::vector<SampledFace>& faces);
   void sampleSheet(const std::vector<uint32_t>& vertices, SheetFace kind, BalanceSample<S>& sample);
   void addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind, const int64_t* label);
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);

@@ -62,6 +62,43 @@ TEST(Balance, ComesToAnEndWithoutFieldErrors) {
   EXPECT_EQ(chosen({}, 0.1).outer, 1);
 }
 
+RemovalCosts roughCosts(size_t plain, size_t rough, double field) {
+  RemovalCosts costs;
+  costs.interfaces = {std::vector<Removal>(plain, {field, 1}), 100};
+  costs.plain_interfaces = plain;
+  costs.rough_interfaces = rough;
+  costs.least_field = 1e-3;
+  return costs;
+}
+
+// By few of them, and without knowing anything of the rest.
+TEST(Balance, LowersInterfacesThatAreRough) {
+  const Balance balance = chosen(roughCosts(kLeastPlain, kLeastPlain / 2, 1), 0.1);
+  EXPECT_TRUE(balance.knows_interfaces);
+  EXPECT_TRUE(balance.rough_interfaces);
+  EXPECT_LT(balance.interfaces, 0.01);
+  EXPECT_FALSE(balance.knows_outer);
+}
+
+TEST(Balance, LeavesInterfacesThatAreSmoothOrFewOrCostFieldsNothing) {
+  for (const RemovalCosts& costs :
+       {roughCosts(kLeastPlain, kLeastPlain / 2 - 1, 1), roughCosts(kLeastPlain - 1, 31, 1),
+        roughCosts(kLeastPlain, kLeastPlain, 1e-6)}) {
+    EXPECT_EQ(chosen(costs, 0.1).interfaces, 1);
+    EXPECT_FALSE(chosen(costs, 0.1).knows_interfaces);
+  }
+}
+
+// Rough interfaces do not keep the boundary from being lowered as far as it would be.
+TEST(Balance, LowersARoughBoundaryBesideRoughInterfaces) {
+  RemovalCosts costs = costsOf({1e-4, 0}, 500, {1e-4, 1}, 500);
+  const double alone = chosen(costs, 0.1).outer;
+  costs.interfaces = {std::vector<Removal>(64, {1e-4, 1e-4}), 10};
+  costs.plain_interfaces = costs.rough_interfaces = 64;
+  EXPECT_LT(chosen(costs, 0.1).interfaces, 0.01);
+  EXPECT_NEAR(std::log2(chosen(costs, 0.1).outer), std::log2(alone), 1.01);
+}
+
 // A slab whose faces go up and down by a part of a cube from one vertex to the next, or do not,
 // with a field that hardly bends.
 TestMesh slab(int n, double roughness) {
@@ -173,6 +210,43 @@ TEST(SimplifierBalance, IsTheSameForAnyBatches) {
   EXPECT_EQ(whole.report.balance, cut_up.report.balance);
   EXPECT_EQ(whole.out.mesh.cells, cut_up.out.mesh.cells);
   EXPECT_EQ(whole.out.mesh.positions.bytes, cut_up.out.mesh.positions.bytes);
+}
+
+// Cells have the label of the side of a slanted plane that their centres lie on, or of a plane
+// between layers of cells.
+TestMesh labelledAfterwards(int n, double slant) {
+  TestMesh mesh = fullGrid(n, n, n, 0.1);
+  addPositionField(mesh, {"f", 1, k64}, [n](double x, double y, double z) {
+    return std::sin(3 * x / n) + std::cos(2 * y / n) + 0.2 * std::sin(4 * z / n);
+  });
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    double height = 0;
+    for (size_t j = 0; j < 4; ++j) {
+      const auto v = static_cast<size_t>(mesh.cells[4 * c + j]);
+      height += (mesh.position(v, 2) + slant * mesh.position(v, 0)) / 4;
+    }
+    return height < 0.5 * (1 + slant) * n ? 3 : 8;
+  });
+  return mesh;
+}
+
+TEST(SimplifierBalance, SmoothsInterfacesOfLabelsGivenToCells) {
+  const TestMesh mesh = labelledAfterwards(slowRun() ? 10 : 20, 0.7);
+  const Result with = simplified(mesh, toRatio(0.1));
+  const Result without = simplified(mesh, unbalanced(toRatio(0.1)));
+  expectSound(mesh, with);
+  expectReached(with);
+  EXPECT_NE(with.report.balance.find("being rough"), std::string::npos) << with.report.balance;
+  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], 0.8 * fieldErrors(mesh, without.out.mesh)[0]);
+  for (int64_t label : {3, 8}) {
+    const double volume = regionVolume(mesh, label);
+    EXPECT_NEAR(regionVolume(with.out.mesh, label), volume, 0.01 * volume);
+  }
+}
+
+TEST(SimplifierBalance, LeavesInterfacesThatWereMeshed) {
+  const Result with = simplified(labelledAfterwards(slowRun() ? 10 : 20, 0), toRatio(0.1));
+  EXPECT_EQ(with.report.balance.find("rough"), std::string::npos) << with.report.balance;
 }
 
 }  // namespace

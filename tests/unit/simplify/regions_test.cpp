@@ -35,23 +35,6 @@ std::set<Place> interfaceOf(const TestMesh& mesh) {
   return places;
 }
 
-double volumeOf(const TestMesh& mesh, int64_t label) {
-  double volume = 0;
-  for (size_t c = 0; c < mesh.cellCount(); ++c) {
-    if (mesh.cellInteger(0, c) != label) continue;
-    double e[3][3];
-    for (size_t k = 0; k < 3; ++k)
-      for (size_t i = 0; i < 3; ++i)
-        e[k][i] = mesh.position(static_cast<size_t>(mesh.cells[4 * c + k + 1]), i) -
-                  mesh.position(static_cast<size_t>(mesh.cells[4 * c]), i);
-    volume += std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                        e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                        e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-              6;
-  }
-  return volume;
-}
-
 Result withRegions(const TestMesh& mesh, const std::string& regions, int64_t window,
                    Mode mode = SimplifyOptions().mode) {
   SimplifyOptions options = toRatio(0.25, window, mode);
@@ -71,8 +54,8 @@ void expectInterfaceKept(const TestMesh& mesh, int n, Mode mode) {
       EXPECT_GE(left.size(), 4u);
       for (const Place& p : left) EXPECT_NEAR(p[2], n, 0.25);
       for (int64_t label : {3, 8})
-        EXPECT_NEAR(volumeOf(result.out.mesh, label), volumeOf(mesh, label),
-                    1e-2 * volumeOf(mesh, label));
+        EXPECT_NEAR(regionVolume(result.out.mesh, label), regionVolume(mesh, label),
+                    1e-2 * regionVolume(mesh, label));
       EXPECT_NE(result.report.regions.find("material"), std::string::npos);
       EXPECT_GT(result.report.collapses, 20);
       std::set<int64_t> labels;
@@ -171,8 +154,8 @@ TEST(SimplifierRegions, GrowNoSpikes) {
     EXPECT_LE(result.report.cells_out, result.report.target_cells);
     EXPECT_LE(farthest(interfaceOf(result.out.mesh), before), 2.5);
     for (int64_t label : {0, 1})
-      EXPECT_NEAR(volumeOf(result.out.mesh, label), volumeOf(mesh, label),
-                  2e-3 * volumeOf(mesh, label));
+      EXPECT_NEAR(regionVolume(result.out.mesh, label), regionVolume(mesh, label),
+                  2e-3 * regionVolume(mesh, label));
   }
 }
 

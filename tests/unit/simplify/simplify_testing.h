@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <cmath>
 
 #include <array>
 
@@ -86,6 +87,24 @@ std::pair<Status, std::string> thrownBy(Action action) {
     return {error.status(), error.text()};
   }
   return {Status::kOk, ""};
+}
+
+// Of the cells with this label in the first array of cell data.
+inline double regionVolume(const TestMesh& mesh, int64_t label) {
+  double volume = 0;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) {
+    if (mesh.cellInteger(0, c) != label) continue;
+    double e[3][3];
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t i = 0; i < 3; ++i)
+        e[k][i] = mesh.position(static_cast<size_t>(mesh.cells[4 * c + k + 1]), i) -
+                  mesh.position(static_cast<size_t>(mesh.cells[4 * c]), i);
+    volume += std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                        e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                        e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+              6;
+  }
+  return volume;
 }
 
 }  // namespace tetstream::test
