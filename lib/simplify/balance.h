@@ -14,6 +14,7 @@
 // and no cell of the output is small enough for it.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace tetstream {
