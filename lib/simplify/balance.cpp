@@ -125,11 +125,10 @@ static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
   if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(kNegligible)) return;
   double least = now.product(), asked = 0;
   Balance next = *balance;
-  const auto isLeast = [&] {
-    const bool of_all = weight == &Balance::outer;
-    return (of_all ? next.outer : next.outer * next.interfaces) <= kLeastBalance;
-  };
-  while (!isLeast()) {
+  // Interfaces fall with the boundary: those that are rough may fall as far as they like.
+  const double interfaces = balance->rough_interfaces ? 1 : balance->interfaces;
+  const double besides = weight == &Balance::outer ? interfaces : balance->outer;
+  while (besides * next.*weight > kLeastBalance) {
     next.*weight /= 2;
     asked += kWorth;
     const double product = model.foretell(next, ratio, sheet).product() + asked;
@@ -139,11 +138,11 @@ static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
   }
 }
 
-// Of interfaces that are rough: a fortieth of what the boundary counts. With 4 times as much and
-// a tenth of it fields are as close within a fifth; distances are a tenth of the edges left.
+// Of interfaces that are rough: a fortieth of what the boundary counts. From 1/512 to 1/32768 the
+// errors of fields at 0.1 are alike within a quarter; distances are a tenth of the edges left.
 constexpr double kRoughBalance = 1.0 / 2048;
 
-// By more than half of the samples. Fields without errors would gain nothing.
+// By half of the samples or more. Fields without errors would gain nothing.
 static bool areRough(const RemovalCosts& costs) {
   if (costs.plain_interfaces < kLeastPlain || 2 * costs.rough_interfaces < costs.plain_interfaces)
     return false;

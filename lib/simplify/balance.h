@@ -48,9 +48,8 @@ struct RemovalCosts {
 // Chooses what is not known of sheets, where they and the inside have enough vertices and samples,
 // for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
 // vertices too many are edges and corners, and where none is inside nothing starves.
-// Whether an interface is rough is told by a few.
 constexpr double kLeastVertices = 256;
-constexpr size_t kLeastPlain = 32;
+constexpr size_t kLeastPlain = 32;  // samples tell whether interfaces are rough
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);
 
 }  // namespace tetstream

@@ -2,15 +2,16 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <cmath>
 
 #include <array>
+#include <cmath>
 
 #include "mesh_facts.h"
 #include "shapes.h"
 #include "simplifier.h"
 #include "status.h"
 #include "test_mesh.h"
+#include "vector3.h"
 
 namespace tetstream::test {
 
@@ -99,10 +100,7 @@ inline double regionVolume(const TestMesh& mesh, int64_t label) {
       for (size_t i = 0; i < 3; ++i)
         e[k][i] = mesh.position(static_cast<size_t>(mesh.cells[4 * c + k + 1]), i) -
                   mesh.position(static_cast<size_t>(mesh.cells[4 * c]), i);
-    volume += std::fabs(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                        e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                        e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
-              6;
+    volume += std::fabs(determinant(e[0], e[1], e[2])) / 6;
   }
   return volume;
 }
