@@ -141,11 +141,15 @@ static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
 // Of interfaces that are rough: a fortieth of what the boundary counts. From 1/512 to 1/32768 the
 // errors of fields at 0.1 are alike within a quarter; distances are a tenth of the edges left.
 constexpr double kRoughBalance = 1.0 / 2048;
+// Of the edges, what rounding leaves of a plane is less.
+constexpr double kLeastJitter = 0.01;
 
-// By half of the samples or more. Fields without errors would gain nothing.
+// What bends lies off its neighbours' mean to the same side as its neighbours do of theirs; of what
+// is off by chance they lie on the other side. Fields without errors would gain nothing.
 static bool areRough(const RemovalCosts& costs) {
-  if (costs.plain_interfaces < kLeastPlain || 2 * costs.rough_interfaces < costs.plain_interfaces)
-    return false;
+  const RemovalCosts::Jitter& jitter = costs.jitter;
+  if (jitter.pairs < kLeastPairs || !(jitter.product < 0)) return false;
+  if (jitter.square < kLeastJitter * kLeastJitter * jitter.edges) return false;
   double field = 0;
   for (const Removal& r : costs.interfaces.sample) field += r.field;
   const auto sampled = static_cast<double>(costs.interfaces.sample.size());

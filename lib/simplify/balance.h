@@ -9,9 +9,9 @@
 //   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that
 //   s = (t / c)^(1/7) or (t / c)^(1/6), where that is more than 1; t is what leaves the ratio of
 //   vertices that is asked for. Errors are the sums of what was added for those that are left.
-// Interfaces that are rough everywhere, as where cells have the label of the side that their
-// centres lie on, are another matter: what bends there is noise of the size of the input's cells,
-// and no cell of the output is small enough for it.
+// Interfaces that are rough, as where cells have the label of the side that their centres lie on,
+// or where all vertices were moved by chance, are another matter: what bends there is noise of the
+// size of the input's cells, and no cell of the output is small enough for it.
 #pragma once
 
 #include <cstddef>
@@ -39,9 +39,13 @@ struct RemovalCosts {
     double vertices = 0;  // that it stands for
   };
   Group inside, outer, interfaces;
-  // Samples of the interface between two regions, and those of them where the area of its faces is
-  // well above that of their projection along their mean normal.
-  size_t plain_interfaces = 0, rough_interfaces = 0;
+  // Of neighbours on the interface between two regions: how far each lies off the mean of those
+  // round it, along the normal. Sums of the squares, of the products, and of the squared edges.
+  struct Jitter {
+    size_t pairs = 0;
+    double square = 0, product = 0, edges = 0;
+  };
+  Jitter jitter;
   double least_field = 0;  // error of the fields, of all, that counts as none
 };
 
@@ -49,7 +53,7 @@ struct RemovalCosts {
 // for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
 // vertices too many are edges and corners, and where none is inside nothing starves.
 constexpr double kLeastVertices = 256;
-constexpr size_t kLeastPlain = 32;  // samples tell whether interfaces are rough
+constexpr size_t kLeastPairs = 32;  // tell whether interfaces are rough
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);
 
 }  // namespace tetstream

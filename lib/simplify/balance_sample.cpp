@@ -7,11 +7,6 @@
 
 namespace tetstream {
 
-// Of the faces' area, what they cover in the plane across their mean normal. Of interfaces that
-// were meshed as such nearly all vertices are above it, edges and corners of them apart; of labels
-// by the cells' centres nine of ten are below, of organs in a scanned brain three of ten.
-constexpr double kCoherent = 0.9;
-
 template <class S>
 BalanceSample<S>::BalanceSample(Core<S>& core)
     : core_(core),
@@ -88,23 +83,68 @@ void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, Sh
 }
 
 template <class S>
-void BalanceSample<S>::addRoughness(uint32_t v, const std::vector<Face>& faces) {
-  double x[3], sum[3] = {0, 0, 0}, area = 0;
+typename BalanceSample<S>::Bend BalanceSample<S>::bendAt(uint32_t v,
+                                                         const std::vector<Face>& faces) {
+  const auto scale = static_cast<double>(core_.scale[0]);
+  Bend bend;
+  double x[3], sum[3] = {0, 0, 0}, around[3] = {0, 0, 0};
   positionOf(core_.window, v, x);
+  others_.clear();
   for (const Face& face : faces) {
     double a[3], b[3], normal[3];
     positionOf(core_.window, face.a, a);
     positionOf(core_.window, face.b, b);
     for (size_t i = 0; i < 3; ++i) {
-      a[i] = (a[i] - x[i]) * static_cast<double>(core_.scale[0]);
-      b[i] = (b[i] - x[i]) * static_cast<double>(core_.scale[0]);
+      a[i] = (a[i] - x[i]) * scale;
+      b[i] = (b[i] - x[i]) * scale;
     }
     cross(a, b, normal);
-    for (size_t i = 0; i < 3; ++i) sum[i] += normal[i];
-    area += std::sqrt(dot(normal, normal));
+    for (size_t i = 0; i < 3; ++i) {
+      sum[i] += normal[i];
+      around[i] += (a[i] + b[i]) / 2;
+    }
+    bend.edges += (dot(a, a) + dot(b, b)) / 2;
+    others_.insert(others_.end(), {face.a, face.b});
   }
-  ++costs_.plain_interfaces;
-  costs_.rough_interfaces += std::sqrt(dot(sum, sum)) < kCoherent * area;
+  keepUnique();
+  const auto count = static_cast<double>(faces.size());
+  const double length = std::sqrt(dot(sum, sum));
+  bend.is_closed = others_.size() == faces.size() && length > 0;
+  if (!bend.is_closed) return bend;
+  for (size_t i = 0; i < 3; ++i) bend.normal[i] = sum[i] / length;
+  bend.height = dot(around, bend.normal) / count;
+  bend.edges /= count;
+  return bend;
+}
+
+template <class S>
+void BalanceSample<S>::addBend(uint32_t v, const std::vector<Face>& faces) {
+  const Bend bend = bendAt(v, faces);
+  if (bend.is_closed) pairs_.push_back({others_.front(), bend});
+}
+
+template <class S>
+std::vector<uint32_t> BalanceSample<S>::partners() {
+  others_.clear();
+  for (const Pair& pair : pairs_) others_.push_back(pair.partner);
+  keepUnique();
+  return others_;
+}
+
+// Faces are turned to the same side as at the others.
+template <class S>
+void BalanceSample<S>::addPartner(uint32_t v, const std::vector<Face>& faces) {
+  const Bend bend = bendAt(v, faces);
+  if (!bend.is_closed) return;
+  for (const Pair& pair : pairs_) {
+    if (pair.partner != v) continue;
+    const double turned = dot(bend.normal, pair.bend.normal) < 0 ? -1 : 1;
+    RemovalCosts::Jitter& jitter = costs_.jitter;
+    ++jitter.pairs;
+    jitter.square += (bend.height * bend.height + pair.bend.height * pair.bend.height) / 2;
+    jitter.product += turned * bend.height * pair.bend.height;
+    jitter.edges += (bend.edges + pair.bend.edges) / 2;
+  }
 }
 
 template class BalanceSample<float>;

@@ -23,8 +23,11 @@ class BalanceSample {
   // none.
   void addInside(uint32_t v, const Star& star);
   void addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind);
-  // Of an interface between two regions, all seen from the same one.
-  void addRoughness(uint32_t v, const std::vector<Face>& faces);
+  // Of an interface between two regions.
+  void addBend(uint32_t v, const std::vector<Face>& faces);
+  // A neighbour of each of these on the interface, each once; then the faces there.
+  std::vector<uint32_t> partners();
+  void addPartner(uint32_t v, const std::vector<Face>& faces);
 
   RemovalCosts& costs() { return costs_; }
 
@@ -40,12 +43,26 @@ class BalanceSample {
   static double third(std::vector<double>& costs);
   void keepUnique();
 
+  // Of the faces at a vertex of an interface, in normalised units.
+  struct Bend {
+    double normal[3] = {0, 0, 0};  // their mean, of length 1
+    double height = 0;             // that the mean of the vertices round it has above it
+    double edges = 0;              // mean square of the edges to them
+    bool is_closed = false;        // no edge of the interface
+  };
+  Bend bendAt(uint32_t v, const std::vector<Face>& faces);
+  struct Pair {
+    uint32_t partner;
+    Bend bend;
+  };
+
   Core<S>& core_;
   RemovalCosts costs_;
   std::vector<S> sheet_, nowhere_, difference_;
   const std::vector<S> nothing_;
   std::vector<uint32_t> others_;
   std::vector<double> field_costs_, sheet_costs_;
+  std::vector<Pair> pairs_;
 };
 
 }  // namespace tetstream

@@ -392,7 +392,7 @@ void Resolver<S>::balance() {
     return static_cast<double>(group.of) < kLeastVertices;
   };
   const bool is_enough = !isFew(sampled_[2]) && !(isFew(sampled_[0]) && isFew(sampled_[1]));
-  if (!is_enough && sampled_[1].of < kLeastPlain) return;
+  if (!is_enough && sampled_[1].of < kLeastPairs) return;
   BalanceSample<S> sample(core_);
   RemovalCosts& costs = sample.costs();
   costs.outer.vertices = static_cast<double>(sampled_[0].of);
@@ -451,6 +451,22 @@ bool Resolver<S>::listSheet(SheetFace kind, std::vector<SampledFace>& faces) {
 template <class S>
 void Resolver<S>::sampleSheet(const std::vector<uint32_t>& vertices, SheetFace kind,
                               BalanceSample<S>& sample) {
+  forSheetsOf(vertices, kind,
+              [&](uint32_t v, const std::vector<SampledFace>& faces, bool is_plain) {
+                sample.addOnSheet(v, faces, kind);
+                if (kind == SheetFace::kInterface && is_plain) sample.addBend(v, faces);
+              });
+  if (kind != SheetFace::kInterface) return;
+  forSheetsOf(sample.partners(), kind,
+              [&](uint32_t v, const std::vector<SampledFace>& faces, bool is_plain) {
+                if (is_plain) sample.addPartner(v, faces);
+              });
+}
+
+// visit(v, faces, is_plain) for those whose sheet has nothing yet of what its quadrics will have.
+template <class S>
+template <class Visit>
+void Resolver<S>::forSheetsOf(const std::vector<uint32_t>& vertices, SheetFace kind, Visit visit) {
   const Topology& mesh = core_.window.mesh;
   std::vector<SampledFace> faces;
   forStarsOf(vertices, [&](uint32_t v) {
@@ -459,8 +475,7 @@ void Resolver<S>::sampleSheet(const std::vector<uint32_t>& vertices, SheetFace k
       return (mesh.vertexFlags(face.a) | mesh.vertexFlags(face.b)) & kResolved;
     };
     if (faces.empty() || std::any_of(faces.begin(), faces.end(), is_told)) return;
-    sample.addOnSheet(v, faces, kind);
-    if (kind == SheetFace::kInterface && is_plain) sample.addRoughness(v, faces);
+    visit(v, faces, is_plain);
   });
 }
 

@@ -84,6 +84,8 @@ class Resolver {
   using SampledFace = typename BalanceSample<S>::Face;
   bool listSheet(SheetFace kind, std::vector<SampledFace>& faces);
   void sampleSheet(const std::vector<uint32_t>& vertices, SheetFace kind, BalanceSample<S>& sample);
+  template <class Visit>
+  void forSheetsOf(const std::vector<uint32_t>& vertices, SheetFace kind, Visit visit);
   void addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind, const int64_t* label);
   const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
   void lockFold(uint32_t a, uint32_t b);

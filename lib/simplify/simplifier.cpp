@@ -377,7 +377,7 @@ class WindowedEngine final : public Simplifier::Engine {
       text +=
           textOf(b.outer < 1 ? ", interfaces 1/%.0f" : "interfaces count 1/%.0f of their weight",
                  1 / interfaces);
-    if (interfaces < 1 && b.rough_interfaces) text += ", being rough as single cells";
+    if (interfaces < 1 && b.rough_interfaces) text += ", being rough from vertex to vertex";
     return text.empty() ? text : text + ": more would leave the fields too little";
   }
 

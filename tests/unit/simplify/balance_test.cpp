@@ -62,28 +62,30 @@ TEST(Balance, ComesToAnEndWithoutFieldErrors) {
   EXPECT_EQ(chosen({}, 0.1).outer, 1);
 }
 
-RemovalCosts roughCosts(size_t plain, size_t rough, double field) {
+// Of which every vertex lies off its neighbours' mean by a part of an edge, and its neighbours to
+// the same side or to the other, from 1 to -1.
+RemovalCosts bentCosts(size_t pairs, double part, double same_side, double field) {
   RemovalCosts costs;
-  costs.interfaces = {std::vector<Removal>(plain, {field, 1}), 100};
-  costs.plain_interfaces = plain;
-  costs.rough_interfaces = rough;
+  costs.interfaces = {std::vector<Removal>(pairs, {field, 1}), 100};
+  const double square = part * part * static_cast<double>(pairs);
+  costs.jitter = {pairs, square, same_side * square, static_cast<double>(pairs)};
   costs.least_field = 1e-3;
   return costs;
 }
 
 // By few of them, and without knowing anything of the rest.
 TEST(Balance, LowersInterfacesThatAreRough) {
-  const Balance balance = chosen(roughCosts(kLeastPlain, kLeastPlain / 2, 1), 0.1);
+  const Balance balance = chosen(bentCosts(kLeastPairs, 0.05, -0.1, 1), 0.1);
   EXPECT_TRUE(balance.knows_interfaces);
   EXPECT_TRUE(balance.rough_interfaces);
   EXPECT_LT(balance.interfaces, 0.01);
   EXPECT_FALSE(balance.knows_outer);
 }
 
-TEST(Balance, LeavesInterfacesThatAreSmoothOrFewOrCostFieldsNothing) {
+TEST(Balance, LeavesInterfacesThatAreSmoothOrPlaneOrFewOrCostFieldsNothing) {
   for (const RemovalCosts& costs :
-       {roughCosts(kLeastPlain, kLeastPlain / 2 - 1, 1), roughCosts(kLeastPlain - 1, 31, 1),
-        roughCosts(kLeastPlain, kLeastPlain, 1e-6)}) {
+       {bentCosts(kLeastPairs, 0.05, 0.1, 1), bentCosts(kLeastPairs, 0.001, -0.1, 1),
+        bentCosts(kLeastPairs - 1, 0.05, -0.1, 1), bentCosts(kLeastPairs, 0.05, -0.1, 1e-6)}) {
     EXPECT_EQ(chosen(costs, 0.1).interfaces, 1);
     EXPECT_FALSE(chosen(costs, 0.1).knows_interfaces);
   }
@@ -94,7 +96,7 @@ TEST(Balance, LowersARoughBoundaryBesideRoughInterfaces) {
   RemovalCosts costs = costsOf({1e-4, 0}, 500, {1e-4, 1}, 500);
   const double alone = chosen(costs, 0.1).outer;
   costs.interfaces = {std::vector<Removal>(64, {1e-4, 1e-4}), 10};
-  costs.plain_interfaces = costs.rough_interfaces = 64;
+  costs.jitter = bentCosts(64, 0.05, -0.3, 1).jitter;
   EXPECT_LT(chosen(costs, 0.1).interfaces, 0.01);
   EXPECT_NEAR(std::log2(chosen(costs, 0.1).outer), std::log2(alone), 1.01);
 }
@@ -213,40 +215,56 @@ TEST(SimplifierBalance, IsTheSameForAnyBatches) {
 }
 
 // Cells have the label of the side of a slanted plane that their centres lie on, or of a plane
-// between layers of cells.
-TestMesh labelledAfterwards(int n, double slant) {
-  TestMesh mesh = fullGrid(n, n, n, 0.1);
+// between layers of cells, in a grid that is shaken by a part of an edge, and then bent.
+TestMesh labelledAfterwards(int n, double slant, double jitter, double bend = 0) {
+  const TestMesh grid = fullGrid(n, n, n, jitter);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v) {
+    const double x = grid.position(v, 0), y = grid.position(v, 1), z = grid.position(v, 2);
+    positions.insert(positions.end(), {x, y, z + bend * std::sin(6 * x / n) * std::cos(5 * y / n)});
+  }
+  TestMesh mesh = makeMesh(k64, positions, grid.cells);
   addPositionField(mesh, {"f", 1, k64}, [n](double x, double y, double z) {
     return std::sin(3 * x / n) + std::cos(2 * y / n) + 0.2 * std::sin(4 * z / n);
   });
   mesh.addIntegerCellData("material", [&](size_t c) {
     double height = 0;
     for (size_t j = 0; j < 4; ++j) {
-      const auto v = static_cast<size_t>(mesh.cells[4 * c + j]);
-      height += (mesh.position(v, 2) + slant * mesh.position(v, 0)) / 4;
+      const auto v = static_cast<size_t>(grid.cells[4 * c + j]);
+      height += (grid.position(v, 2) + slant * grid.position(v, 0)) / 4;
     }
     return height < 0.5 * (1 + slant) * n ? 3 : 8;
   });
   return mesh;
 }
 
-TEST(SimplifierBalance, SmoothsInterfacesOfLabelsGivenToCells) {
-  const TestMesh mesh = labelledAfterwards(slowRun() ? 10 : 20, 0.7);
+void expectSmoothed(const TestMesh& mesh, double error) {
   const Result with = simplified(mesh, toRatio(0.1));
   const Result without = simplified(mesh, unbalanced(toRatio(0.1)));
   expectSound(mesh, with);
   expectReached(with);
   EXPECT_NE(with.report.balance.find("being rough"), std::string::npos) << with.report.balance;
-  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], 0.8 * fieldErrors(mesh, without.out.mesh)[0]);
+  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], error * fieldErrors(mesh, without.out.mesh)[0]);
   for (int64_t label : {3, 8}) {
     const double volume = regionVolume(mesh, label);
     EXPECT_NEAR(regionVolume(with.out.mesh, label), volume, 0.01 * volume);
   }
 }
 
-TEST(SimplifierBalance, LeavesInterfacesThatWereMeshed) {
-  const Result with = simplified(labelledAfterwards(slowRun() ? 10 : 20, 0), toRatio(0.1));
-  EXPECT_EQ(with.report.balance.find("rough"), std::string::npos) << with.report.balance;
+TEST(SimplifierBalance, SmoothsInterfacesOfLabelsGivenToCells) {
+  expectSmoothed(labelledAfterwards(slowRun() ? 10 : 20, 0.7, 0.1), 0.8);
+}
+
+TEST(SimplifierBalance, SmoothsPlaneInterfacesWhoseVerticesWereShaken) {
+  expectSmoothed(labelledAfterwards(slowRun() ? 10 : 20, 0, 0.15), 0.9);
+}
+
+TEST(SimplifierBalance, LeavesInterfacesThatArePlaneOrBend) {
+  for (double bend : {0.0, 1.5}) {
+    const Result with =
+        simplified(labelledAfterwards(slowRun() ? 10 : 20, 0, 0, bend), toRatio(0.1));
+    EXPECT_EQ(with.report.balance.find("rough"), std::string::npos) << with.report.balance;
+  }
 }
 
 }  // namespace
