@@ -106,6 +106,9 @@ struct QuadricKernels {
   // The error of Q1 + Q2 at a given z.
   S(*errorAt)
   (const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n, const S* z);
+  // The fields of z, where Q1 + Q2 is least for them, go along with a step of z in space to where
+  // it is again. kFull: they stay.
+  void (*followStep)(const S* q1, const S* q2, int n, const S* step, S* z);
 };
 
 // The kernels for a layout and dimension n, built for this processor; every build gives the same

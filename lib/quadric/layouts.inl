@@ -74,5 +74,22 @@ void rescaleFields(const S* factor, S weight, int n_given, S* q) {
   q[Fields::size(n) - 1] *= weight;
 }
 
+// The derivative by component f is G_f x + W f and what is constant.
+template <class S, int N>
+void followFields(const S* q1, const S* q2, int n_given, const S* step, S* z) {
+  const int n = dimension<N>(n_given), w = Fields::weight(n);
+  const S weight = n > 3 ? q1[w] + q2[w] : S(0);
+  if (!(weight > 0)) return;
+  for (int f = 3; f < n; ++f) {
+    const S *a = q1 + Fields::gradient(f), *b = q2 + Fields::gradient(f);
+    S change = 0;
+    for (int j = 0; j < 3; ++j) change += (a[j] + b[j]) * step[j];
+    z[f] -= change / weight;
+  }
+}
+
+template <class S>
+void followNothing(const S*, const S*, int, const S*, S*) {}
+
 }  // namespace
 }  // namespace tetstream

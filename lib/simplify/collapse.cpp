@@ -61,6 +61,15 @@ bool Collapser<Mesh>::placeAt(uint32_t u, uint32_t v, S* z) {
   return gave_way;
 }
 
+// The place goes a step, normalised, and the fields with it to what is best for them there.
+template <class Mesh>
+void Collapser<Mesh>::moveBy(uint32_t u, uint32_t v, const S step[3]) {
+  for (size_t i = 0; i < 3; ++i) z_[i] += step[i];
+  core_.kernels.followStep(mesh_.quadric(u), mesh_.quadric(v), core_.plan.dimension, step,
+                           z_.data());
+  placeAt(u, v, z_.data());
+}
+
 template <class Mesh>
 StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size_t count,
                                      const ThinAngle& angle) const {
@@ -185,18 +194,26 @@ bool Collapser<Mesh>::keepCurveArea(uint32_t u, uint32_t v, const Embedded& embe
                              nextOnCurve(v, u, stars_.v, stars_.ring_from_v, embedded)};
   if (chain[0] == kNone || chain[3] == kNone) return false;
   double p[4][3], x[3];
+  S step[3];
   for (size_t i = 0; i < 3; ++i) {
     for (int k = 0; k < 4; ++k) p[k][i] = static_cast<double>(mesh_.values(chain[k])[i]);
     x[i] = static_cast<double>(merged_[i]);
   }
   if (!keepArea(p[0], p[1], p[2], p[3], x)) return false;
-  for (size_t i = 0; i < 3; ++i) z_[i] += (static_cast<S>(x[i]) - merged_[i]) * core_.scale[i];
-  placeAt(u, v, z_.data());
+  for (size_t i = 0; i < 3; ++i) step[i] = (static_cast<S>(x[i]) - merged_[i]) * core_.scale[i];
+  moveBy(u, v, step);
   return true;
 }
 
+// Of a mesh without regions: whether the boundary is there to shrink or grow.
+template <class Mesh>
+bool Collapser<Mesh>::keepsBody(uint32_t u, uint32_t v) const {
+  return core_.keeps_body && (mesh_.isBoundary(u) || mesh_.isBoundary(v));
+}
+
 // Moves the place, by as much as it takes, to where no region of the stars grows or shrinks, or
-// side of a sheet; returns the error there, infinity where regions would take it too far.
+// side of a sheet, or the body; returns the error there. Where that is too far the body changes,
+// but of regions nothing may: infinity.
 template <class Mesh>
 auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels,
                                   const SheetSides* sides) -> S {
@@ -206,9 +223,12 @@ auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labe
   volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
                    labels, sides);
   double step[3];
-  if (!volumes_.step(step) && labels.count > 0) return std::numeric_limits<S>::infinity();
-  for (size_t i = 0; i < 3; ++i) z_[i] += static_cast<S>(step[i]) * core_.scale[i];
-  placeAt(u, v, z_.data());
+  const bool is_near = volumes_.step(step);
+  if (!is_near && labels.count > 0) return std::numeric_limits<S>::infinity();
+  if (!is_near && !sides) return S(0);
+  S scaled[3];
+  for (size_t i = 0; i < 3; ++i) scaled[i] = static_cast<S>(step[i]) * core_.scale[i];
+  moveBy(u, v, scaled);
   return errorHere(u, v);
 }
 
@@ -238,26 +258,27 @@ bool Collapser<Mesh>::putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on
     }
     if (!(off <= kOnEdge * kOnEdge * square)) return false;
   }
-  for (size_t i = 0; i < 3; ++i) z_[i] = static_cast<S>(t * along[i]);
-  placeAt(u, v, z_.data());
+  S step[3];
+  for (size_t i = 0; i < 3; ++i) step[i] = static_cast<S>(t * along[i]) - z_[i];
+  moveBy(u, v, step);
   if (u_on_it != v_on_it) std::copy_n(mesh_.values(v_on_it ? v : u), 3, merged_.data());
   return true;
 }
 
 // The place that sheets and curves want; returns the error there, 0 where it is the one at hand.
 template <class Mesh>
-auto Collapser<Mesh>::adjust(const Strata& strata) -> S {
-  const uint32_t u = strata.u.vertex, v = strata.v.vertex;
+auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Strata& strata) -> S {
   const bool u_on_it = strata.u.stratum == Stratum::kCurve;
   const bool v_on_it = strata.v.stratum == Stratum::kCurve;
   if (core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it))
     return errorHere(u, v);
   const CellLabels& labels = strata.embedded.labels;
-  if (!core_.inner_sheets) return labels.count > 0 ? keepVolumes(u, v, labels, nullptr) : S(0);
+  const bool has_volumes = labels.count > 0 || keepsBody(u, v);
+  if (!core_.inner_sheets) return has_volumes ? keepVolumes(u, v, labels, nullptr) : S(0);
   const bool moved = u_on_it && v_on_it && keepCurveArea(u, v, strata.embedded);
   const bool is_cut =
       !(labelled_.u.empty() && labelled_.v.empty()) && sides_.find(stars_, labels, labelled_) > 1;
-  if (is_cut || labels.count > 0) return keepVolumes(u, v, labels, is_cut ? &sides_ : nullptr);
+  if (is_cut || has_volumes) return keepVolumes(u, v, labels, is_cut ? &sides_ : nullptr);
   return moved ? errorHere(u, v) : S(0);
 }
 
@@ -313,10 +334,11 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
   const Strata strata = strataOf(u, v);
   if (strata.any() && !mayKeepStrata(strata, u_first ? v : u, ring)) return Outcome::kTopology;
-  if (strata.any() && ((mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet)) {
+  const bool on_sheet = (mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet;
+  if (on_sheet && (strata.any() || keepsBody(u, v))) {
     gather(!u_first);
     if (core_.inner_sheets) listLabelled(u, v);
-    const S moved = adjust(strata);
+    const S moved = adjust(u, v, strata);
     if (!std::isfinite(moved)) return Outcome::kTooFar;
     if (moved > kDearGrowth * *error) price_ = kThinPrice;
     if (price_ > most_price) return Outcome::kDear;

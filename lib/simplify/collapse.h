@@ -77,7 +77,7 @@ class Collapser {
   void listLabelled(uint32_t u, uint32_t v);
   bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, float most_price);
-  S adjust(const Strata& strata);
+  S adjust(uint32_t u, uint32_t v, const Strata& strata);
   bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
   S errorHere(uint32_t u, uint32_t v) const;
   uint32_t nextOnCurve(uint32_t v, uint32_t before, const Star& star, const Star& ring,
@@ -90,6 +90,8 @@ class Collapser {
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
   bool placeAt(uint32_t u, uint32_t v, S* z);
+  void moveBy(uint32_t u, uint32_t v, const S step[3]);
+  bool keepsBody(uint32_t u, uint32_t v) const;
   StarShape shapeFrom(const S* place, const StarCell* cells, size_t count,
                       const ThinAngle& angle) const;
   // Whether its thin cells may cost a collapse more than that.

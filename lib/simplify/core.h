@@ -110,7 +110,8 @@ struct Core {
                      : followsPaper(the_options.mode) ? kShapeWeightPaper
                                                       : kShapeWeight),
         thin(0),
-        exact_curves(the_options.feature_angle > 0) {}
+        exact_curves(the_options.feature_angle > 0),
+        keeps_body(!followsPaper(the_options.mode)) {}
 
   static WindowShape shapeOf(const Plan& plan) {
     return {plan.values,       quadricSize(plan.layout, plan.dimension),
@@ -233,6 +234,7 @@ struct Core {
   Tally tally;                    // of the whole; parts that are not added yet have their own
   double rescaled = 1;            // what errors of the last window count in today's units
   bool exact_curves;              // there are curves that the user wants to stay where they are
+  bool keeps_body;                // the volume in the boundary, where there are no regions
   bool interfaces = false;        // met any: labels that are all the same cost nothing
   bool inner_sheets = false;      // met labelled faces with cells of one region on both sides
   std::vector<int> region_picks;  // columns of the cell picks that label regions

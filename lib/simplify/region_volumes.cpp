@@ -1,5 +1,6 @@
 #include "region_volumes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "vector3.h"
@@ -72,26 +73,36 @@ void RegionVolumes::close(const double ends[2][3]) {
     }
 }
 
-// Least squares: sum of g g^T times the step is minus the sum of g times the change.
+// In units of the edge: gradients whose square is less are rounding, as at the tip of a crack,
+// whose two faces cancel.
+constexpr double kNoGradient = 1e-20;
+
+// Least squares, in units of the edge: sum of g g^T times the step is minus the sum of g times the
+// change.
 bool RegionVolumes::step(double out[3]) const {
   double m[3][3] = {}, right[3] = {}, largest = 0;
-  for (const Change& c : changes_)
+  for (int i = 0; i < 3; ++i) out[i] = 0;
+  const double unit = std::max({std::fabs(edge_[0]), std::fabs(edge_[1]), std::fabs(edge_[2])});
+  if (!(unit > 0)) return true;
+  for (const Change& c : changes_) {
+    const double change = c.volume / unit / unit / unit;
+    double g[3];
+    for (int i = 0; i < 3; ++i) g[i] = c.gradient[i] / unit / unit;
+    if (!(dot(g, g) > kNoGradient)) continue;
     for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) m[i][j] += c.gradient[i] * c.gradient[j];
-      right[i] -= c.gradient[i] * c.volume;
+      for (int j = 0; j < 3; ++j) m[i][j] += g[i] * g[j];
+      right[i] -= g[i] * change;
     }
-  for (int i = 0; i < 3; ++i) largest += m[i][i];
-  for (int i = 0; i < 3; ++i) {
-    out[i] = 0;
-    m[i][i] += kRegular * largest;
   }
+  for (int i = 0; i < 3; ++i) largest += m[i][i];
+  for (int i = 0; i < 3; ++i) m[i][i] += kRegular * largest;
   const double whole = determinant(m[0], m[1], m[2]);
   if (!(std::fabs(whole) > 0)) return true;
   for (int k = 0; k < 3; ++k) {
     double swapped[3][3];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) swapped[j][i] = j == k ? right[i] : m[i][j];
-    out[k] = determinant(swapped[0], swapped[1], swapped[2]) / whole;
+    out[k] = determinant(swapped[0], swapped[1], swapped[2]) / whole * unit;
   }
   return dot(out, out) <= dot(edge_, edge_);
 }

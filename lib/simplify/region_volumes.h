@@ -1,4 +1,5 @@
-// simplify: places that keep the volumes of regions, or of the sides of sheets. Depends on mesh.
+// simplify: places that keep the volumes of regions, of the sides of sheets, or of the body.
+// Depends on mesh.
 #pragma once
 
 #include <vector>

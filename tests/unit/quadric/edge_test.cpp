@@ -171,6 +171,35 @@ TEST(SolvedEdge, IsNotBeatenNearby) {
       }
 }
 
+// After a step in space no other values of the fields are better; full quadrics leave them.
+TEST(SolvedEdge, HasFieldsThatFollowAStep) {
+  Random r(18);
+  for (QuadricLayout layout : kLayouts)
+    for (int n : {3, 4, 6, 8, 11})
+      for (int round = 0; round < (slowRun() ? 3 : 50); ++round) {
+        const auto size = static_cast<size_t>(n);
+        Edge<double> e(r, layout, size, 0.1, size);
+        e.solveDirectly();
+        const Vector before = e.z, step = randomVector(r, 3, 1);
+        for (size_t i = 0; i < 3; ++i) e.z[i] += step[i];
+        quadricKernels<double>(layout, n).followStep(e.q1.data(), e.q2.data(), n, step.data(),
+                                                     e.z.data());
+        for (size_t i = 0; i < 3; ++i) EXPECT_EQ(e.z[i], before[i] + step[i]);
+        for (size_t f = 3; f < size; ++f) {
+          if (layout == QuadricLayout::kFull) {
+            EXPECT_EQ(e.z[f], before[f]);
+            continue;
+          }
+          const double error = e.errorAt(e.z);
+          for (double change : {-0.01, 0.01}) {
+            Vector other = e.z;
+            other[f] += change;
+            EXPECT_GT(e.errorAt(other), error) << "n = " << n;
+          }
+        }
+      }
+}
+
 // What no quadric determines stays at the midpoint; equal quadrics, or none, give it too.
 TEST(SolvedEdge, StaysAtTheMidpointWhereNothingDeterminesIt) {
   Random r(17);

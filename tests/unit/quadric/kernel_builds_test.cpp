@@ -48,6 +48,9 @@ void expectSameBits(const QuadricKernels<S>& a, const QuadricKernels<S>& b, Quad
   };
   EXPECT_EQ(solved(a, z1), solved(b, z2));
   EXPECT_EQ(0, std::memcmp(z1.data(), z2.data(), bytes(z1)));
+  a.followStep(e.q1.data(), e.q2.data(), n, e.x1.data(), z1.data());
+  b.followStep(e.q1.data(), e.q2.data(), n, e.x1.data(), z2.data());
+  EXPECT_EQ(0, std::memcmp(z1.data(), z2.data(), bytes(z1)));
   if (n > 20) return;
   const Table<S> table(r, layout, n, 12);
   const uint32_t others[11] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
