@@ -109,6 +109,8 @@ struct QuadricKernels {
   // The fields of z, where Q1 + Q2 is least for them, go along with a step of z in space to where
   // it is again. kFull: they stay.
   void (*followStep)(const S* q1, const S* q2, int n, const S* step, S* z);
+  // What of Q1 + Q2 is left in space where the fields follow: the lower triangle by rows.
+  void (*spaceForm)(const S* q1, const S* q2, int n, S* form);
 };
 
 // The kernels for a layout and dimension n, built for this processor; every build gives the same

@@ -10,16 +10,16 @@ namespace tetstream {
 namespace {
 
 template <class S, int N>
-constexpr QuadricKernels<S> kFieldKernels = {addCellField<S, N>,         addCellFields<S, N>,
-                                             addFacePlane<S, N>,         rescaleFields<S, N>,
-                                             minimizeEdge<Fields, S, N>, solveEdge<Fields, S, N>,
-                                             solveEdges<Fields, S, N>,   edgeErrors<Fields, S, N>,
-                                             errorAt<Fields, S, N>,      followFields<S, N>};
+constexpr QuadricKernels<S> kFieldKernels = {
+    addCellField<S, N>,       addCellFields<S, N>,        addFacePlane<S, N>,
+    rescaleFields<S, N>,      minimizeEdge<Fields, S, N>, solveEdge<Fields, S, N>,
+    solveEdges<Fields, S, N>, edgeErrors<Fields, S, N>,   errorAt<Fields, S, N>,
+    followFields<S, N>,       spaceOfFields<S, N>};
 template <class S, int N>
 constexpr QuadricKernels<S> kFullKernels = {
     addCellDistance<S, N>,    addNoCells<S>,         addFaceDistance<S, N>,  rescaleFull<S, N>,
     minimizeEdge<Full, S, N>, solveEdge<Full, S, N>, solveEdges<Full, S, N>, edgeErrors<Full, S, N>,
-    errorAt<Full, S, N>,      followNothing<S>};
+    errorAt<Full, S, N>,      followNothing<S>,      spaceOfFull<S>};
 
 template <class S>
 const QuadricKernels<S>& fieldKernelsFor(int n) {

@@ -91,5 +91,24 @@ void followFields(const S* q1, const S* q2, int n_given, const S* step, S* z) {
 template <class S>
 void followNothing(const S*, const S*, int, const S*, S*) {}
 
+template <class S>
+void spaceOfFull(const S* q1, const S* q2, int, S* form) {
+  for (int k = 0; k < at(3, 0); ++k) form[k] = q1[k] + q2[k];
+}
+
+// C less the sum of G_f G_f^T / W.
+template <class S, int N>
+void spaceOfFields(const S* q1, const S* q2, int n_given, S* form) {
+  const int n = dimension<N>(n_given), w = Fields::weight(n);
+  spaceOfFull(q1, q2, n, form);
+  const S weight = n > 3 ? q1[w] + q2[w] : S(0);
+  if (!(weight > 0)) return;
+  for (int f = 3; f < n; ++f) {
+    const S *a = q1 + Fields::gradient(f), *b = q2 + Fields::gradient(f);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) form[at(i, j)] -= (a[i] + b[i]) * (a[j] + b[j]) / weight;
+  }
+}
+
 }  // namespace
 }  // namespace tetstream

@@ -205,12 +205,6 @@ bool Collapser<Mesh>::keepCurveArea(uint32_t u, uint32_t v, const Embedded& embe
   return true;
 }
 
-// Of a mesh without regions: whether the boundary is there to shrink or grow.
-template <class Mesh>
-bool Collapser<Mesh>::keepsBody(uint32_t u, uint32_t v) const {
-  return core_.keeps_body && (mesh_.isBoundary(u) || mesh_.isBoundary(v));
-}
-
 // Moves the place, by as much as it takes, to where no region of the stars grows or shrinks, or
 // side of a sheet, or the body; returns the error there. Where that is too far the body changes,
 // but of regions nothing may: infinity.
@@ -222,8 +216,11 @@ auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labe
                        static_cast<double>(merged_[2])};
   volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
                    labels, sides);
-  double step[3];
-  const bool is_near = volumes_.step(step);
+  double step[3], form[6];
+  S cost[6];
+  core_.kernels.spaceForm(mesh_.quadric(u), mesh_.quadric(v), core_.plan.dimension, cost);
+  std::copy_n(cost, 6, form);
+  const bool is_near = volumes_.step(form, step);
   if (!is_near && labels.count > 0) return std::numeric_limits<S>::infinity();
   if (!is_near && !sides) return S(0);
   S scaled[3];

@@ -91,7 +91,10 @@ class Collapser {
   bool passesLimit(uint32_t u, uint32_t v, S error);
   bool placeAt(uint32_t u, uint32_t v, S* z);
   void moveBy(uint32_t u, uint32_t v, const S step[3]);
-  bool keepsBody(uint32_t u, uint32_t v) const;
+  // Of a mesh without regions: whether the boundary is there to shrink or grow.
+  bool keepsBody(uint32_t u, uint32_t v) const {
+    return core_.keeps_body && (mesh_.isBoundary(u) || mesh_.isBoundary(v));
+  }
   StarShape shapeFrom(const S* place, const StarCell* cells, size_t count,
                       const ThinAngle& angle) const;
   // Whether its thin cells may cost a collapse more than that.

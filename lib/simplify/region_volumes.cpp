@@ -7,8 +7,11 @@
 
 namespace tetstream {
 
-// Of the largest gradient, squared: what the sheets do not determine stays as it is.
-constexpr double kRegular = 1e-4;
+// Of the largest gradient, squared: what a step of the edge's length may cost, so that what the
+// sheets do not determine stays as it is; and of that, what it costs in every direction.
+constexpr double kRegular = 1e-4, kSame = 0.01;
+// Than the least step: the cheapest would run far along a sheet that is nearly plane.
+constexpr double kLonger = 1.5;
 
 // `likely`: the region of the cell before.
 inline size_t RegionVolumes::of(const int64_t* row, const CellLabels& labels, size_t likely) {
@@ -77,34 +80,67 @@ void RegionVolumes::close(const double ends[2][3]) {
 // whose two faces cancel.
 constexpr double kNoGradient = 1e-20;
 
-// Least squares, in units of the edge: sum of g g^T times the step is minus the sum of g times the
+// Least squares: the sum of g g^T and what a step costs, times it, is minus the sum of g times the
 // change.
-bool RegionVolumes::step(double out[3]) const {
-  double m[3][3] = {}, right[3] = {}, largest = 0;
-  for (int i = 0; i < 3; ++i) out[i] = 0;
-  const double unit = std::max({std::fabs(edge_[0]), std::fabs(edge_[1]), std::fabs(edge_[2])});
-  if (!(unit > 0)) return true;
-  for (const Change& c : changes_) {
-    const double change = c.volume / unit / unit / unit;
-    double g[3];
-    for (int i = 0; i < 3; ++i) g[i] = c.gradient[i] / unit / unit;
-    if (!(dot(g, g) > kNoGradient)) continue;
+struct Equations {
+  double m[3][3] = {}, right[3] = {};
+
+  void add(const double g[3], double change) {
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) m[i][j] += g[i] * g[j];
       right[i] -= g[i] * change;
     }
   }
-  for (int i = 0; i < 3; ++i) largest += m[i][i];
-  for (int i = 0; i < 3; ++i) m[i][i] += kRegular * largest;
-  const double whole = determinant(m[0], m[1], m[2]);
-  if (!(std::fabs(whole) > 0)) return true;
-  for (int k = 0; k < 3; ++k) {
-    double swapped[3][3];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) swapped[j][i] = j == k ? right[i] : m[i][j];
-    out[k] = determinant(swapped[0], swapped[1], swapped[2]) / whole * unit;
+  double trace() const { return m[0][0] + m[1][1] + m[2][2]; }
+  // With `same` for every direction and `share` of the form besides.
+  void cost(double same, double share, const double form[6]) {
+    for (int i = 0; i < 3; ++i) {
+      m[i][i] += same;
+      for (int j = 0; j <= i; ++j) {
+        const double part = share * form[i * (i + 1) / 2 + j];
+        m[i][j] += part;
+        if (j < i) m[j][i] += part;
+      }
+    }
   }
-  return dot(out, out) <= dot(edge_, edge_);
+  // Nothing where they do not determine it. Returns its squared length.
+  double solve(double out[3]) const {
+    const double whole = determinant(m[0], m[1], m[2]);
+    for (int k = 0; k < 3; ++k) {
+      double swapped[3][3];
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) swapped[j][i] = j == k ? right[i] : m[i][j];
+      out[k] = std::fabs(whole) > 0 ? determinant(swapped[0], swapped[1], swapped[2]) / whole : 0;
+    }
+    return dot(out, out);
+  }
+};
+
+// In units of the edge, its largest component.
+bool RegionVolumes::step(const double form[6], double out[3]) const {
+  Equations least;
+  std::fill_n(out, 3, 0.0);
+  const double unit = std::max({std::fabs(edge_[0]), std::fabs(edge_[1]), std::fabs(edge_[2])});
+  if (!(unit > 0)) return true;
+  for (const Change& c : changes_) {
+    double g[3];
+    for (int i = 0; i < 3; ++i) g[i] = c.gradient[i] / unit / unit;
+    if (dot(g, g) > kNoGradient) least.add(g, c.volume / unit / unit / unit);
+  }
+  Equations cheapest = least;
+  const double regular = kRegular * least.trace(), trace = form[0] + form[2] + form[5];
+  least.cost(regular, 0, form);
+  double length = least.solve(out), other[3];
+  if (trace > 0 && std::isfinite(trace)) {
+    cheapest.cost(kSame * regular, regular / trace, form);
+    const double square = cheapest.solve(other);
+    if (square <= kLonger * kLonger * length) {
+      std::copy_n(other, 3, out);
+      length = square;
+    }
+  }
+  for (int i = 0; i < 3; ++i) out[i] *= unit;
+  return length * unit * unit <= dot(edge_, edge_);
 }
 
 template void RegionVolumes::measure<float>(const Stars&, const uint32_t[2], const float*, size_t,

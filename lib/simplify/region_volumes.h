@@ -11,8 +11,9 @@ namespace tetstream {
 // Quadrics let closed surfaces shrink. The volume of each region round a merged vertex is a linear
 // function of its position x: of a cell (x, t0, t1, t2) the gradient is -(t1 - t0) x (t2 - t0) / 6,
 // and where cells of one region meet these cancel, so that what is left is normal to the sheets.
-// The least step that keeps all of them, or comes close to where there are more than three, is
-// added to the place that the quadrics want (after Lindstrom and Turk 1998, for surfaces).
+// The step that keeps all of them, or comes close to where there are more than three, and costs the
+// quadrics least is added to the place that they want (after Lindstrom and Turk 1998, for
+// surfaces): along the edge of a cube, and not off its faces.
 class RegionVolumes {
  public:
   // Of one region, or side: its volume's change, if the vertex were at the origin, and the gradient
@@ -28,10 +29,11 @@ class RegionVolumes {
   template <class S>
   void measure(const Stars& stars, const uint32_t ends[2], const S* values, size_t stride,
                const double x[3], const CellLabels& labels, const SheetSides* sides);
-  // From x to where the volumes are as they were. False if that is farther than the edge is long:
+  // From x to where the volumes are as they were; `form` tells what a step costs, as its lower
+  // triangle by rows. False if that is farther than the edge is long:
   // a region that has but small faces at the vertex, such as one cell, would become a spike. Its
   // error is no help against it, as small faces weigh little.
-  bool step(double out[3]) const;
+  bool step(const double form[6], double out[3]) const;
 
  private:
   size_t of(const int64_t* row, const CellLabels& labels, size_t likely);

@@ -171,33 +171,46 @@ TEST(SolvedEdge, IsNotBeatenNearby) {
       }
 }
 
-// After a step in space no other values of the fields are better; full quadrics leave them.
+// After a step in space no other values of the fields are better, and the error has grown by the
+// form of space; full quadrics leave the fields.
 TEST(SolvedEdge, HasFieldsThatFollowAStep) {
   Random r(18);
-  for (QuadricLayout layout : kLayouts)
-    for (int n : {3, 4, 6, 8, 11})
-      for (int round = 0; round < (slowRun() ? 3 : 50); ++round) {
-        const auto size = static_cast<size_t>(n);
-        Edge<double> e(r, layout, size, 0.1, size);
-        e.solveDirectly();
-        const Vector before = e.z, step = randomVector(r, 3, 1);
-        for (size_t i = 0; i < 3; ++i) e.z[i] += step[i];
-        quadricKernels<double>(layout, n).followStep(e.q1.data(), e.q2.data(), n, step.data(),
-                                                     e.z.data());
-        for (size_t i = 0; i < 3; ++i) EXPECT_EQ(e.z[i], before[i] + step[i]);
-        for (size_t f = 3; f < size; ++f) {
-          if (layout == QuadricLayout::kFull) {
-            EXPECT_EQ(e.z[f], before[f]);
-            continue;
-          }
-          const double error = e.errorAt(e.z);
-          for (double change : {-0.01, 0.01}) {
-            Vector other = e.z;
-            other[f] += change;
-            EXPECT_GT(e.errorAt(other), error) << "n = " << n;
-          }
+  for (int n : {3, 4, 6, 8, 11})
+    for (int round = 0; round < (slowRun() ? 3 : 50); ++round) {
+      const auto size = static_cast<size_t>(n);
+      Edge<double> e(r, QuadricLayout::kFields, size, 0.1, size);
+      const QuadricKernels<double>& kernels = quadricKernels<double>(e.layout, n);
+      e.minimize();
+      const double least = e.errorAt(e.z);
+      const Vector before = e.z, step = randomVector(r, 3, 1);
+      double form[6];
+      kernels.spaceForm(e.q1.data(), e.q2.data(), n, form);
+      for (size_t i = 0; i < 3; ++i) e.z[i] += step[i];
+      kernels.followStep(e.q1.data(), e.q2.data(), n, step.data(), e.z.data());
+      for (size_t i = 0; i < 3; ++i) EXPECT_EQ(e.z[i], before[i] + step[i]);
+      const double error = e.errorAt(e.z);
+      const double growth = form[0] * step[0] * step[0] + form[2] * step[1] * step[1] +
+                            form[5] * step[2] * step[2] +
+                            2 * (form[1] * step[0] * step[1] + form[3] * step[0] * step[2] +
+                                 form[4] * step[1] * step[2]);
+      EXPECT_NEAR(error - least, growth, 1e-3 * growth) << "n = " << n;
+      for (size_t f = 3; f < size; ++f)
+        for (double change : {-0.01, 0.01}) {
+          Vector other = e.z;
+          other[f] += change;
+          EXPECT_GT(e.errorAt(other), error) << "n = " << n;
         }
-      }
+    }
+}
+
+TEST(SolvedEdge, OfFullQuadricsHasFieldsThatStay) {
+  Random r(19);
+  Edge<double> e(r, QuadricLayout::kFull, 5, 0.1, 5);
+  e.solveDirectly();
+  const Vector before = e.z;
+  quadricKernels<double>(e.layout, 5)
+      .followStep(e.q1.data(), e.q2.data(), 5, e.x1.data(), e.z.data());
+  EXPECT_EQ(e.z, before);
 }
 
 // What no quadric determines stays at the midpoint; equal quadrics, or none, give it too.

@@ -51,6 +51,10 @@ void expectSameBits(const QuadricKernels<S>& a, const QuadricKernels<S>& b, Quad
   a.followStep(e.q1.data(), e.q2.data(), n, e.x1.data(), z1.data());
   b.followStep(e.q1.data(), e.q2.data(), n, e.x1.data(), z2.data());
   EXPECT_EQ(0, std::memcmp(z1.data(), z2.data(), bytes(z1)));
+  std::vector<S> form(6), other_form(6);
+  a.spaceForm(e.q1.data(), e.q2.data(), n, form.data());
+  b.spaceForm(e.q1.data(), e.q2.data(), n, other_form.data());
+  EXPECT_EQ(0, std::memcmp(form.data(), other_form.data(), bytes(form)));
   if (n > 20) return;
   const Table<S> table(r, layout, n, 12);
   const uint32_t others[11] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
