@@ -80,9 +80,11 @@ void RegionVolumes::close(const double ends[2][3]) {
 // whose two faces cancel.
 constexpr double kNoGradient = 1e-20;
 
+namespace {
+
 // Least squares: the sum of g g^T and what a step costs, times it, is minus the sum of g times the
 // change.
-struct Equations {
+struct StepEquations {
   double m[3][3] = {}, right[3] = {};
 
   void add(const double g[3], double change) {
@@ -116,9 +118,11 @@ struct Equations {
   }
 };
 
+}  // namespace
+
 // In units of the edge, its largest component.
 bool RegionVolumes::step(const double form[6], double out[3]) const {
-  Equations least;
+  StepEquations least;
   std::fill_n(out, 3, 0.0);
   const double unit = std::max({std::fabs(edge_[0]), std::fabs(edge_[1]), std::fabs(edge_[2])});
   if (!(unit > 0)) return true;
@@ -127,7 +131,7 @@ bool RegionVolumes::step(const double form[6], double out[3]) const {
     for (int i = 0; i < 3; ++i) g[i] = c.gradient[i] / unit / unit;
     if (dot(g, g) > kNoGradient) least.add(g, c.volume / unit / unit / unit);
   }
-  Equations cheapest = least;
+  StepEquations cheapest = least;
   const double regular = kRegular * least.trace(), trace = form[0] + form[2] + form[5];
   least.cost(regular, 0, form);
   double length = least.solve(out), other[3];
