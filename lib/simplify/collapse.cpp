@@ -8,8 +8,8 @@
 
 namespace tetstream {
 
-// A place that keeps the volumes of regions and has more than this times the error of the best one
-// has its price: where curves and sheets are tightly curved, the step to it may be large.
+// A place that keeps volumes and has more than this times the error of the best one has its price:
+// where curves and sheets are tightly curved, the step to it may be large.
 constexpr float kDearGrowth = 1.5f;
 // Of meshes with many cells below the smaller dear angle. With an error of one part in kFlatParts
 // of the bound an edge may be collapsed that leaves as large a share of them; each cell that it

@@ -173,7 +173,7 @@ def check_paper(build, mesh):
     rows = paper(build, "locked", "--rows", mesh)
     assert len(rows) == 12 and all(float(row["refused"]) > 0 for row in rows), rows
     rows = paper(build, "spending", "--rows", mesh)
-    assert len(rows) == 6 and rows[0]["max %"] != rows[1]["max %"], rows
+    assert len(rows) == 6 and rows[0]["RMS %"] != rows[1]["RMS %"], rows
 
 
 def check_release(build, mesh):

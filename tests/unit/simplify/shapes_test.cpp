@@ -113,8 +113,7 @@ TEST(Shapes, HaveFewerFlatCellsThanTheInput) {
       options.renews = renews;
       const Result result = simplified(mesh, options);
       EXPECT_GT(result.report.flips, 0) << flatness;
-      EXPECT_LT(shareBelow(result.out.mesh, 10),
-                (renews || slowRun() ? 0.6 : 0.4) * shareBelow(mesh, 10))
+      EXPECT_LT(shareBelow(result.out.mesh, 10), (renews ? 0.6 : 0.4) * shareBelow(mesh, 10))
           << flatness << ", made anew: " << renews;
     }
 }
