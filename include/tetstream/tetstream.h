@@ -494,7 +494,7 @@ typedef struct tetstream_report {
   int64_t front_width, front_span, front_cells; /* of the input, as it was streamed */
   int64_t collapses;
   int64_t rejected_orientation; /* a cell would have been flat or inverted */
-  int64_t rejected_link;        /* the topology would have changed */
+  int64_t rejected_link;        /* the topology would have changed, or the boundary crossed itself */
   int64_t rejected_locked;      /* a vertex was locked: interfaces, non-manifold boundary, caller */
   int64_t rejected_other;       /* non-finite results, overshoot of the target */
   int64_t locked_cells;         /* flat or folded in the input, passed on as they are */

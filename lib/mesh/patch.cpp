@@ -22,6 +22,7 @@ Patch<S>::Patch(Account& account, Window<S>& window)
       quadrics_(account),
       star_of_(account),
       lists_(account),
+      rim_(account),
       gone_(account) {}
 
 template <class T>
@@ -128,6 +129,7 @@ bool Patch<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* c
     return false;
   }
   listStars();
+  rim_listed_ = false;
   live_ = live_cells;
   return true;
 }
@@ -175,6 +177,45 @@ void Patch<S>::gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
   star.grow(counts.star);
   ring.grow(counts.ring);
   list.size = counts.star + counts.ring;
+}
+
+// Cells that are merged or flipped keep their vertices of the rim, or die.
+template <class S>
+void Patch<S>::listRim() {
+  const auto forCorners = [this](auto visit) {
+    for (uint32_t c = 0; c < cells_; ++c)
+      for (uint32_t j = 0; j < 4; ++j) {
+        const uint32_t v = vertexOf(c, j);
+        if (v >= owned_ && v != kGoneCorner && isBoundary(v)) visit(v << 16 | c);
+      }
+  };
+  rim_end_ = 0;
+  forCorners([this](uint32_t) { ++rim_end_; });
+  ensure(rim_, rim_end_);
+  forCorners([at = rim_.data()](uint32_t corner) mutable { *at++ = corner; });
+  std::sort(rim_.data(), rim_.data() + rim_end_);
+  rim_listed_ = true;
+}
+
+template <class S>
+void Patch<S>::gatherOnBoundary(uint32_t v, Star& star) {
+  star.clear();
+  if (v < owned_) {
+    const List& list = star_of_[v];
+    for (uint32_t i = 0; i < list.size; ++i) addCell(lists_[list.begin + i], v, star);
+    return;
+  }
+  if (!rim_listed_) listRim();
+  const uint32_t *const begin = rim_.data(), *const end = begin + rim_end_;
+  const uint32_t* at = std::lower_bound(begin, end, v << 16);
+  for (; at < end && *at >> 16 == v; ++at) addCell(*at & 0xffff, v, star);
+}
+
+// Where the cell still has the vertex.
+template <class S>
+void Patch<S>::addCell(uint32_t c, uint32_t v, Star& star) const {
+  for (uint32_t j = 0; j < 4; ++j)
+    if (vertexOf(c, j) == v) star.add() = starCell(4 * c + j);
 }
 
 // Lists are only ever appended; when the room is used up, those of vertices that are left move.
@@ -277,6 +318,7 @@ void Patch<S>::replace(const uint32_t* gone, uint32_t gone_count, const uint32_t
       corner_[4 * size_t{slots[i]} + j] = static_cast<uint16_t>(made[i][j]);
     list(slots[i]);
   }
+  rim_listed_ = false;
   live_ += static_cast<int64_t>(made_count) - static_cast<int64_t>(gone_count);
 }
 

@@ -87,6 +87,9 @@ class Patch {
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring);
   void merge(uint32_t u, uint32_t v, const Stars& stars);
 
+  // The cells of any vertex on the boundary; of one of the rim those that are in the patch.
+  void gatherOnBoundary(uint32_t v, Star& star);
+
   // Before cells are replaced, and again when edges were merged since: finds the slots that are of
   // use for further ones.
   void listGone();
@@ -119,6 +122,8 @@ class Patch {
   void forget();
   uint16_t* roomFor(size_t count);
   bool storeCell(uint32_t c);
+  void listRim();
+  void addCell(uint32_t c, uint32_t v, Star& star) const;
   void unlist(uint32_t c);
   void list(uint32_t c);
 
@@ -135,6 +140,9 @@ class Patch {
   Array<List> star_of_;  // of owned vertices
   Array<uint16_t> lists_;
   size_t lists_end_ = 0;
+  Array<uint32_t> rim_;  // vertices of the rim that are on the boundary, each with its cells
+  size_t rim_end_ = 0;
+  bool rim_listed_ = false;
   Array<uint16_t> gone_;  // dead cells in no list
   uint32_t gone_end_ = 0;
 };

@@ -53,7 +53,7 @@ constexpr uint8_t kOpposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}
 
 class Star {
  public:
-  explicit Star(Account& account) : cells_(account, 256) {}
+  explicit Star(Account& account, size_t room = 256) : cells_(account, room) {}
   size_t size() const { return size_; }
   const StarCell& operator[](size_t i) const { return cells_[i]; }
   const StarCell* begin() const { return cells_.data(); }

@@ -97,6 +97,7 @@ class Window {
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
     mesh.gather(v, other, star, ring);
   }
+  void gatherOnBoundary(uint32_t v, Star& star) { mesh.gather(v, kNone, star, star); }
   void merge(uint32_t u, uint32_t v, const Stars& stars) { mesh.merge(u, v, stars); }
 
   // 32 bits per vertex that no step owns: of use until the next step begins.

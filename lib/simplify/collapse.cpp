@@ -28,6 +28,7 @@ Collapser<Mesh>::Collapser(Core<S>& core, Mesh& mesh, Tally& tally, Account& acc
       thin_counts_(core, mesh, account),
       sound_(account),
       link_(account),
+      crossing_(mesh, account),
       edge_faces_(mesh, core.window.faces),
       stars_(account),
       merged_(static_cast<size_t>(core.plan.values)),
@@ -356,6 +357,8 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const StarShape both = {true, a.thin + b.thin, a.middle + b.middle, a.inner + b.inner, 0};
   if (const Outcome o = thins(u, v, most_price, both); o != Outcome::kDone) return o;
   if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
+  if ((mesh_.isBoundary(u) || mesh_.isBoundary(v)) && crossing_.find(u, v, stars_, merged_.data()))
+    return Outcome::kCrossing;
   leaves_thin_ = both.thin > 0;
   return Outcome::kDone;
 }

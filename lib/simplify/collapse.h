@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core.h"
+#include "crossing.h"
 #include "edge_faces.h"
 #include "edge_notes.h"
 #include "heirs.h"
@@ -38,11 +39,12 @@ class Collapser {
   bool errorReached() const { return core_.tally.error_reached || tally_.error_reached; }
 
   // Merges v into u at z, normalised and relative to the edge's midpoint, if the result is legal:
-  // both vertices free; topology kept; every cell round the merged vertex strictly oriented as
-  // before, decided exactly on the values as they will be written, and the share of thin ones no
-  // larger; the whole error within its limit; no fewer than `least_cells` cells left in the window.
-  // kDear, where it would have a higher price than `most_price`, in its error: more cells below the
-  // dear angles have theirs, and so has keeping the volumes of regions where that costs much.
+  // both vertices free; topology kept; the boundary not pushed through itself; every cell round the
+  // merged vertex strictly oriented as before, decided exactly on the values as they will be
+  // written, and the share of thin ones no larger; the whole error within its limit; no fewer than
+  // `least_cells` cells left in the window. kDear, where it would have a higher price than
+  // `most_price`, in its error: more cells below the dear angles have theirs, and so has keeping
+  // the volumes of regions where that costs much.
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                    float most_price = std::numeric_limits<float>::infinity());
   // Of the edge that was dear.
@@ -121,6 +123,7 @@ class Collapser {
   float price_ = 1;
   LinkCondition link_;
   StrataCondition strata_;
+  BoundaryCrossing<Mesh> crossing_;
   EdgeFaces<Mesh> edge_faces_;
   StrataCondition::Labelled labelled_;  // of the edge that is tested
   SheetSides sides_;

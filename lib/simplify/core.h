@@ -29,6 +29,7 @@ constexpr uint8_t kCallerLocked = 64;
 // Vertices that never move, by reason: what a missed target is explained with.
 struct LockedVertices {
   int64_t corners = 0, non_manifold = 0, bad_cells = 0, by_caller = 0;
+  bool any() const { return corners + non_manifold + bad_cells + by_caller > 0; }
 };
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary

@@ -401,7 +401,7 @@ class WindowedEngine final : public Simplifier::Engine {
     if (!kept.empty()) core_.report.limited_by += "; kept as they are: " + kept;
     core_.report.limited_by += textOf(
         "; refused: %lld collapses that would turn a cell over or flatten it, %lld that would "
-        "change the topology",
+        "change the topology or push the boundary through itself",
         static_cast<long long>(core_.report.rejected_orientation),
         static_cast<long long>(core_.report.rejected_link));
   }

@@ -11,6 +11,7 @@ void Tally::count(Outcome outcome) {
       ++rejected_locked;
       break;
     case Outcome::kTopology:
+    case Outcome::kCrossing:
       ++rejected_link;
       break;
     case Outcome::kThin:

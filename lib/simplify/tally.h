@@ -6,13 +6,15 @@
 
 namespace tetstream {
 
-// kOrientation: a cell would be turned over, or flat; kThin: more cells would be thin.
+// kOrientation: a cell would be turned over, or flat; kThin: more cells would be thin; kCrossing:
+// the boundary would pass through itself.
 enum class Outcome {
   kDone,
   kLocked,
   kTooMany,
   kTooFar,
   kTopology,
+  kCrossing,
   kOrientation,
   kThin,
   kDear,
@@ -22,7 +24,7 @@ enum class Outcome {
 // Whether an edge that was refused at one place may be legal at another.
 inline bool mayFitElsewhere(Outcome outcome) {
   return outcome == Outcome::kOrientation || outcome == Outcome::kThin ||
-         outcome == Outcome::kNotFinite;
+         outcome == Outcome::kCrossing || outcome == Outcome::kNotFinite;
 }
 
 // What collapses did: to the whole mesh, or to a part of the window that is worked on beside others

@@ -71,6 +71,27 @@ void Tiling<S>::markVertices(float bound) {
       for (int j = 0; j < 4; ++j) near[v[j]] = 1;
     }
   });
+  if (core_.locked.any()) spreadOverLocked();
+}
+
+// What lies round a locked vertex on the boundary beside those: a collapse must not push the
+// boundary through its faces.
+template <class S>
+void Tiling<S>::spreadOverLocked() {
+  const Topology& mesh = core_.window.mesh;
+  core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
+    const uint8_t* const flags = mesh.allVertexFlags();
+    const auto leads_on = [&](uint32_t v) {
+      constexpr uint8_t kFixed = kLocked | kBoundary;
+      return (flags[v] & kFixed) == kFixed && (parts_[0].near[v] | parts_[1].near[v]);
+    };
+    for (uint32_t c = first; c < end; ++c) {
+      const uint32_t* v = mesh.corners(c);
+      if (!mesh.isLive(c) || std::none_of(v, v + 4, leads_on)) continue;
+      for (int j = 0; j < 4; ++j)
+        if (isFreeVertex(flags[v[j]])) parts_[half].near[v[j]] = 1;
+    }
+  });
 }
 
 template <class S>

@@ -77,6 +77,7 @@ class Tiling {
 
  private:
   void markVertices(float bound);
+  void spreadOverLocked();
   size_t listVertices();
   size_t slicesOf(size_t vertices, size_t tile) const;
   void cut(size_t count, unsigned round, TileLayout layout);

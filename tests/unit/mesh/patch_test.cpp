@@ -129,6 +129,25 @@ void expectSameStar(Patch<S>& patch, Whole<S>& w, uint32_t v, uint32_t other) {
   EXPECT_EQ(trianglesOf(patch, ring), trianglesOf(w.window, w.stars.ring));
 }
 
+// Of each vertex on the boundary the cells with an owned vertex.
+template <class S>
+void expectBoundaryStars(Patch<S>& patch, Whole<S>& w) {
+  Star star(w.account), kept(w.account);
+  std::set<uint32_t> owned;
+  for (uint32_t v = 0; v < patch.ownedEnd(); ++v) owned.insert(patch.slotOf(v));
+  for (uint32_t v = 0; v < patch.vertexEnd(); ++v) {
+    if (!patch.isBoundary(v) || (patch.allFlags()[v] & kCollapsed)) continue;
+    patch.gatherOnBoundary(v, star);
+    w.window.gatherOnBoundary(patch.slotOf(v), w.stars.u);
+    kept.clear();
+    for (const StarCell& s : w.stars.u)
+      if (owned.count(patch.slotOf(v)) || owned.count(s.t[0]) || owned.count(s.t[1]) ||
+          owned.count(s.t[2]))
+        kept.add() = s;
+    EXPECT_EQ(trianglesOf(patch, star), trianglesOf(w.window, kept));
+  }
+}
+
 TEST(Patch, GathersWhatTheWindowDoes) {
   Random r(2);
   Whole<float> w(fullGrid(4, 4, 4));
@@ -200,6 +219,7 @@ TEST(Patch, MergesAsTheWindowDoes) {
       for (int k = 0; k < 15 && t.findEdge(r, &u, &v); ++k) {
         t.merge(u, v);
         expectSameStar(t.patch, t.a, u, (u + 1 + r.below(5)) % t.patch.vertexEnd());
+        expectBoundaryStars(t.patch, t.a);
       }
       t.patch.store();
       ASSERT_TRUE(contentsOf(t.a.window) == contentsOf(t.b.window));

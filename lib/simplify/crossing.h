@@ -1,0 +1,45 @@
+// simplify: whether a collapse would push the boundary through itself. Depends on mesh.
+#pragma once
+
+#include <vector>
+
+#include "crossing_faces.h"
+#include "patch.h"
+
+namespace tetstream {
+
+// Cells that all have their right orientation overlap only where the boundary of their union
+// crosses itself. Only a place in front of a face on the boundary that goes can make it do so; one
+// that is by more than a little has the new faces held against each other and against those round
+// the vertices of their rim: of a patch against those that it has a cell of. Parts of the boundary
+// that are farther apart along it are not compared.
+template <class Mesh>
+class BoundaryCrossing {
+ public:
+  using S = typename Mesh::Scalar;
+
+  BoundaryCrossing(Mesh& mesh, Account& account) : mesh_(mesh), star_(account, 32) {}
+
+  // Of an edge with its stars, whole, whose ends are merged at `place`.
+  bool find(uint32_t u, uint32_t v, const Stars& stars, const S* place);
+
+ private:
+  using Faces = std::vector<PlacedFace>;
+  struct LinkEdge {
+    uint64_t pair;
+    uint32_t from, to;
+  };
+
+  void listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
+  void listMade(uint32_t u, const Stars& stars);
+  void listBeside(uint32_t u, uint32_t v);
+
+  Mesh& mesh_;
+  Star star_;
+  double origin_[3] = {};  // of the coordinates of faces: the place of the merged vertex
+  std::vector<LinkEdge> edges_;
+  Faces gone_, made_, beside_;
+  std::vector<uint32_t> rim_;
+};
+
+}  // namespace tetstream
