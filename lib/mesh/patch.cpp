@@ -198,17 +198,21 @@ void Patch<S>::listRim() {
 }
 
 template <class S>
-void Patch<S>::gatherOnBoundary(uint32_t v, Star& star) {
+bool Patch<S>::gatherOnBoundary(uint32_t v, size_t most, Star& star) {
   star.clear();
   if (v < owned_) {
     const List& list = star_of_[v];
+    if (list.size > most) return false;
     for (uint32_t i = 0; i < list.size; ++i) addCell(lists_[list.begin + i], v, star);
-    return;
+    return true;
   }
   if (!rim_listed_) listRim();
   const uint32_t *const begin = rim_.data(), *const end = begin + rim_end_;
-  const uint32_t* at = std::lower_bound(begin, end, v << 16);
-  for (; at < end && *at >> 16 == v; ++at) addCell(*at & 0xffff, v, star);
+  const uint32_t *first = std::lower_bound(begin, end, v << 16), *last = first;
+  while (last < end && *last >> 16 == v) ++last;
+  if (static_cast<size_t>(last - first) > most) return false;
+  for (; first < last; ++first) addCell(*first & 0xffff, v, star);
+  return true;
 }
 
 // Where the cell still has the vertex.

@@ -87,8 +87,9 @@ class Patch {
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring);
   void merge(uint32_t u, uint32_t v, const Stars& stars);
 
-  // The cells of any vertex on the boundary; of one of the rim those that are in the patch.
-  void gatherOnBoundary(uint32_t v, Star& star);
+  // The cells of any vertex on the boundary; of one of the rim those that are in the patch. False,
+  // and none, where they may be more than `most`.
+  bool gatherOnBoundary(uint32_t v, size_t most, Star& star);
 
   // Before cells are replaced, and again when edges were merged since: finds the slots that are of
   // use for further ones.

@@ -86,6 +86,19 @@ void Topology::gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
   first_corner_[v] = star.size() + ring.size() ? before : kNone;
 }
 
+bool Topology::gatherUpTo(uint32_t v, size_t most, Star& star) const {
+  star.clear();
+  const uint32_t first = first_corner_[v];
+  if (first == kNone) return true;
+  uint32_t corner = first;
+  for (size_t walked = 0; walked < most; ++walked) {
+    if (!(cell_flags_[corner / 4] & kDead)) star.add() = starCell(corner);
+    corner = next_[corner];
+    if (corner == first) return true;
+  }
+  return false;
+}
+
 void Topology::kill(uint32_t cell) {
   cell_flags_[cell] |= kDead;
   --live_cells_;

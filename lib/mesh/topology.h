@@ -115,6 +115,9 @@ class Topology {
   // corners out of v's circle on the way.
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring);
 
+  // The live cells round v; false, and not all of them, where it has more corners than `most`.
+  bool gatherUpTo(uint32_t v, size_t most, Star& star) const;
+
   // One cell of v's star.
   StarCell starCell(uint32_t corner) const {
     const uint32_t cell = corner / 4, j = corner % 4;

@@ -97,7 +97,9 @@ class Window {
   void gather(uint32_t v, uint32_t other, Star& star, Star& ring) {
     mesh.gather(v, other, star, ring);
   }
-  void gatherOnBoundary(uint32_t v, Star& star) { mesh.gather(v, kNone, star, star); }
+  bool gatherOnBoundary(uint32_t v, size_t most, Star& star) const {
+    return mesh.gatherUpTo(v, most, star);
+  }
   void merge(uint32_t u, uint32_t v, const Stars& stars) { mesh.merge(u, v, stars); }
 
   // 32 bits per vertex that no step owns: of use until the next step begins.

@@ -357,7 +357,8 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   const StarShape both = {true, a.thin + b.thin, a.middle + b.middle, a.inner + b.inner, 0};
   if (const Outcome o = thins(u, v, most_price, both); o != Outcome::kDone) return o;
   if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
-  if ((mesh_.isBoundary(u) || mesh_.isBoundary(v)) && crossing_.find(u, v, stars_, merged_.data()))
+  if ((mesh_.isBoundary(u) || mesh_.isBoundary(v)) &&
+      crossing_.find(u, v, stars_, merged_.data(), static_cast<double>(core_.scale[0])))
     return Outcome::kCrossing;
   leaves_thin_ = both.thin > 0;
   return Outcome::kDone;

@@ -10,6 +10,9 @@ namespace tetstream {
 // Of the least height of a face: a place that is not as far in front of it is beside it. New faces
 // turn by less than three degrees then.
 constexpr double kInFront = 0.05;
+// Round one vertex. What has more faces, or cells, is left alone: in a fan of n faces all pairs
+// would be looked at for each of its n edges.
+constexpr size_t kMostFaces = 100, kMostCells = 1000;
 
 // The faces of the boundary round a centre, which sees them from inside: edges of its link that one
 // cell has. Where the star is not whole they may be faces inside, which nothing may cross either.
@@ -43,7 +46,7 @@ void BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const 
     corner[2] = edges_[i].to;
     for (int k = 0; k < 3; ++k)
       for (int x = 0; x < 3; ++x)
-        face.at[k][x] = static_cast<double>(mesh_.values(corner[k])[x]) - origin_[x];
+        face.at[k][x] = scale_ * (static_cast<double>(mesh_.values(corner[k])[x]) - origin_[x]);
   }
 }
 
@@ -92,7 +95,7 @@ template <class Mesh>
 void BoundaryCrossing<Mesh>::listBeside(uint32_t u, uint32_t v) {
   beside_.clear();
   for (uint32_t w : rim_) {
-    mesh_.gatherOnBoundary(w, star_);
+    if (!mesh_.gatherOnBoundary(w, kMostCells, star_)) continue;
     const size_t before = beside_.size();
     listFaces(w, star_, nullptr, beside_);
     const auto is_known = [&](const PlacedFace& face) {
@@ -108,13 +111,16 @@ void BoundaryCrossing<Mesh>::listBeside(uint32_t u, uint32_t v) {
 }
 
 template <class Mesh>
-bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, const S* place) {
+bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, const S* place,
+                                  double scale) {
+  scale_ = scale;
   for (int i = 0; i < 3; ++i) origin_[i] = static_cast<double>(place[i]);
   gone_.clear();
   if (mesh_.isBoundary(u)) listFaces(u, stars.u, &stars.ring, gone_);
   if (mesh_.isBoundary(v)) listFaces(v, stars.v, &stars.ring_from_v, gone_);
   if (inFrontOf(gone_) <= kInFront) return false;
   listMade(u, stars);
+  if (made_.size() > kMostFaces) return false;
   listBeside(u, v);
   for (size_t i = 0; i < made_.size(); ++i) {
     const auto crosses = [&](const PlacedFace& face) { return cross(made_[i], face); };

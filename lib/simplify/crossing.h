@@ -12,7 +12,8 @@ namespace tetstream {
 // crosses itself. Only a place in front of a face on the boundary that goes can make it do so; one
 // that is by more than a little has the new faces held against each other and against those round
 // the vertices of their rim: of a patch against those that it has a cell of. Parts of the boundary
-// that are farther apart along it are not compared.
+// that are farther apart along it are not compared, nor are those round a vertex of very many
+// cells.
 template <class Mesh>
 class BoundaryCrossing {
  public:
@@ -20,8 +21,9 @@ class BoundaryCrossing {
 
   BoundaryCrossing(Mesh& mesh, Account& account) : mesh_(mesh), star_(account, 32) {}
 
-  // Of an edge with its stars, whole, whose ends are merged at `place`.
-  bool find(uint32_t u, uint32_t v, const Stars& stars, const S* place);
+  // Of an edge with its stars, whole, whose ends are merged at `place`. `scale` brings edges
+  // near 1.
+  bool find(uint32_t u, uint32_t v, const Stars& stars, const S* place, double scale);
 
  private:
   using Faces = std::vector<PlacedFace>;
@@ -36,7 +38,7 @@ class BoundaryCrossing {
 
   Mesh& mesh_;
   Star star_;
-  double origin_[3] = {};  // of the coordinates of faces: the place of the merged vertex
+  double origin_[3] = {}, scale_ = 1;  // of the coordinates of faces: the merged vertex's place
   std::vector<LinkEdge> edges_;
   Faces gone_, made_, beside_;
   std::vector<uint32_t> rim_;

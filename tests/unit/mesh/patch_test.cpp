@@ -137,14 +137,18 @@ void expectBoundaryStars(Patch<S>& patch, Whole<S>& w) {
   for (uint32_t v = 0; v < patch.ownedEnd(); ++v) owned.insert(patch.slotOf(v));
   for (uint32_t v = 0; v < patch.vertexEnd(); ++v) {
     if (!patch.isBoundary(v) || (patch.allFlags()[v] & kCollapsed)) continue;
-    patch.gatherOnBoundary(v, star);
-    w.window.gatherOnBoundary(patch.slotOf(v), w.stars.u);
+    EXPECT_TRUE(patch.gatherOnBoundary(v, 1000, star));
+    EXPECT_TRUE(w.window.gatherOnBoundary(patch.slotOf(v), 1000, w.stars.u));
     kept.clear();
     for (const StarCell& s : w.stars.u)
       if (owned.count(patch.slotOf(v)) || owned.count(s.t[0]) || owned.count(s.t[1]) ||
           owned.count(s.t[2]))
         kept.add() = s;
     EXPECT_EQ(trianglesOf(patch, star), trianglesOf(w.window, kept));
+    const size_t cells = kept.size();
+    EXPECT_FALSE(cells > 0 && patch.gatherOnBoundary(v, cells - 1, star));
+    EXPECT_FALSE(w.stars.u.size() > 0 &&
+                 w.window.gatherOnBoundary(patch.slotOf(v), w.stars.u.size() - 1, star));
   }
 }
 
