@@ -1,46 +1,61 @@
 #include "crossing_faces.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "vector3.h"
 
 namespace tetstream {
 
-void PlacedFace::bound() {
-  for (int i = 0; i < 3; ++i) {
-    low[i] = std::min({at[0][i], at[1][i], at[2][i]});
-    high[i] = std::max({at[0][i], at[1][i], at[2][i]});
-  }
+constexpr double kOnPlane = 1e-4;  // of the longest edge
+
+static void subtract(const double a[3], const double b[3], double out[3]) {
+  for (int i = 0; i < 3; ++i) out[i] = a[i] - b[i];
 }
 
-// Six times the volume of a cell.
-static double volumeOf(const double o[3], const double a[3], const double b[3], const double c[3]) {
-  double d[3][3];
-  for (int i = 0; i < 3; ++i) {
-    d[0][i] = a[i] - o[i];
-    d[1][i] = b[i] - o[i];
-    d[2][i] = c[i] - o[i];
-  }
-  return d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
-         d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
-         d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0]);
+void PlacedFace::setPlane() {
+  double a[3], b[3], c[3];
+  subtract(at[1], at[0], a);
+  subtract(at[2], at[0], b);
+  subtract(at[2], at[1], c);
+  cross(a, b, normal);
+  longest = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
+  near = kOnPlane * longest * std::sqrt(dot(normal, normal));
 }
 
-// The k-th edge of one through the other.
-static bool passes(const PlacedFace& from, int k, const PlacedFace& through) {
-  const int next = (k + 1) % 3;
-  if (through.has(from.corner[k]) || through.has(from.corner[next])) return false;
-  const double *const a = from.at[k], *const b = from.at[next];
-  const auto& t = through.at;
-  const double first = volumeOf(t[0], t[1], t[2], a), last = volumeOf(t[0], t[1], t[2], b);
-  if (!(first > 0 ? last < 0 : first < 0 && last > 0)) return false;
-  const bool side = volumeOf(a, b, t[0], t[1]) > 0;
-  return (volumeOf(a, b, t[1], t[2]) > 0) == side && (volumeOf(a, b, t[2], t[0]) > 0) == side;
+// Of the corners of `face` on the other's plane: -1, 0, 1. Whether they lie on both sides of it.
+static bool isCut(const PlacedFace& face, const PlacedFace& by, int side[3]) {
+  bool above = false, below = false;
+  for (int k = 0; k < 3; ++k) {
+    double from[3];
+    subtract(face.at[k], by.at[0], from);
+    const double height = dot(by.normal, from);
+    side[k] = height > by.near ? 1 : height < -by.near ? -1 : 0;
+    above |= side[k] > 0;
+    below |= side[k] < 0;
+  }
+  return above && below;
+}
+
+// Whether the line from a to b, which ends on different sides of its plane, goes through a face.
+static bool passes(const double a[3], const double b[3], const PlacedFace& face) {
+  bool left = true, right = true;
+  for (int k = 0; k < 3; ++k) {
+    const double volume = sixVolume(a, b, face.at[k], face.at[(k + 1) % 3]);
+    left &= volume > 0;
+    right &= volume < 0;
+  }
+  return left || right;
 }
 
 bool cross(const PlacedFace& a, const PlacedFace& b) {
-  for (int i = 0; i < 3; ++i)
-    if (a.low[i] > b.high[i] || b.low[i] > a.high[i]) return false;
-  for (int k = 0; k < 3; ++k)
-    if (passes(a, k, b) || passes(b, k, a)) return true;
+  int of_a[3], of_b[3];
+  if (!isCut(b, a, of_b) || !isCut(a, b, of_a)) return false;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    if (of_a[k] * of_a[next] < 0 && passes(a.at[k], a.at[next], b)) return true;
+    if (of_b[k] * of_b[next] < 0 && passes(b.at[k], b.at[next], a)) return true;
+  }
   return false;
 }
 

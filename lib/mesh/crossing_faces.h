@@ -1,4 +1,4 @@
-// mesh: whether two triangles pass through each other. Depends on nothing.
+// mesh: whether two triangles pass through each other. Depends on vector3.h.
 #pragma once
 
 #include <cstdint>
@@ -8,14 +8,16 @@ namespace tetstream {
 struct PlacedFace {
   uint32_t corner[3];
   double at[3][3];
-  double low[3], high[3];  // what it lies in
+  double normal[3];  // twice the area long
+  double longest;    // edge
+  double near;       // what lies nearer to the plane, times the normal's length, lies on it
 
   bool has(uint32_t v) const { return corner[0] == v || corner[1] == v || corner[2] == v; }
-  void bound();  // from `at`
+  void setPlane();  // from `at`
 };
 
-// Whether an edge of one passes through the other, as far as doubles tell. One that ends at a
-// corner of the other does not.
+// Whether an edge of one passes through the other. One that ends on the other's plane, as at a
+// common corner, does not: as near to it as a ten-thousandth of the longest edge.
 bool cross(const PlacedFace& a, const PlacedFace& b);
 
 }  // namespace tetstream

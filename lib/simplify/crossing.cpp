@@ -3,16 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vector3.h"
 #include "vertex_pair.h"
 
 namespace tetstream {
 
 // Of the least height of a face: a place that is not as far in front of it is beside it. New faces
-// turn by less than three degrees then.
-constexpr double kInFront = 0.05;
-// Round one vertex. What has more faces, or cells, is left alone: in a fan of n faces all pairs
-// would be looked at for each of its n edges.
-constexpr size_t kMostFaces = 100, kMostCells = 1000;
+// turn by less than six degrees then.
+constexpr double kInFront = 0.1;
+// Round one vertex. What has more cells, or faces, is left alone: all pairs of faces are looked at
+// for each edge that is collapsed.
+constexpr size_t kMostCells = 200, kMostFaces = 100;
 
 // The faces of the boundary round a centre, which sees them from inside: edges of its link that one
 // cell has. Where the star is not whole they may be faces inside, which nothing may cross either.
@@ -50,85 +51,85 @@ void BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const 
   }
 }
 
-// How far the origin lies in front of one of the faces, at most, of its least height.
-static double inFrontOf(const std::vector<PlacedFace>& faces) {
-  double most = 0;
-  for (const PlacedFace& face : faces) {
-    double a[3], b[3], edges[3] = {}, square = 0, height = 0;
-    for (int i = 0; i < 3; ++i) {
-      a[i] = face.at[1][i] - face.at[0][i];
-      b[i] = face.at[2][i] - face.at[0][i];
-      edges[0] += a[i] * a[i];
-      edges[1] += b[i] * b[i];
-      edges[2] += (b[i] - a[i]) * (b[i] - a[i]);
-    }
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      const double normal = a[j] * b[k] - a[k] * b[j];
-      square += normal * normal;
-      height += normal * face.at[0][i];
-    }
-    const double longest = std::max({edges[0], edges[1], edges[2]});
-    if (height > 0 && square > 0)
-      most = std::max(most, height * height * longest / (square * square));
-  }
-  return std::sqrt(most);
-}
-
-// The faces round the merged vertex, as u, and the vertices of their rim.
+// The faces that go, each once, and the rim of those that the new place lies in front of. Returns
+// how far it does, at most, of a face's least height.
 template <class Mesh>
-void BoundaryCrossing<Mesh>::listMade(uint32_t u, const Stars& stars) {
-  made_.clear();
+double BoundaryCrossing<Mesh>::listGone(uint32_t u, uint32_t v, const Stars& stars) {
+  gone_.clear();
+  if (mesh_.isBoundary(v)) listFaces(v, stars.v, &stars.ring_from_v, gone_);
+  std::erase_if(gone_, [u](const PlacedFace& face) { return face.has(u); });
+  if (mesh_.isBoundary(u)) listFaces(u, stars.u, &stars.ring, gone_);
+  double most = 0;
   rim_.clear();
-  listFaces(u, stars.u, &stars.v, made_);
-  for (PlacedFace& face : made_) {
-    std::fill_n(face.at[0], 3, 0.0);
-    face.bound();
-    rim_.insert(rim_.end(), face.corner + 1, face.corner + 3);
+  for (PlacedFace& face : gone_) {
+    face.setPlane();
+    const double height = dot(face.normal, face.at[0]);
+    if (!(height > 0)) continue;
+    most = std::max(most, height * face.longest / dot(face.normal, face.normal));
+    for (uint32_t x : face.corner)
+      if (x != u && x != v) rim_.push_back(x);
   }
   std::sort(rim_.begin(), rim_.end());
   rim_.erase(std::unique(rim_.begin(), rim_.end()), rim_.end());
+  return most;
 }
 
-// Each once: by the first of its vertices that is of the rim.
+// The faces round the merged vertex, as u.
+template <class Mesh>
+void BoundaryCrossing<Mesh>::listMade(uint32_t u, const Stars& stars) {
+  made_.clear();
+  listFaces(u, stars.u, &stars.v, made_);
+  for (PlacedFace& face : made_) {
+    std::fill_n(face.at[0], 3, 0.0);
+    face.setPlane();
+  }
+}
+
+// Those round the rim that stay, each once.
 template <class Mesh>
 void BoundaryCrossing<Mesh>::listBeside(uint32_t u, uint32_t v) {
   beside_.clear();
+  seen_.clear();
   for (uint32_t w : rim_) {
     if (!mesh_.gatherOnBoundary(w, kMostCells, star_)) continue;
     const size_t before = beside_.size();
     listFaces(w, star_, nullptr, beside_);
     const auto is_known = [&](const PlacedFace& face) {
-      const auto came = [&](uint32_t x) {
-        return x < w && std::binary_search(rim_.begin(), rim_.end(), x);
+      const auto was_seen = [&](uint32_t x) {
+        return std::binary_search(seen_.begin(), seen_.end(), x);
       };
-      return face.has(u) || face.has(v) || came(face.corner[1]) || came(face.corner[2]);
+      return face.has(u) || face.has(v) || was_seen(face.corner[1]) || was_seen(face.corner[2]);
     };
     const auto first = beside_.begin() + static_cast<std::ptrdiff_t>(before);
     beside_.erase(std::remove_if(first, beside_.end(), is_known), beside_.end());
+    seen_.push_back(w);
   }
-  for (PlacedFace& face : beside_) face.bound();
+  for (PlacedFace& face : beside_) face.setPlane();
+}
+
+// Pairs of these faces that cross, and of them and those beside.
+template <class Mesh>
+size_t BoundaryCrossing<Mesh>::crossings(const Faces& faces) const {
+  size_t count = 0;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) count += cross(faces[i], faces[j]);
+    for (const PlacedFace& face : beside_) count += cross(faces[i], face);
+  }
+  return count;
 }
 
 template <class Mesh>
 bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, const S* place,
                                   double scale) {
+  if (stars.u.size() > kMostCells || stars.v.size() > kMostCells) return false;
   scale_ = scale;
   for (int i = 0; i < 3; ++i) origin_[i] = static_cast<double>(place[i]);
-  gone_.clear();
-  if (mesh_.isBoundary(u)) listFaces(u, stars.u, &stars.ring, gone_);
-  if (mesh_.isBoundary(v)) listFaces(v, stars.v, &stars.ring_from_v, gone_);
-  if (inFrontOf(gone_) <= kInFront) return false;
+  if (listGone(u, v, stars) <= kInFront) return false;
   listMade(u, stars);
   if (made_.size() > kMostFaces) return false;
   listBeside(u, v);
-  for (size_t i = 0; i < made_.size(); ++i) {
-    const auto crosses = [&](const PlacedFace& face) { return cross(made_[i], face); };
-    const auto next = made_.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-    if (std::any_of(next, made_.end(), crosses)) return true;
-    if (std::any_of(beside_.begin(), beside_.end(), crosses)) return true;
-  }
-  return false;
+  const size_t made = crossings(made_);
+  return made > 0 && made > crossings(gone_);
 }
 
 template class BoundaryCrossing<Window<float>>;

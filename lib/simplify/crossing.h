@@ -12,8 +12,7 @@ namespace tetstream {
 // crosses itself. Only a place in front of a face on the boundary that goes can make it do so; one
 // that is by more than a little has the new faces held against each other and against those round
 // the vertices of their rim: of a patch against those that it has a cell of. Parts of the boundary
-// that are farther apart along it are not compared, nor are those round a vertex of very many
-// cells.
+// that are farther apart along it are not compared, nor are those round a vertex of many cells.
 template <class Mesh>
 class BoundaryCrossing {
  public:
@@ -33,15 +32,17 @@ class BoundaryCrossing {
   };
 
   void listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
+  double listGone(uint32_t u, uint32_t v, const Stars& stars);
   void listMade(uint32_t u, const Stars& stars);
   void listBeside(uint32_t u, uint32_t v);
+  size_t crossings(const Faces& faces) const;
 
   Mesh& mesh_;
   Star star_;
   double origin_[3] = {}, scale_ = 1;  // of the coordinates of faces: the merged vertex's place
   std::vector<LinkEdge> edges_;
   Faces gone_, made_, beside_;
-  std::vector<uint32_t> rim_;
+  std::vector<uint32_t> rim_, seen_;
 };
 
 }  // namespace tetstream
