@@ -20,8 +20,8 @@ class BoundaryCrossing {
 
   BoundaryCrossing(Mesh& mesh, Account& account) : mesh_(mesh), star_(account, 32) {}
 
-  // Of an edge with its stars, whole, whose ends are merged at `place`. `scale` brings edges
-  // near 1.
+  // Whether more pairs of faces would cross than do, of an edge with its stars, whole, whose ends
+  // are merged at `place`. `scale` brings edges near 1.
   bool find(uint32_t u, uint32_t v, const Stars& stars, const S* place, double scale);
 
  private:

@@ -7,7 +7,7 @@
 namespace tetstream {
 
 // kOrientation: a cell would be turned over, or flat; kThin: more cells would be thin; kCrossing:
-// the boundary would pass through itself.
+// the boundary would pass through itself where it does not.
 enum class Outcome {
   kDone,
   kLocked,

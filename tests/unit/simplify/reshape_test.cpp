@@ -72,6 +72,23 @@ struct Squeezed : WholePatch<double> {
       }
     return all;
   }
+  // Whether each vertex on the boundary has its cells; returns how many of them are of the rim.
+  int expectBoundaryStars() {
+    std::map<uint32_t, std::set<uint32_t>> cells;
+    for (uint32_t c = 0; c < patch.cellEnd(); ++c)
+      for (uint32_t j = 0; j < 4 && patch.isLive(c); ++j) cells[patch.vertexOf(c, j)].insert(c);
+    int rim = 0;
+    Star star(account);
+    for (const auto& [v, of_v] : cells) {
+      if (!patch.isBoundary(v)) continue;
+      EXPECT_TRUE(patch.gatherOnBoundary(v, 1000, star));
+      std::set<uint32_t> found;
+      for (const StarCell& cell : star) found.insert(cell.cell);
+      EXPECT_EQ(found, of_v) << v;
+      rim += v >= patch.ownedEnd();
+    }
+    return rim;
+  }
   double error = core.volume;  // of the whole: any change of the field is allowed
   Reshaper<double> reshaper;
 };
@@ -96,6 +113,19 @@ TEST(Reshape, KeepsTheDomainItsTopologyAndWhatCellsStandFor) {
   EXPECT_EQ(topologyChange(before, after), "");
   EXPECT_EQ(after.boundary_faces, before.boundary_faces);
   EXPECT_NEAR(after.volume, before.volume, 1e-9 * before.volume);
+}
+
+TEST(Reshape, LeavesTheStarsOnTheBoundaryKnown) {
+  Squeezed s;
+  s.patch.store();
+  Topology& mesh = s.core.window.mesh;
+  for (uint32_t v = 0; v < mesh.vertexEnd(); v += 4) mesh.flagVertex(v, kLocked);  // for a rim
+  s.load();
+  s.mergeSome();
+  EXPECT_GT(s.expectBoundaryStars(), 30);
+  ASSERT_TRUE(s.reshape(0, 1 << 30));
+  EXPECT_GT(s.core.tally.flips, 10);
+  s.expectBoundaryStars();
 }
 
 TEST(Reshape, StaysWithinTheLimitsOfCells) {
