@@ -20,21 +20,19 @@ void PlacedFace::setPlane() {
   subtract(at[2], at[1], c);
   cross(a, b, normal);
   longest = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
+  offset = dot(normal, at[0]);
   near = kOnPlane * longest * std::sqrt(dot(normal, normal));
 }
 
 // Of the corners of `face` on the other's plane: -1, 0, 1. Whether they lie on both sides of it.
 static bool isCut(const PlacedFace& face, const PlacedFace& by, int side[3]) {
-  bool above = false, below = false;
-  for (int k = 0; k < 3; ++k) {
-    double from[3];
-    subtract(face.at[k], by.at[0], from);
-    const double height = dot(by.normal, from);
-    side[k] = height > by.near ? 1 : height < -by.near ? -1 : 0;
-    above |= side[k] > 0;
-    below |= side[k] < 0;
-  }
-  return above && below;
+  double height[3];
+  for (int k = 0; k < 3; ++k) height[k] = dot(by.normal, face.at[k]) - by.offset;
+  const double most = std::max({height[0], height[1], height[2]});
+  const double least = std::min({height[0], height[1], height[2]});
+  if (!(most > by.near && least < -by.near)) return false;
+  for (int k = 0; k < 3; ++k) side[k] = height[k] > by.near ? 1 : height[k] < -by.near ? -1 : 0;
+  return true;
 }
 
 // Whether the line from a to b, which ends on different sides of its plane, goes through a face.

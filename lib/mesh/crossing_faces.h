@@ -6,9 +6,12 @@
 namespace tetstream {
 
 struct PlacedFace {
+  PlacedFace(uint32_t a, uint32_t b, uint32_t c) : corner{a, b, c} {}  // nothing else is set
+
   uint32_t corner[3];
   double at[3][3];
   double normal[3];  // twice the area long
+  double offset;     // of its plane: the normal times a point on it
   double longest;    // edge
   double near;       // what lies nearer to the plane, times the normal's length, lies on it
 

@@ -201,9 +201,14 @@ template <class S>
 bool Patch<S>::gatherOnBoundary(uint32_t v, size_t most, Star& star) {
   star.clear();
   if (v < owned_) {
-    const List& list = star_of_[v];
+    List& list = star_of_[v];
     if (list.size > most) return false;
-    for (uint32_t i = 0; i < list.size; ++i) addCell(lists_[list.begin + i], v, star);
+    const size_t room = list.size + kStarSlack;
+    StarCell* const cells = star.room(2 * room);  // the second half for a ring that is empty
+    list.size = lookRound(corner_.data(), lists_.data() + list.begin, list.size,
+                          static_cast<uint16_t>(v), kGoneCorner, cells, cells + room)
+                    .star;
+    star.grow(list.size);
     return true;
   }
   if (!rim_listed_) listRim();

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "vector3.h"
-#include "vertex_pair.h"
 
 namespace tetstream {
 
@@ -20,35 +19,25 @@ constexpr size_t kMostCells = 200, kMostFaces = 100;
 template <class Mesh>
 void BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const Star* more,
                                        Faces& faces) {
-  edges_.clear();
+  link_.start(3 * (star.size() + (more ? more->size() : 0)));
   const uint8_t* const flags = mesh_.allFlags();
   for (const Star* part : {&star, more}) {
     if (!part) break;
     for (const StarCell& s : *part) {
-      const unsigned on[3] = {flags[s.t[0]] & unsigned{kBoundary},
-                              flags[s.t[1]] & unsigned{kBoundary},
-                              flags[s.t[2]] & unsigned{kBoundary}};
-      if (on[0] + on[1] + on[2] < 2 * kBoundary) continue;
-      for (int i = 0; i < 3; ++i) {
-        const uint32_t a = s.t[i], b = s.t[(i + 1) % 3];
-        if (on[i] & on[(i + 1) % 3]) edges_.push_back({pairOf(a, b), a, b});
-      }
+      const unsigned a = flags[s.t[0]], b = flags[s.t[1]], c = flags[s.t[2]];
+      if (a & b & kBoundary) link_.add(s.t[0], s.t[1]);
+      if (b & c & kBoundary) link_.add(s.t[1], s.t[2]);
+      if (c & a & kBoundary) link_.add(s.t[2], s.t[0]);
     }
   }
-  std::sort(edges_.begin(), edges_.end(),
-            [](const LinkEdge& a, const LinkEdge& b) { return a.pair < b.pair; });
-  for (size_t i = 0, next; i < edges_.size(); i = next) {
-    for (next = i + 1; next < edges_.size() && edges_[next].pair == edges_[i].pair;) ++next;
-    if (next > i + 1) continue;
-    PlacedFace& face = faces.emplace_back();
-    uint32_t* const corner = face.corner;
-    corner[0] = centre;
-    corner[1] = edges_[i].from;
-    corner[2] = edges_[i].to;
-    for (int k = 0; k < 3; ++k)
+  link_.forSingle([&](uint32_t from, uint32_t to) {
+    PlacedFace& face = faces.emplace_back(centre, from, to);
+    for (int k = 0; k < 3; ++k) {
+      const S* const at = mesh_.values(face.corner[k]);
       for (int x = 0; x < 3; ++x)
-        face.at[k][x] = scale_ * (static_cast<double>(mesh_.values(corner[k])[x]) - origin_[x]);
-  }
+        face.at[k][x] = scale_ * (static_cast<double>(at[x]) - origin_[x]);
+    }
+  });
 }
 
 // The faces that go, each once, and the rim of those that the new place lies in front of. Returns
@@ -74,14 +63,16 @@ double BoundaryCrossing<Mesh>::listGone(uint32_t u, uint32_t v, const Stars& sta
   return most;
 }
 
-// The faces round the merged vertex, as u.
+// The faces round the merged vertex, as u: those that go but for the ones of both ends.
 template <class Mesh>
-void BoundaryCrossing<Mesh>::listMade(uint32_t u, const Stars& stars) {
+void BoundaryCrossing<Mesh>::listMade(uint32_t u, uint32_t v) {
   made_.clear();
-  listFaces(u, stars.u, &stars.v, made_);
-  for (PlacedFace& face : made_) {
-    std::fill_n(face.at[0], 3, 0.0);
-    face.setPlane();
+  for (const PlacedFace& face : gone_) {
+    if (face.has(u) && face.has(v)) continue;
+    PlacedFace& made = made_.emplace_back(face);
+    made.corner[0] = u;
+    std::fill_n(made.at[0], 3, 0.0);
+    made.setPlane();
   }
 }
 
@@ -125,7 +116,7 @@ bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, co
   scale_ = scale;
   for (int i = 0; i < 3; ++i) origin_[i] = static_cast<double>(place[i]);
   if (listGone(u, v, stars) <= kInFront) return false;
-  listMade(u, stars);
+  listMade(u, v);
   if (made_.size() > kMostFaces) return false;
   listBeside(u, v);
   const size_t made = crossings(made_);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "crossing_faces.h"
+#include "link_edges.h"
 #include "patch.h"
 
 namespace tetstream {
@@ -26,21 +27,17 @@ class BoundaryCrossing {
 
  private:
   using Faces = std::vector<PlacedFace>;
-  struct LinkEdge {
-    uint64_t pair;
-    uint32_t from, to;
-  };
 
   void listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
   double listGone(uint32_t u, uint32_t v, const Stars& stars);
-  void listMade(uint32_t u, const Stars& stars);
+  void listMade(uint32_t u, uint32_t v);
   void listBeside(uint32_t u, uint32_t v);
   size_t crossings(const Faces& faces) const;
 
   Mesh& mesh_;
   Star star_;
   double origin_[3] = {}, scale_ = 1;  // of the coordinates of faces: the merged vertex's place
-  std::vector<LinkEdge> edges_;
+  LinkEdges link_;
   Faces gone_, made_, beside_;
   std::vector<uint32_t> rim_, seen_;
 };

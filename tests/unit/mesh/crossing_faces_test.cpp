@@ -8,7 +8,7 @@ namespace tetstream::test {
 namespace {
 
 PlacedFace faceOf(uint32_t a, uint32_t b, uint32_t c, const double (&at)[3][3]) {
-  PlacedFace face = {{a, b, c}, {}, {}, 0, 0};
+  PlacedFace face(a, b, c);
   std::copy_n(&at[0][0], 9, &face.at[0][0]);
   face.setPlane();
   return face;
