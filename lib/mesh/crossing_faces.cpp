@@ -24,7 +24,8 @@ void PlacedFace::setPlane() {
   near = kOnPlane * longest * std::sqrt(dot(normal, normal));
 }
 
-// Of the corners of `face` on the other's plane: -1, 0, 1. Whether they lie on both sides of it.
+// Whether the corners of `face` lie on both sides of the other's plane. If so, `side` tells of each
+// on which: -1, 0 (on the plane) or 1.
 static bool isCut(const PlacedFace& face, const PlacedFace& by, int side[3]) {
   double height[3];
   for (int k = 0; k < 3; ++k) height[k] = dot(by.normal, face.at[k]) - by.offset;

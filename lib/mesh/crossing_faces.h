@@ -5,6 +5,7 @@
 
 namespace tetstream {
 
+// Coordinates are relative to a place near by: heights over planes are differences of products.
 struct PlacedFace {
   PlacedFace(uint32_t a, uint32_t b, uint32_t c) : corner{a, b, c} {}  // nothing else is set
 
