@@ -19,8 +19,8 @@ NAMES = {
         popcount""",
     "charconv": "chars_format errc from_chars from_chars_result to_chars",
     "chrono": "chrono",
-    "cmath": """abs acos cbrt ceil cos exp fabs floor fma fmax frexp isfinite isinf isnan ldexp llround log
-        log10 lround pow sin sqrt trunc""",
+    "cmath": """abs acos cbrt ceil cos exp exp2 fabs floor fma fmax frexp isfinite isinf isnan ldexp
+        llround log log10 log2 lround pow round sin sqrt trunc""",
     "condition_variable": "condition_variable",
     "cctype": "isalpha tolower",
     "cstddef": "ptrdiff_t",

@@ -53,7 +53,7 @@ std::string reportText(const tetstream_report& r) {
       row("largest error", textOf("%.6g", r.largest_error)) +
       row("order", oneLine(r.order ? r.order : "")) +
       row("regions", oneLine(r.regions ? r.regions : ""));
-  if (r.balance && *r.balance) text += row("balance", r.balance);
+  if (r.balance && *r.balance) text += row("balance", oneLine(r.balance));
   if (r.locked_cells > 0)
     text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
   if (r.unused_vertices > 0)

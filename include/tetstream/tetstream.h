@@ -108,7 +108,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_ERROR 102           /* double, RMS field error in percent of the range */
 #define TETSTREAM_OPTION_BOUNDARY_WEIGHT 110 /* double, dimensionless: boundary against field */
 #define TETSTREAM_OPTION_FIELD_RANGE 111     /* text: "free": values may leave their range; "keep" */
-#define TETSTREAM_OPTION_BALANCE 112         /* text: "auto": boundaries never starve fields; "none" */
+#define TETSTREAM_OPTION_BALANCE 112         /* text: "auto": nothing starves a smooth field; "none" */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
 #define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: none */
 #define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */
@@ -183,10 +183,10 @@ TETSTREAM_API tetstream_status tetstream_options_get_text(const tetstream_option
                                                           int32_t id, const char **value);
 /* Measures the field of that name with that weight (>= 0, 1 is usual; 0: carried along, not
  * measured). It multiplies the field's squared error in units of its range, of a vector or tensor
- * the length of the box of its values. The first call turns off the default, which measures every
- * nodal float field with weight 1; fields not named are then carried. That the field exists, and
- * that not more than 125 components are measured (UNSUPPORTED), is checked when the stream begins.
- * Since 0.1. */
+ * the length of the box of its values; so does what TETSTREAM_OPTION_BALANCE finds. The first call
+ * turns off the default, which measures every nodal float field with weight 1; fields not named are
+ * then carried. That the field exists, and that not more than 125 components are measured
+ * (UNSUPPORTED), is checked when the stream begins. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_add_field(tetstream_options *options,
                                                            const char *name, double weight);
 /* A piece of work of the library's. */
@@ -510,8 +510,8 @@ typedef struct tetstream_report {
                                    rule not less than the true one. Since 0.1 */
   const char *reached;          /* the target that ended the run: "ratio", "cells", "error", or "" */
   const char *order;            /* how the input was ordered, in words. Since 0.1 */
-  const char *balance;          /* what the boundary and interfaces count for less than asked, in
-                                   words, or "". Since 0.1 */
+  const char *balance;          /* what the boundary and interfaces count for less, and fields for
+                                   more than asked, in words, or "". Since 0.1 */
 } tetstream_report;
 
 typedef struct tetstream_simplifier tetstream_simplifier;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "status.h"
+
 namespace tetstream {
 namespace {
 
@@ -171,6 +173,37 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
     lower(model, ratio, costs.interfaces, &Balance::interfaces, balance);
     balance->knows_interfaces = true;
   }
+}
+
+static std::string sheetsInWords(const Balance& b, bool has_interfaces) {
+  const double interfaces = has_interfaces ? b.outer * b.interfaces : 1;
+  std::string text;
+  if (b.outer < 1) text = textOf("the boundary counts 1/%.0f of its weight", 1 / b.outer);
+  if (interfaces < 1)
+    text += textOf(b.outer < 1 ? ", interfaces 1/%.0f" : "interfaces count 1/%.0f of their weight",
+                   1 / interfaces);
+  if (interfaces < 1 && b.rough_interfaces) text += ", being rough from vertex to vertex";
+  return text.empty() ? text : text + ": more would leave the fields too little";
+}
+
+// The first that count for more, and how many others do.
+static std::string fieldsInWords(const Balance& balance, const std::vector<Column>& fields) {
+  constexpr size_t kNamed = 6;
+  std::string text;
+  size_t heavier = 0;
+  for (size_t f = 0; f < balance.fields.size(); ++f) {
+    if (!(balance.fields[f] > 1) || heavier++ >= kNamed) continue;
+    text += textOf("%s%s %.0f times", heavier == 1 ? "smoother fields count for more: " : ", ",
+                   fields[f].name.c_str(), balance.fields[f]);
+  }
+  return heavier <= kNamed ? text : text + textOf(" and %zu others", heavier - kNamed);
+}
+
+std::string inWords(const Balance& balance, bool has_interfaces,
+                    const std::vector<Column>& fields) {
+  const std::string sheets = sheetsInWords(balance, has_interfaces),
+                    smooth = fieldsInWords(balance, fields);
+  return sheets + (sheets.empty() || smooth.empty() ? "" : "; ") + smooth;
 }
 
 }  // namespace tetstream

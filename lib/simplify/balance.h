@@ -1,4 +1,4 @@
-// simplify: how much the shapes of sheets should count beside the fields. Depends on nothing.
+// simplify: how much the shapes of sheets should count beside the fields. Depends on schema.h.
 //
 // One weight of the boundary does not suit all: where it bends more than the fields do, nearly all
 // vertices that are left lie on it, and few more inside would halve the fields' error. The weight
@@ -15,16 +15,25 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
+
+#include "schema.h"
 
 namespace tetstream {
 
 // Times the weight of all sheets, and that of interfaces besides; 1 where it is not known.
 struct Balance {
   double outer = 1, interfaces = 1;
+  std::vector<double>
+      fields;  // times the weight of each of the schema's (field_weights.h); or none
   bool knows_outer = false, knows_interfaces = false;
   bool rough_interfaces = false;
 };
+
+// What counts for more or less than it was given, for the report; or nothing. Interfaces are named
+// only where there are any.
+std::string inWords(const Balance& balance, bool has_interfaces, const std::vector<Column>& fields);
 
 // What taking a vertex out adds to the error of the fields and, with its weight, to that of the
 // sheet that it lies on.

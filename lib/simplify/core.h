@@ -226,6 +226,7 @@ struct Core {
   double face_weight = 0;               // of a face on the boundary, before it is balanced
   Balance balance;
   double balance_ratio = 0;     // that it is chosen for; 0: it is not
+  bool weighs_fields = false;   // against each other
   ThinAngle thin;               // no more cells below than the input has
   double poor = 1;              // cells thinner than this are worth a flip (thinness.h)
   std::vector<ThinAngle> dear;  // falling, above: more cells below have their price

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "field_weights.h"
 #include "orient.h"
+#include "pilot.h"
 #include "settled.h"
 #include "thinness.h"
 
@@ -129,21 +131,35 @@ void Metric<S>::chooseLengthUnit(uint32_t first, uint32_t end) {
   unit_known_ = true;
 }
 
+// Of every dimension: the extent, or the range of the field.
+template <class S>
+std::vector<double> Metric<S>::ranges() const {
+  std::vector<double> range(low_.size());
+  for (size_t i = 0; i < range.size(); ++i) range[i] = i < 3 ? extent() : rangeOf(i);
+  return range;
+}
+
+// The one that was given, and what was found.
+template <class S>
+double Metric<S>::weightOf(size_t component) const {
+  const std::vector<double>& found = core_.balance.fields;
+  const auto field = static_cast<size_t>(core_.plan.measured_column[component - 3]);
+  return core_.plan.weights[component - 3] * (found.empty() ? 1 : found[field]);
+}
+
 template <class S>
 void Metric<S>::updateScales() {
+  const std::vector<double> range = ranges();
   bool grown = false;
-  std::vector<double> range(low_.size());
-  for (size_t i = 0; i < range.size(); ++i) {
-    range[i] = i < 3 ? extent() : rangeOf(i);
+  for (size_t i = 0; i < range.size(); ++i)
     grown =
         grown ||
         (used_range_[i] < 0 ? true : range[i] > (box_known_ ? 1 : kRescaleStep) * used_range_[i]);
-  }
   if (!grown) return;
   const bool first_time = used_range_[0] < 0;
   std::vector<S> factor(range.size(), S(1));
   for (size_t i = 0; i < range.size(); ++i) {
-    const double weight = i < 3 ? 1 : std::sqrt(core_.plan.weights[i - 3]);
+    const double weight = i < 3 ? 1 : std::sqrt(weightOf(i));
     const double size = extent() > 0 ? extent() : 1;  // all points coincide: every cell is flat
     const double unit = i < 3 ? length_unit_ : length_unit_ * (range[i] / size) / weight;
     // A range of nothing, or one that the window's numbers cannot be divided by, counts as
@@ -295,10 +311,20 @@ void Metric<S>::chooseFloor() {
                                        : std::min(kPoor * core_.thin.degrees, 90.0));
 }
 
+// Before anything is measured, of several fields, where the window has enough of the mesh to tell.
+template <class S>
+bool Metric<S>::canWeighFields(uint32_t cells) const {
+  const std::vector<int>& column = core_.plan.measured_column;
+  const int64_t all = core_.plan.schema.cell_count;
+  return core_.weighs_fields && !unit_known_ && core_.balance.fields.empty() && !column.empty() &&
+         column.front() != column.back() && all >= 0 && cells >= all / kFewWindows;
+}
+
 template <class S>
 void Metric<S>::prepare(uint32_t first, uint32_t end) {
   if (first == end) return;
   if (!box_known_) growBox(first, end);
+  if (canWeighFields(end)) core_.balance.fields = weightsOfFields(core_, end, ranges());
   if (!unit_known_) chooseLengthUnit(first, end);
   updateScales();
   keepRange();

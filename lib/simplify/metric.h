@@ -29,8 +29,11 @@ class Metric {
  private:
   void growBox(uint32_t first, uint32_t end);
   double rangeOf(size_t component) const;  // of the field it belongs to
+  double weightOf(size_t component) const;
   double extent() const;
   double fieldsTogether() const;
+  bool canWeighFields(uint32_t cells) const;
+  std::vector<double> ranges() const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
   void keepRange();

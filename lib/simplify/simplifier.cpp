@@ -102,10 +102,11 @@ class WindowedEngine final : public Simplifier::Engine {
   void prepareBalance(const Pilot& pilot) {
     const bool has_fields = plan_.dimension > 3 && plan_.layout == QuadricLayout::kFields;
     const bool is_asked_for = options_.boundary_weight != SimplifyOptions{}.boundary_weight;
-    if (options_.balance == BalanceUse::kNever || is_asked_for || followsPaper(options_.mode) ||
-        !has_fields)
+    if (options_.balance == BalanceUse::kNever || followsPaper(options_.mode) || !has_fields)
       return;
     core_.balance = pilot.balance;
+    core_.weighs_fields = !(options_.error > 0);  // which is in units of their ranges
+    if (is_asked_for) return;
     core_.balance_ratio = options_.balance_ratio;
     if (options_.balance_ratio > 0) return;
     const Target target = targetOf(plan_.schema, options_);
@@ -355,7 +356,7 @@ class WindowedEngine final : public Simplifier::Engine {
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
     r.peak_window_bytes = account_.peak();
     r.estimated_error = percentOf(core_, core_.tally.error);
-    r.balance = balanceText();
+    r.balance = inWords(core_.balance, core_.interfaces, plan_.schema.fields);
     tell(0);
     const Target target = targetOf(plan_.schema, options_);
     const bool by_count = target.ratio > 0 || target.cells > 0;
@@ -366,19 +367,6 @@ class WindowedEngine final : public Simplifier::Engine {
       r.reached = std::min(target.cells, r.cells_in) == r.target_cells ? "cells" : "ratio";
     else if (by_count)
       explainMiss();
-  }
-
-  std::string balanceText() const {
-    const Balance& b = core_.balance;
-    const double interfaces = core_.interfaces ? b.outer * b.interfaces : 1;
-    std::string text;
-    if (b.outer < 1) text = textOf("the boundary counts 1/%.0f of its weight", 1 / b.outer);
-    if (interfaces < 1)
-      text +=
-          textOf(b.outer < 1 ? ", interfaces 1/%.0f" : "interfaces count 1/%.0f of their weight",
-                 1 / interfaces);
-    if (interfaces < 1 && b.rough_interfaces) text += ", being rough from vertex to vertex";
-    return text.empty() ? text : text + ": more would leave the fields too little";
   }
 
   void explainMiss() {
