@@ -33,8 +33,50 @@ static void place(const S* at, double out[3]) {
   for (int i = 0; i < 3; ++i) out[i] = static_cast<double>(at[i]);
 }
 
+namespace {
+
+// Of a cell, seen from one of its vertices: a corner of the face opposite, and twice its area.
+struct FaceOpposite {
+  double corner[3], normal[3];
+};
+template <class S>
+inline FaceOpposite faceOpposite(const StarCell& cell, const S* values, size_t stride) {
+  FaceOpposite face;
+  double t[3][3];
+  for (size_t k = 0; k < 3; ++k) place(values + cell.t[k] * stride, t[k]);
+  for (size_t i = 0; i < 3; ++i) {
+    face.corner[i] = t[0][i];
+    t[1][i] -= t[0][i];
+    t[2][i] -= t[0][i];
+  }
+  cross(t[1], t[2], face.normal);
+  return face;
+}
+
+}  // namespace
+
 // A cell with the vertex at c has 6 V = (t0 - c) . n with n = (t1 - t0) x (t2 - t0): from there to
 // the origin its volume grows by c . n, and -n is its gradient.
+template <class S, class ChangeOf>
+void RegionVolumes::addCells(const Stars& stars, const S* values, size_t stride, const double x[3],
+                             const double tip[3], ChangeOf changeOf) {
+  const auto addFaces = [&](const Star& star, size_t end) {
+    for (const StarCell& s : star) {
+      const FaceOpposite face = faceOpposite(s, values, stride);
+      Change& change = changeOf(s);
+      for (size_t i = 0; i < 3; ++i) change.faces[end][i] += face.normal[i];
+    }
+  };
+  addFaces(stars.u, 0);
+  for (const StarCell& s : stars.ring) {
+    const FaceOpposite face = faceOpposite(s, values, stride);
+    Change& change = changeOf(s);
+    for (size_t i = 0; i < 3; ++i)
+      change.volume -= (face.corner[i] - x[i] - tip[i]) * face.normal[i];
+  }
+  addFaces(stars.v, 1);
+}
+
 template <class S>
 void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S* values,
                             size_t stride, const double x[3], const CellLabels& labels,
@@ -46,24 +88,20 @@ void RegionVolumes::measure(const Stars& stars, const uint32_t ends[2], const S*
     for (size_t i = 0; i < 3; ++i) tip[k][i] -= x[i];
   }
   for (size_t i = 0; i < 3; ++i) edge_[i] = tip[1][i] - tip[0][i];
-  size_t cell = 0, region = 0;
-  for (const Star* star : {&stars.u, &stars.ring, &stars.v})
-    for (const StarCell& s : *star) {
-      double t[3][3], n[3];
-      for (size_t k = 0; k < 3; ++k) place(values + s.t[k] * stride, t[k]);
-      for (size_t i = 0; i < 3; ++i) {
-        t[1][i] -= t[0][i];
-        t[2][i] -= t[0][i];
-      }
-      cross(t[1], t[2], n);
-      region = sides ? ofPart(sides->of(cell++)) : of(labels.rowOf(s.cell), labels, region);
-      Change& change = changes_[region];
-      if (star != &stars.ring) {
-        for (size_t i = 0; i < 3; ++i) change.faces[star == &stars.v][i] += n[i];
-        continue;
-      }
-      for (size_t i = 0; i < 3; ++i) change.volume -= (t[0][i] - x[i] - tip[0][i]) * n[i];
-    }
+  if (sides) {
+    size_t cell = 0;
+    addCells(stars, values, stride, x, tip[0],
+             [&](const StarCell&) -> Change& { return changes_[ofPart(sides->of(cell++))]; });
+  } else if (labels.count > 0) {
+    size_t region = 0;
+    addCells(stars, values, stride, x, tip[0], [&](const StarCell& s) -> Change& {
+      return changes_[region = of(labels.rowOf(s.cell), labels, region)];
+    });
+  } else {
+    Change body = {nullptr, 0, {}, {}};  // stays in registers
+    addCells(stars, values, stride, x, tip[0], [&](const StarCell&) -> Change& { return body; });
+    changes_.push_back(body);
+  }
   close(tip);
 }
 

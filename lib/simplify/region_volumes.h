@@ -36,6 +36,9 @@ class RegionVolumes {
   bool step(const double form[6], double out[3]) const;
 
  private:
+  template <class S, class ChangeOf>
+  void addCells(const Stars& stars, const S* values, size_t stride, const double x[3],
+                const double tip[3], ChangeOf changeOf);
   size_t of(const int64_t* row, const CellLabels& labels, size_t likely);
   size_t ofPart(size_t part);
   void close(const double ends[2][3]);
