@@ -20,7 +20,7 @@ class FieldErrors {
  public:
   FieldErrors(const Core<S>& core, const std::vector<double>& range)
       : core_(core), fields_(core.plan.schema.fields.size()), inverse_range_(range) {
-    for (double& r : inverse_range_) r = r > 0 ? 1 / r : 0;
+    for (double& r : inverse_range_) r = r > 0 && std::isfinite(1 / r) ? 1 / r : 0;
   }
 
   // Of a vertex: its corners, each 4 * cell + j. It goes to one of its neighbours, for each field
@@ -30,11 +30,12 @@ class FieldErrors {
     const size_t others = others_.size();
     costs_.assign(fields_.size() * others, 0);
     for (uint32_t corner : corners) addCell(corner);
+    for (double& cost : costs_)
+      if (!std::isfinite(cost)) cost = 0;  // of numbers whose differences are none
     for (size_t f = 0; f < fields_.size(); ++f) {
       const auto first = costs_.begin() + static_cast<std::ptrdiff_t>(f * others);
       const auto third = first + static_cast<std::ptrdiff_t>(others / 3);
       std::nth_element(first, third, first + static_cast<std::ptrdiff_t>(others));
-      if (!std::isfinite(*third)) continue;
       fields_[f].sum += *third;
       fields_[f].root += std::pow(*third, kCostPower);
     }

@@ -70,6 +70,21 @@ TEST(FieldWeights, AreOneForWhatHasNoErrorAndForWhatIsCarried) {
   EXPECT_EQ(weightsFor(mesh, options)[1], 1);
 }
 
+// Differences that are no number are left out, and so are ranges that cannot be divided by.
+TEST(FieldWeights, AreOneForNumbersTooLargeOrTooSmall) {
+  for (double unit : {1.7e308, 1e-310}) {
+    TestMesh mesh = wavesMesh(10);
+    addPositionField(mesh, {"extreme", 1, k64}, [=](double x, double y, double z) {
+      return unit * std::sin(x + 2 * y) * std::cos(3 * z);
+    });
+    const std::vector<double> weights = weightsFor(mesh, toRatio(0.2));
+    ASSERT_EQ(weights.size(), 3u);
+    EXPECT_EQ(weights[0], 1) << unit;
+    EXPECT_GE(weights[1], 4) << unit;
+    EXPECT_EQ(weights[2], 1) << unit;
+  }
+}
+
 TEST(FieldWeights, AreNotFoundWhereTheyAreNotWanted) {
   const TestMesh mesh = wavesMesh(10);
   SimplifyOptions none = toRatio(0.2), error, one = toRatio(0.2);
