@@ -175,6 +175,14 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
   }
 }
 
+double usualCost(double* costs, size_t count) {
+  double* const third = costs + count / 3;
+  for (size_t i = 0; i < count; ++i)
+    if (!std::isfinite(costs[i])) costs[i] = 0;
+  std::nth_element(costs, third, costs + count);
+  return *third > 0 ? *third : 0;
+}
+
 static std::string sheetsInWords(const Balance& b, bool has_interfaces) {
   const double interfaces = has_interfaces ? b.outer * b.interfaces : 1;
   std::string text;

@@ -25,8 +25,7 @@ namespace tetstream {
 // Times the weight of all sheets, and that of interfaces besides; 1 where it is not known.
 struct Balance {
   double outer = 1, interfaces = 1;
-  std::vector<double>
-      fields;  // times the weight of each of the schema's (field_weights.h); or none
+  std::vector<double> fields;  // times each one's weight (field_weights.h); or none
   bool knows_outer = false, knows_interfaces = false;
   bool rough_interfaces = false;
 };
@@ -40,6 +39,11 @@ std::string inWords(const Balance& balance, bool has_interfaces, const std::vect
 struct Removal {
   double field, sheet;
 };
+
+// Of what going to each of a vertex's neighbours costs, that where a third of them cost less: what
+// it may be expected to cost. The cheapest would be too cheap: along a cylinder half of all
+// vertices go for nothing, then none. What is no number counts as nothing. Reorders them.
+double usualCost(double* costs, size_t count);
 
 // Of vertices inside regions, on the boundary, and on interfaces.
 struct RemovalCosts {

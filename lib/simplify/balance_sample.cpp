@@ -36,15 +36,6 @@ double BalanceSample<S>::fieldErrorTowards(uint32_t v, uint32_t other) {
 }
 
 template <class S>
-double BalanceSample<S>::third(std::vector<double>& costs) {
-  const auto place = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 3);
-  for (double& cost : costs)
-    if (!std::isfinite(cost)) cost = 0;
-  std::nth_element(costs.begin(), place, costs.end());
-  return *place > 0 ? *place : 0;
-}
-
-template <class S>
 void BalanceSample<S>::keepUnique() {
   std::sort(others_.begin(), others_.end());
   others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
@@ -57,7 +48,7 @@ void BalanceSample<S>::addInside(uint32_t v, const Star& star) {
   keepUnique();
   field_costs_.clear();
   for (uint32_t other : others_) field_costs_.push_back(fieldErrorTowards(v, other));
-  costs_.inside.sample.push_back({third(field_costs_), 0});
+  costs_.inside.sample.push_back({usual(field_costs_), 0});
 }
 
 template <class S>
@@ -79,7 +70,7 @@ void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, Sh
     sheet_costs_.push_back(errorTowards(sheet_.data(), v, other));
   }
   RemovalCosts::Group& group = kind == SheetFace::kOuter ? costs_.outer : costs_.interfaces;
-  group.sample.push_back({third(field_costs_), third(sheet_costs_)});
+  group.sample.push_back({usual(field_costs_), usual(sheet_costs_)});
 }
 
 template <class S>

@@ -18,9 +18,7 @@ class BalanceSample {
   struct Face {
     uint32_t a, b;
   };
-  // A vertex goes to one of its neighbours, on a sheet along that; a third of them cost less.
-  // The cheapest would be too cheap: along a cylinder half of all vertices go for nothing, then
-  // none.
+  // A vertex goes to one of its neighbours, on a sheet along that.
   void addInside(uint32_t v, const Star& star);
   void addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind);
   // Of an interface between two regions.
@@ -40,7 +38,7 @@ class BalanceSample {
  private:
   double fieldErrorTowards(uint32_t v, uint32_t other);
   double errorTowards(const S* quadric, uint32_t v, uint32_t other);
-  static double third(std::vector<double>& costs);
+  static double usual(std::vector<double>& costs) { return usualCost(costs.data(), costs.size()); }
   void keepUnique();
 
   // Of the faces at a vertex of an interface, in normalised units.

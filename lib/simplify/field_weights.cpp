@@ -15,6 +15,7 @@ constexpr size_t kLargestStar = 200;
 constexpr double kCostPower = 3.0 / 7;
 // Of its range; what is less is rounding.
 constexpr double kLeastErrorOfField = 1e-6;
+
 template <class S>
 class FieldErrors {
  public:
@@ -24,20 +25,16 @@ class FieldErrors {
   }
 
   // Of a vertex: its corners, each 4 * cell + j. It goes to one of its neighbours, for each field
-  // to that where a third of them cost less, as in balance_sample.h.
+  // to another.
   void add(const std::vector<uint32_t>& corners) {
     listOthers(corners);
     const size_t others = others_.size();
     costs_.assign(fields_.size() * others, 0);
     for (uint32_t corner : corners) addCell(corner);
-    for (double& cost : costs_)
-      if (!std::isfinite(cost)) cost = 0;  // of numbers whose differences are none
     for (size_t f = 0; f < fields_.size(); ++f) {
-      const auto first = costs_.begin() + static_cast<std::ptrdiff_t>(f * others);
-      const auto third = first + static_cast<std::ptrdiff_t>(others / 3);
-      std::nth_element(first, third, first + static_cast<std::ptrdiff_t>(others));
-      fields_[f].sum += *third;
-      fields_[f].root += std::pow(*third, kCostPower);
+      const double cost = usualCost(&costs_[f * others], others);
+      fields_[f].sum += cost;
+      fields_[f].root += std::pow(cost, kCostPower);
     }
   }
 
@@ -117,7 +114,7 @@ uint32_t vertexEndOf(const Core<S>& core, uint32_t end) {
   return last + 1;
 }
 
-// The corners of some of the vertices, evenly spread.
+// The corners of some of the vertices, evenly spread; of those with too many cells one too many.
 template <class S>
 std::vector<std::vector<uint32_t>> someStars(const Core<S>& core, uint32_t end, uint32_t vertices) {
   const Topology& mesh = core.window.mesh;
@@ -126,7 +123,7 @@ std::vector<std::vector<uint32_t>> someStars(const Core<S>& core, uint32_t end, 
   for (uint32_t c = 0; c < end; ++c)
     for (uint32_t j = 0; j < 4; ++j)
       if (const uint32_t v = mesh.corners(c)[j]; (v & (step - 1)) == step / 2)
-        stars[v / step].push_back(4 * c + j);
+        if (stars[v / step].size() <= kLargestStar) stars[v / step].push_back(4 * c + j);
   return stars;
 }
 

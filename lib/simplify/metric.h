@@ -4,7 +4,7 @@
 // first cells' edges, so that no product over- or underflows. A field is brought to the extent of
 // the mesh (paper, section 3: "normalised to the geometry range"). Where the stream does not say
 // its box, extent and ranges are those met so far; when they grow, the quadrics in the window are
-// carried over into the new units.
+// carried over into the new units. Several fields are weighed against each other (field_weights.h).
 #pragma once
 
 #include "core.h"
