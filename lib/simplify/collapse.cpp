@@ -8,9 +8,11 @@
 
 namespace tetstream {
 
-// A place that keeps volumes and has more than this times the error of the best one has its price:
-// where curves and sheets are tightly curved, the step to it may be large.
+// A place that keeps volumes and has more than this times the error of the best one has its own
+// error as its price: where curves and sheets are tightly curved, the step to it may be large.
+// Where the best one has none, a price is still a number.
 constexpr float kDearGrowth = 1.5f;
+constexpr double kMostGrowth = 1e30;
 // Of meshes with many cells below the smaller dear angle. With an error of one part in kFlatParts
 // of the bound an edge may be collapsed that leaves as large a share of them; each cell that it
 // leaves more of them, or fewer, counts as kFlatCost of the bound. Larger ones leave fewer such
@@ -92,6 +94,13 @@ bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angl
   }
   const size_t left = stars_.u.size() + stars_.v.size();
   return after * (left + stars_.ring.size()) <= before * left;
+}
+
+// Of a place where the error is larger than at the best one.
+template <class S>
+static float growthPrice(S best, S there) {
+  const double growth = static_cast<double>(there) / static_cast<double>(best);
+  return static_cast<float>(std::clamp(growth, double{kThinPrice}, kMostGrowth));
 }
 
 template <class Mesh>
@@ -338,7 +347,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     if (core_.inner_sheets) listLabelled(u, v);
     const S moved = adjust(u, v, strata);
     if (!std::isfinite(moved)) return Outcome::kTooFar;
-    if (moved > kDearGrowth * *error) price_ = kThinPrice;
+    if (moved > kDearGrowth * *error) price_ = growthPrice(*error, moved);
     if (price_ > most_price) return Outcome::kDear;
     *error = std::max(*error, moved);
   }

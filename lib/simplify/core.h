@@ -196,8 +196,9 @@ struct Core {
     forHalvesOf(window.mesh.cellEnd(), work);
   }
 
-  // Whether some collapses have more than the price of their error.
-  bool spares() const { return !dear.empty() || interfaces || exact_curves; }
+  // Whether more than the price of their error is common among collapses; where the body is kept
+  // some have it.
+  bool hasPrices() const { return !dear.empty() || interfaces || exact_curves; }
   // Whether the input has so many cells below the smaller of the dear angles that each has its
   // price.
   bool isFlat() const { return dear.size() > 1; }

@@ -192,14 +192,18 @@ float PatchSweep<S>::sweepLevel(float level, float most) {
   return least;
 }
 
-// What was spared at lower levels has its price now.
+// What was spared at lower levels has its price now. Where prices are common all edges of half the
+// error and less may have theirs.
 template <class S>
 void PatchSweep<S>::sweepSpared(float level) {
+  bool any = core_.hasPrices();
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
     if (!(spared_[v] <= level)) continue;
     spared_[v] = std::numeric_limits<float>::infinity();
     choices_.reconsider(v);
+    any = true;
   }
+  if (!any) return;
   const float reach = core_.isFlat() ? level : level / kThinPrice;
   while (sweepLevel(reach, level) <= reach) {
   }
@@ -215,7 +219,7 @@ bool PatchSweep<S>::sweep(float bound) {
   float level = bound * kFirstLevel, least;
   for (;;) {
     choices_.reconsider();
-    if (core_.spares()) sweepSpared(level);
+    sweepSpared(level);
     do least = sweepLevel(level, 0);
     while (least <= level);
     if (level >= bound || mustStop()) break;

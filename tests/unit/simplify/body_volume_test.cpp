@@ -1,9 +1,12 @@
 // The volume inside the boundary, of meshes without regions.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "mesh_facts.h"
-#include "simplify_testing.h"
+#include "patch_sweep.h"
+#include "window_testing.h"
 
 namespace tetstream::test {
 namespace {
@@ -75,6 +78,87 @@ TEST(BodyVolume, CostsALinearFieldNothing) {
     const double there = 3 * out.position(v, 0) - 2 * out.position(v, 1) + out.position(v, 2);
     EXPECT_NEAR(out.field(g, v), there, 1e-6);
   }
+}
+
+// Simplified to a part, and ready to be simplified again.
+struct Halfway : WholePatch<double> {
+  Halfway() : WholePatch<double>(rounded(6, -0.3)) {
+    Collapser<Patch<double>> collapser(core, patch, account);
+    makeExhaustiveSelector(core, collapser)->decimate({200, 0, false}, [] {});
+    patch.store();
+    load();
+  }
+  // The least error of an edge of the patch, and the place that has it.
+  double solve(uint32_t a, uint32_t b) {
+    return core.kernels.solveEdge(patch.quadric(a), patch.values(a), patch.quadric(b),
+                                  patch.values(b), core.scale.data(), plan.dimension, z);
+  }
+  double z[4];
+};
+
+// The same, with a single edge that may be collapsed.
+struct OneEdge : Halfway {
+  OneEdge(uint32_t a, uint32_t b) {
+    for (uint32_t v = 0; v < core.window.mesh.vertexEnd(); ++v)
+      if (v != a && v != b) core.window.mesh.flagVertex(v, kLocked);
+    load();
+    error = solve(0, 1);
+  }
+  // If its price is no higher.
+  Outcome collapse(Collapser<Patch<double>>& collapser, float most_price) const {
+    return collapser.collapse(0, 1, z, error, 0, most_price);
+  }
+  // What a sweep to this bound collapses.
+  int64_t sweepTo(float bound) {
+    PatchSweep<double> sweep(core, account);
+    std::vector<uint32_t> cells(core.window.mesh.cellEnd());
+    std::iota(cells.begin(), cells.end(), 0u);
+    EXPECT_TRUE(sweep.load(owned.data(), owned.size(), cells.data(), cells.size()));
+    sweep.begin({0, 0, false}, 1);
+    sweep.sweep(bound);
+    return sweep.takeTally().collapses;
+  }
+  double error;
+};
+
+// The edges of the boundary, by their slots, whose price is more than twice their error. For less
+// than its error none is collapsed.
+Edges dearEdges() {
+  Halfway w;
+  Edges dear;
+  Collapser<Patch<double>> collapser(w.core, w.patch, w.account);
+  for (uint32_t c = 0; c < w.patch.cellEnd(); ++c)
+    for (uint32_t j = 0; j < 4; ++j)
+      for (uint32_t k = 0; k < j; ++k) {
+        const uint32_t a = w.patch.vertexOf(c, j), b = w.patch.vertexOf(c, k);
+        if (!w.patch.isFree(a) || !w.patch.isFree(b)) continue;
+        if (!w.patch.isBoundary(a) || !w.patch.isBoundary(b)) continue;
+        const Outcome outcome = collapser.collapse(a, b, w.z, w.solve(a, b), 0, 0.5);
+        if (outcome != Outcome::kDear || collapser.price() <= 2) continue;
+        dear.insert(std::minmax(w.patch.slotOf(a), w.patch.slotOf(b)));
+      }
+  return dear;
+}
+
+// What it costs to keep the volume is an edge's price: for less it is not collapsed, and a sweep
+// takes it once its bound is as high.
+TEST(BodyVolume, HasItsErrorAsThePrice) {
+  int legal = 0;
+  for (const auto& [a, b] : dearEdges()) {
+    OneEdge one(a, b);
+    Collapser<Patch<double>> collapser(one.core, one.patch, one.account);
+    ASSERT_EQ(one.collapse(collapser, 1), Outcome::kDear);
+    const float price = collapser.price();
+    EXPECT_GT(price, 2);
+    ASSERT_EQ(one.collapse(collapser, 0.99f * price), Outcome::kDear);
+    if (one.collapse(collapser, 1.01f * price) != Outcome::kDone) continue;
+    const double error = price * one.error;
+    EXPECT_NEAR(one.patch.quadric(0)[one.core.window.shape().quadric - 1], error, 1e-6 * error);
+    EXPECT_EQ(OneEdge(a, b).sweepTo(static_cast<float>(0.99 * error)), 0) << price;
+    EXPECT_EQ(OneEdge(a, b).sweepTo(static_cast<float>(1.01 * error)), 1) << price;
+    if (++legal == 3) break;
+  }
+  EXPECT_EQ(legal, 3);
 }
 
 }  // namespace
