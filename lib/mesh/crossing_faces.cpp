@@ -22,6 +22,16 @@ void PlacedFace::setPlane() {
   longest = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
   offset = dot(normal, at[0]);
   near = kOnPlane * longest * std::sqrt(dot(normal, normal));
+  for (int i = 0; i < 3; ++i) {
+    low[i] = std::min({at[0][i], at[1][i], at[2][i]});
+    high[i] = std::max({at[0][i], at[1][i], at[2][i]});
+  }
+}
+
+static bool areApart(const PlacedFace& a, const PlacedFace& b) {
+  bool apart = false;
+  for (int i = 0; i < 3; ++i) apart |= (a.high[i] < b.low[i]) | (b.high[i] < a.low[i]);
+  return apart;
 }
 
 // Whether the corners of `face` lie on both sides of the other's plane. If so, `side` tells of each
@@ -49,6 +59,7 @@ static bool passes(const double a[3], const double b[3], const PlacedFace& face)
 
 bool cross(const PlacedFace& a, const PlacedFace& b) {
   int of_a[3], of_b[3];
+  if (areApart(a, b)) return false;
   if (!isCut(b, a, of_b) || !isCut(a, b, of_a)) return false;
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;

@@ -11,10 +11,11 @@ struct PlacedFace {
 
   uint32_t corner[3];
   double at[3][3];
-  double normal[3];  // twice the area long
-  double offset;     // of its plane: the normal times a point on it
-  double longest;    // edge
-  double near;       // what lies nearer to the plane, times the normal's length, lies on it
+  double normal[3];        // twice the area long
+  double offset;           // of its plane: the normal times a point on it
+  double longest;          // edge
+  double near;             // what lies nearer to the plane, times the normal's length, lies on it
+  double low[3], high[3];  // its box
 
   bool has(uint32_t v) const { return corner[0] == v || corner[1] == v || corner[2] == v; }
   void setPlane();  // from `at`

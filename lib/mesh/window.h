@@ -84,6 +84,7 @@ class Window {
   int64_t liveCells() const { return mesh.liveCells(); }
   bool isFree(uint32_t v) const { return mesh.isFree(v); }
   bool isBoundary(uint32_t v) const { return mesh.vertexFlags(v) & kBoundary; }
+  bool isFreeElsewhere(uint32_t) const { return false; }  // as of a patch
   const int64_t* allCellPicks() const { return cell_picks_.data(); }
   const S* allValues() const { return values_.data(); }
   const S* allQuadrics() const { return quadrics_.data(); }

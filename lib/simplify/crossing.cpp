@@ -10,6 +10,8 @@ namespace tetstream {
 // Of the least height of a face: a place that is not as far in front of it is beside it. New faces
 // turn by less than six degrees then.
 constexpr double kInFront = 0.1;
+// And one that is this far stays out where not all faces beside are known.
+constexpr double kFarInFront = 1;
 // Round one vertex. What has more cells, or faces, is left alone: all pairs of faces are looked at
 // for each edge that is collapsed.
 constexpr size_t kMostCells = 200, kMostFaces = 100;
@@ -40,8 +42,8 @@ void BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const 
   });
 }
 
-// The faces that go, each once, and the rim of those that the new place lies in front of. Returns
-// how far it does, at most, of a face's least height.
+// The faces that go, each once. Returns how far in front of them the new place lies, at most, of a
+// face's least height.
 template <class Mesh>
 double BoundaryCrossing<Mesh>::listGone(uint32_t u, uint32_t v, const Stars& stars) {
   gone_.clear();
@@ -49,18 +51,34 @@ double BoundaryCrossing<Mesh>::listGone(uint32_t u, uint32_t v, const Stars& sta
   std::erase_if(gone_, [u](const PlacedFace& face) { return face.has(u); });
   if (mesh_.isBoundary(u)) listFaces(u, stars.u, &stars.ring, gone_);
   double most = 0;
-  rim_.clear();
   for (PlacedFace& face : gone_) {
     face.setPlane();
     const double height = dot(face.normal, face.at[0]);
-    if (!(height > 0)) continue;
     most = std::max(most, height * face.longest / dot(face.normal, face.normal));
+  }
+  return most;
+}
+
+// All but the ends of the faces that go: where the new place is that of one end, its own faces stay
+// as they are, and those of the other reach beyond them.
+template <class Mesh>
+void BoundaryCrossing<Mesh>::listRim(uint32_t u, uint32_t v) {
+  rim_.clear();
+  for (const PlacedFace& face : gone_)
     for (uint32_t x : face.corner)
       if (x != u && x != v) rim_.push_back(x);
-  }
   std::sort(rim_.begin(), rim_.end());
   rim_.erase(std::unique(rim_.begin(), rim_.end()), rim_.end());
-  return most;
+}
+
+// Whether the rim's vertices have all of their cells here: none is at a seam, of patches or of what
+// has been written, or has cells that have not come.
+template <class Mesh>
+bool BoundaryCrossing<Mesh>::knowsBeside() const {
+  const uint8_t* const flags = mesh_.allFlags();
+  return std::none_of(rim_.begin(), rim_.end(), [&](uint32_t w) {
+    return (flags[w] & (kFinal | kWritten)) != kFinal || mesh_.isFreeElsewhere(w);
+  });
 }
 
 // The faces round the merged vertex, as u: those that go but for the ones of both ends.
@@ -115,9 +133,12 @@ bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, co
   if (stars.u.size() > kMostCells || stars.v.size() > kMostCells) return false;
   scale_ = scale;
   for (int i = 0; i < 3; ++i) origin_[i] = static_cast<double>(place[i]);
-  if (listGone(u, v, stars) <= kInFront) return false;
+  const double in_front = listGone(u, v, stars);
+  if (in_front <= kInFront) return false;
   listMade(u, v);
   if (made_.size() > kMostFaces) return false;
+  listRim(u, v);
+  if (in_front > kFarInFront && !knowsBeside()) return true;
   listBeside(u, v);
   const size_t made = crossings(made_);
   return made > 0 && made > crossings(gone_);

@@ -12,8 +12,9 @@ namespace tetstream {
 // Cells that all have their right orientation overlap only where the boundary of their union
 // crosses itself. Only a place in front of a face on the boundary that goes can make it do so; one
 // that is by more than a little has the new faces held against each other and against those round
-// the vertices of their rim: of a patch against those that it has a cell of. Parts of the boundary
-// that are farther apart along it are not compared, nor are those round a vertex of many cells.
+// the vertices of their rim: of a patch against those that it has a cell of, and where it does not
+// have all, not if the place is far in front. Parts of the boundary that are farther apart along it
+// are not compared, nor are those round a vertex of many cells.
 template <class Mesh>
 class BoundaryCrossing {
  public:
@@ -31,6 +32,8 @@ class BoundaryCrossing {
   void listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
   double listGone(uint32_t u, uint32_t v, const Stars& stars);
   void listMade(uint32_t u, uint32_t v);
+  void listRim(uint32_t u, uint32_t v);
+  bool knowsBeside() const;
   void listBeside(uint32_t u, uint32_t v);
   size_t crossings(const Faces& faces) const;
 
