@@ -8,17 +8,18 @@
 
 namespace tetstream {
 
+// The six products that a determinant is the signed sum of, all positive: what its rounding is
+// relative to. Of a cell that is thin along an axis, they are no more than its volume.
+static double sumOfProducts(const double* corners) {
+  double e[3][3];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) e[i][k] = std::fabs(corners[3 * (i + 1) + k] - corners[k]);
+  const auto pair = [&](int j, int k) { return e[1][j] * e[2][k] + e[1][k] * e[2][j]; };
+  return e[0][0] * pair(1, 2) + e[0][1] * pair(0, 2) + e[0][2] * pair(0, 1);
+}
+
 bool CellMap::set(const double* corners) {
-  double longest = 0;
-  for (int i = 1; i < 4; ++i) {
-    double length = 0;
-    for (int k = 0; k < 3; ++k) {
-      const double d = corners[3 * i + k] - corners[k];
-      length += d * d;
-    }
-    longest = std::max(longest, length);
-  }
-  return std::fabs(frame_.set(corners)) > kFlat * longest * std::sqrt(longest);
+  return std::fabs(frame_.set(corners)) > kFlat * sumOfProducts(corners);
 }
 
 static const double kWhole[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};

@@ -23,8 +23,8 @@ constexpr double kInside = -1e-9;
 // From places to the barycentric coordinates of a cell.
 class CellMap {
  public:
-  // False if the cell is too flat to have any: its volume is below kFlat of a regular one's of its
-  // longest edge.
+  // False if the cell is too flat to have any: its volume is below kFlat of the products of which
+  // it is the sum, so mostly their rounding.
   bool set(const double* corners);  // [4][3]
   void coordinates(const double place[3], double out[4]) const { frame_.weights(place, out); }
   // planes[k][j]: coordinate k of corner j of another cell. False, and not all is told, if the cell

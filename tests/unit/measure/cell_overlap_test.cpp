@@ -114,5 +114,20 @@ TEST(CellOverlap, FlatCellsHaveNoCoordinates) {
   EXPECT_FALSE(map.set(Cell(12, 0.5).data()));
 }
 
+// However thin a cell is along an axis, its volume is no rounding.
+TEST(CellOverlap, CellsThatAreThinAlongAnAxisHaveCoordinates) {
+  const double size[3] = {1e9, 1, 1e-9};
+  const double corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {1, 1, 1}};
+  Cell thin;
+  for (const auto& corner : corners)
+    for (int i = 0; i < 3; ++i) thin.push_back(size[i] * corner[i]);
+  CellMap map;
+  ASSERT_TRUE(map.set(thin.data()));
+  const double place[3] = {0.75 * size[0], 0.5 * size[1], 0.25 * size[2]};
+  double at[4];
+  map.coordinates(place, at);
+  for (double share : at) EXPECT_NEAR(share, 0.25, 1e-12);
+}
+
 }  // namespace
 }  // namespace tetstream::test
