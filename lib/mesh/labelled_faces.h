@@ -15,13 +15,13 @@ class LabelledFaces {
 
   bool empty() const { return coming_.empty() && of_corner_.empty(); }
 
-  // Three vertices, whose cell is not looked for yet. Of a face that comes twice the first stays.
-  void expect(uint32_t a, uint32_t b, uint32_t c, int64_t label) {
+  // Three vertices, whose cell is not looked for yet. False, and the first stays, if the face has
+  // come before and has no cell yet.
+  bool expect(uint32_t a, uint32_t b, uint32_t c, int64_t label) {
     const Face face = Face::of(a, b, c);
-    if (coming_.find(face))
-      ++strange_;
-    else
-      coming_.put(face, label);
+    if (coming_.find(face)) return false;
+    coming_.put(face, label);
+    return true;
   }
   // The label of the face with these vertices, opposite a corner and, if there is a cell across it,
   // opposite `across`; otherwise that is `corner` again. It may have come since it was last asked
@@ -30,7 +30,7 @@ class LabelledFaces {
     const Face face = Face::of(a, b, c);
     if (const int64_t* label = coming_.find(face)) {
       if (labelOf(corner) || labelOf(across))
-        ++strange_;
+        ++again_;
       else
         of_corner_.put({corner}, *label);
       coming_.remove(face);
@@ -52,8 +52,10 @@ class LabelledFaces {
     for (uint32_t j = 0; j < 4; ++j) of_corner_.remove({4 * cell + j});
   }
 
-  // Those that were faces of no cell, or came twice; once all vertices were looked at, all of them.
-  size_t strange() const { return strange_ + coming_.size(); }
+  // Those that were faces of no cell, and those that came again when they had one; once all
+  // vertices were looked at, all of them.
+  size_t ofNoCell() const { return gone_ + coming_.size(); }
+  size_t again() const { return again_; }
 
   // The window is packed: keep[v] is the new slot of vertex v; cells move to lower ones, in order.
   // What still waits for its cell and loses a vertex has none.
@@ -63,7 +65,7 @@ class LabelledFaces {
       *kept = Face::of(keep[f.v[0]], keep[f.v[1]], keep[f.v[2]]);
       return kept->v[2] != kNone;
     });
-    strange_ += before - coming_.size();
+    gone_ += before - coming_.size();
   }
   void moveCell(uint32_t from, uint32_t to) {
     for (uint32_t j = 0; j < 4 && !of_corner_.empty(); ++j) hand(4 * from + j, 4 * to + j);
@@ -88,7 +90,7 @@ class LabelledFaces {
 
   LabelMap<Face> coming_;
   LabelMap<Corner> of_corner_;
-  size_t strange_ = 0;
+  size_t gone_ = 0, again_ = 0;
 };
 
 }  // namespace tetstream

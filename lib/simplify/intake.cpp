@@ -75,7 +75,11 @@ void Intake<S>::takeFaces() {
       core_.window.mesh.flagVertex(slots[j], kInterface);
       if (batch_.face_locks && batch_.face_locks[row]) lock(slots[j]);
     }
-    core_.window.faces.expect(slots[0], slots[1], slots[2], batch_.face_labels[row]);
+    if (!core_.window.faces.expect(slots[0], slots[1], slots[2], batch_.face_labels[row]))
+      fail(Status::kBadData, "labelled face %zu comes twice: vertices %lld, %lld and %lld",
+           faces_read_, static_cast<long long>(batch_.faces[3 * row]),
+           static_cast<long long>(batch_.faces[3 * row + 1]),
+           static_cast<long long>(batch_.faces[3 * row + 2]));
   }
 }
 

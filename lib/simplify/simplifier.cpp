@@ -132,8 +132,10 @@ class WindowedEngine final : public Simplifier::Engine {
     checkCount("labelled faces", plan_.schema.face_count, intake_.facesRead());
     intake_.finalizeAll();
     resolveNew();
-    if (const size_t strange = core_.window.faces.strange())
-      fail(Status::kBadData, "%zu labelled faces are faces of no cell, or came twice", strange);
+    if (const size_t strange = core_.window.faces.ofNoCell())
+      fail(Status::kBadData, "%zu labelled faces are faces of no cell", strange);
+    if (const size_t again = core_.window.faces.again())
+      fail(Status::kBadData, "%zu labelled faces came twice", again);
     Ledger now = ledger();
     decimate(budget_->lastGoal(now));
     if (now.written == 0) survey(now.read);
