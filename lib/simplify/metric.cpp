@@ -22,8 +22,9 @@ constexpr double kShareBelow = 0.01;
 // alike, nearly every edge would be refused for it. No more than this share may be below so many
 // floors; where shapes come first the floor is what was asked for.
 constexpr double kShareNear = 0.05, kNearFloor = 3;
-// Where shapes come first, cells are flipped whose smallest angle is below this many floors. At 2
-// it takes twice the time.
+// Where shapes come first, cells are flipped whose smallest angle is below this many floors, or
+// below the first dear angle, where the input made the floor a low one. At 2 it takes twice the
+// time.
 constexpr double kPoor = 1.5;
 // Where the input has more than this share of cells below one of these, making the share larger has
 // its price. Other meshes are spared the time, unless effort is asked for: then the first counts.
@@ -306,9 +307,11 @@ void Metric<S>::chooseFloor() {
     const bool is_asked_for = k == 0 && core_.options.effort == Effort::kHigh;
     if (is_above && (is_asked_for || below > kShareToSpare * all)) core_.dear.push_back(dear_[k]);
   }
-  const bool to_dear = !core_.shapesFirst() && !core_.dear.empty();
-  core_.poor = thinnessOfAngle(to_dear ? core_.dear.back().degrees
-                                       : std::min(kPoor * core_.thin.degrees, 90.0));
+  double poor = kPoor * core_.thin.degrees;
+  if (!core_.dear.empty())
+    poor = core_.shapesFirst() ? std::max(poor, core_.dear.front().degrees)
+                               : core_.dear.back().degrees;
+  core_.poor = thinnessOfAngle(std::min(poor, 90.0));
 }
 
 // Before anything is measured, of several fields, where the window has enough of the mesh to tell.
