@@ -9,7 +9,7 @@
 namespace tetstream {
 
 // The six products that a determinant is the signed sum of, all positive: what its rounding is
-// relative to. Of a cell that is thin along an axis, they are no more than its volume.
+// relative to. Of a cell that is thin along an axis they are not much more than its volume.
 static double sumOfProducts(const double* corners) {
   double e[3][3];
   for (int i = 0; i < 3; ++i)

@@ -8,16 +8,6 @@
 
 namespace tetstream {
 
-// A place that keeps volumes and has more than this times the error of the best one has its own
-// error as its price: where curves and sheets are tightly curved, the step to it may be large.
-// Where the best one has none, a price is still a number.
-constexpr float kDearGrowth = 1.5f;
-constexpr double kMostGrowth = 1e30;
-// Of meshes with many cells below the smaller dear angle. With an error of one part in kFlatParts
-// of the bound an edge may be collapsed that leaves as large a share of them; each cell that it
-// leaves more of them, or fewer, counts as kFlatCost of the bound. Larger ones leave fewer such
-// cells, at a larger error and for more time: an edge is tried again at the bound of its price.
-constexpr double kFlatParts = 2, kFlatCost = 0.2;
 // Of an edge's length: nearer to it than this is on it.
 constexpr double kOnEdge = 1e-3;
 
@@ -96,30 +86,17 @@ bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angl
   return after * (left + stars_.ring.size()) <= before * left;
 }
 
-// Of a place where the error is larger than at the best one.
-template <class S>
-static float growthPrice(S best, S there) {
-  const double growth = static_cast<double>(there) / static_cast<double>(best);
-  return static_cast<float>(std::clamp(growth, double{kThinPrice}, kMostGrowth));
-}
-
-template <class Mesh>
-float Collapser<Mesh>::flatPrice(uint32_t u, uint32_t v, size_t flat_after) {
-  const auto before = static_cast<double>(thin_counts_.count(u, v, stars_, Thin::kLastDear));
-  const auto left = static_cast<double>(stars_.u.size() + stars_.v.size());
-  const double share_left = left / (left + static_cast<double>(stars_.ring.size()));
-  const double more = static_cast<double>(flat_after) - before * share_left;
-  const double part = 1 / kFlatParts - kFlatCost * more;
-  return static_cast<float>(1 / std::clamp(part, 1.0 / kHighestPrice, 1.0));
-}
-
 // `after`: below the first dear angle, the last and the floor; without a price all below the floor.
 template <class Mesh>
 Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, const StarShape& after) {
   const bool is_priced = isPriced(most_price);
   if (!thinsOut(u, v, Thin::kFloor, is_priced ? after.inner : after.thin)) return Outcome::kThin;
   if (!is_priced) return Outcome::kDone;
-  if (core_.isFlat()) price_ = std::max(price_, flatPrice(u, v, after.middle));
+  if (core_.isFlat()) {
+    const size_t flat = thin_counts_.count(u, v, stars_, Thin::kLastDear);
+    const size_t left = stars_.u.size() + stars_.v.size();
+    price_ = std::max(price_, flatPrice(flat, after.middle, stars_.ring.size(), left));
+  }
   if (price_ < kThinPrice && !thinsOut(u, v, Thin::kFirstDear, after.thin)) price_ = kThinPrice;
   return price_ > most_price ? Outcome::kDear : Outcome::kDone;
 }
@@ -347,7 +324,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     if (core_.inner_sheets) listLabelled(u, v);
     const S moved = adjust(u, v, strata);
     if (!std::isfinite(moved)) return Outcome::kTooFar;
-    if (moved > kDearGrowth * *error) price_ = growthPrice(*error, moved);
+    price_ = growthPrice(*error, moved);
     if (price_ > most_price) return Outcome::kDear;
     *error = std::max(*error, moved);
   }

@@ -9,6 +9,7 @@
 #include "heirs.h"
 #include "link.h"
 #include "patch.h"
+#include "price.h"
 #include "region_volumes.h"
 #include "sheet_sides.h"
 #include "sound.h"
@@ -17,9 +18,6 @@
 #include "thin_counts.h"
 
 namespace tetstream {
-
-// An edge whose collapse makes more cells thin than it should is taken at this times its error.
-constexpr float kThinPrice = 2, kHighestPrice = 64;
 
 template <class Mesh>
 class Collapser {
@@ -44,7 +42,7 @@ class Collapser {
   // written, and the share of thin ones no larger; the whole error within its limit; no fewer than
   // `least_cells` cells left in the window. kDear, where it would have a higher price than
   // `most_price`, in its error: more cells below the dear angles have theirs, and so has keeping
-  // the volumes of regions where that costs much.
+  // the volumes of regions, or of the body, where that costs much (price.h).
   Outcome collapse(uint32_t u, uint32_t v, const S* z, S error, int64_t least_cells,
                    float most_price = std::numeric_limits<float>::infinity());
   // Of the edge that was dear.
@@ -106,7 +104,6 @@ class Collapser {
   using Thin = ThinCounts<Mesh>;
   Outcome thins(uint32_t u, uint32_t v, float most_price, const StarShape& after);
   bool thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after);
-  float flatPrice(uint32_t u, uint32_t v, size_t flat_after);
   void interpolateCarried(uint32_t u, uint32_t v);
   void pickNearest(uint32_t u, uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);

@@ -72,7 +72,8 @@ void BoundaryCrossing<Mesh>::listRim(uint32_t u, uint32_t v) {
 }
 
 // Whether the rim's vertices have all of their cells here: none is at a seam, of patches or of what
-// has been written, or has cells that have not come.
+// has been written, or has cells that have not come. (Where a patch touches a locked one, it owns
+// the free vertices round that.)
 template <class Mesh>
 bool BoundaryCrossing<Mesh>::knowsBeside() const {
   const uint8_t* const flags = mesh_.allFlags();
