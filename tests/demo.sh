@@ -11,7 +11,8 @@ bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzs
   libcairo2-dev libcli11-dev
 
 echo "== build"
-cmake -S . -B build/demo -G Ninja -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_BUILD_TESTS=OFF
+cmake -S . -B build/demo -G Ninja -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_BUILD_TESTS=OFF \
+  -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=0
 cmake --build build/demo
 
 echo "== tetstream simplify tests/data/bracket/bracket.vtu build/bracket-10.vtu --ratio 0.1" \
