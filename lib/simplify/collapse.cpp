@@ -326,6 +326,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
     if (!std::isfinite(moved)) return Outcome::kTooFar;
     price_ = growthPrice(*error, moved);
     if (price_ > most_price) return Outcome::kDear;
+    if (isTooLarge(moved)) return Outcome::kTooLarge;
     *error = std::max(*error, moved);
   }
   if (isPriced(most_price)) {
@@ -366,7 +367,9 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               merged_.data() + core_.plan.dimension);
   Outcome outcome = Outcome::kNotFinite;
-  if (std::isfinite(error)) {
+  if (isTooLarge(error)) {
+    outcome = Outcome::kTooLarge;
+  } else if (std::isfinite(error)) {
     outcome = test(u, v, &error, least_cells, most_price);
     if (outcome == Outcome::kDone && passesLimit(u, v, error)) {
       tally_.error_reached = true;

@@ -89,6 +89,7 @@ class Collapser {
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
+  bool isTooLarge(S error) const { return static_cast<double>(error) > core_.most_error; }
   bool placeAt(uint32_t u, uint32_t v, S* z);
   void moveBy(uint32_t u, uint32_t v, const S step[3]);
   // Of a mesh without regions: whether the boundary is there to shrink or grow.

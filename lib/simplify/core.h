@@ -220,6 +220,7 @@ struct Core {
   const QuadricKernels<S>& kernels;
   Window<S> window;
   Front front;
+  uint64_t reached = 0;  // the vertices up to the last one that a cell of those read has
   std::vector<S> scale, inverse_scale;  // per dimension: normalised = scale * user's units
   std::vector<S> least, most;           // per dimension: the values a merged vertex may have
   double error_unit = 1;                // times a quadric error: the report's unit
@@ -234,6 +235,7 @@ struct Core {
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();
+  double most_error = std::numeric_limits<double>::infinity();  // of an edge that may be taken
   Tally tally;                    // of the whole; parts that are not added yet have their own
   double rescaled = 1;            // what errors of the last window count in today's units
   bool exact_curves;              // there are curves that the user wants to stay where they are

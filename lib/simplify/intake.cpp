@@ -202,7 +202,7 @@ void Intake<S>::takeCell(size_t row) {
       (v[2] == v[3]))
     failTwice(ids);
   const int64_t last_id = std::max(std::max(ids[0], ids[1]), std::max(ids[2], ids[3]));
-  reached_ = std::max(reached_, static_cast<uint64_t>(last_id) + 1);
+  core_.reached = std::max(core_.reached, static_cast<uint64_t>(last_id) + 1);
   const uint32_t cell = core_.window.mesh.addCell(v, 0);
   if (!core_.plan.cell_data.empty()) takeCellData(row, cell);
   if (core_.window.shape().points) core_.window.firstPoints()[cell] = kNone;

@@ -21,7 +21,7 @@ class Intake {
   uint64_t cellsRead() const { return cells_read_; }
   uint64_t facesRead() const { return faces_read_; }
   // Vertices in the window that came with a batch before any cell that has them.
-  size_t waiting() const { return static_cast<size_t>(core_.front.introduced() - reached_); }
+  size_t waiting() const { return static_cast<size_t>(core_.front.introduced() - core_.reached); }
   // The vertices finalized since the last clear, by slot.
   const uint32_t* finalized() const { return finalized_.data(); }
   size_t finalizedCount() const { return finalized_count_; }
@@ -45,7 +45,7 @@ class Intake {
 
   Core<S>& core_;
   BatchView batch_;
-  uint64_t declared_ = 0, reached_ = 0, cells_read_ = 0, faces_read_ = 0, edges_read_ = 0;
+  uint64_t declared_ = 0, cells_read_ = 0, faces_read_ = 0, edges_read_ = 0;
   Array<uint32_t> finalized_;
   size_t finalized_count_ = 0;
 };

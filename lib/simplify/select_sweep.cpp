@@ -49,7 +49,7 @@ class SweepSelector final : public Selector {
     unit_ = std::frexp(core_.error_unit, &exponent);
     for (auto& lane : lanes_) begin(*lane);
     core_.tally.error_reached = false;
-    sweep(tick);
+    sweep(bounds_.start(goal_, unit_), goal_.approaches, tick);
     const bool sweeps_out = goal.last && core_.options.last_resort && !mustStop();
     if (sweeps_out) sweepOut(tick);
     // Twice, with seams that lie elsewhere.
@@ -88,7 +88,7 @@ class SweepSelector final : public Selector {
   }
   void begin(Lane& lane);
   Lane& lane() { return *lanes_[0]; }
-  void sweep(const std::function<void()>& tick);
+  void sweep(double bound, int approaches, const std::function<void()>& tick);
   bool isStoppedByFloor(const Tally& before, int64_t cells_before) const;
   void lowerFloor();
   void sweepOut(const std::function<void()>& tick);
@@ -117,6 +117,7 @@ class SweepSelector final : public Selector {
     const uint32_t* const cells = tiling_.listCells(tile, lane.cells);
     onPatch(lane, tiling_.vertices(tile), tile.vertexCount(), cells, tile.cell_count, work);
   }
+  void tryByAllMeans(const std::function<void()>& tick);
   void tryEverything(const std::function<void()>& tick);
   bool reshape(Lane& lane, const Goal& goal, float bound);
   template <class HasMoved>
@@ -146,11 +147,10 @@ void SweepSelector<S>::begin(Lane& lane) {
   if (core_.tracer && core_.tracer->tracesPoints()) lane.reshaper->observe(core_.tracer);
 }
 
+// With so many passes on the way to the bound that the goal gives.
 template <class S>
-void SweepSelector<S>::sweep(const std::function<void()>& tick) {
+void SweepSelector<S>::sweep(double bound, int approaches, const std::function<void()>& tick) {
   if (mustStop()) return;
-  int approaches = goal_.approaches;
-  double bound = bounds_.start(goal_, unit_);
   for (bool first = true;; first = false) {
     constexpr float kAll = std::numeric_limits<float>::infinity();
     tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll, layout());
@@ -172,7 +172,10 @@ void SweepSelector<S>::sweep(const std::function<void()>& tick) {
     }
     if (!first)  // in that, most vertices are new
       bounds_.learn(before - core_.window.liveCells(), tiling_.looking());
-    bound = on_the_way ? goal_.step * bound : bounds_.next(bound, goal_);
+    const double last = bound;
+    const double wanted = on_the_way ? goal_.step * bound : bounds_.wanted(bound, goal_);
+    bound = bounds_.next(bound, wanted);
+    if (bound == last) return;
   }
 }
 
@@ -404,9 +407,22 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
   } while (core_.window.liveCells() < live);
 }
 
-// The target is not reached: edges are tried one by one, then with less regard for shapes.
+// The target is not reached up to the limit on the errors: first all that is below it, then more.
 template <class S>
 void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
+  do {
+    core_.most_error = bounds_.limit();
+    tryByAllMeans(tick);
+    core_.most_error = std::numeric_limits<double>::infinity();
+    if (mustStop() || !bounds_.widen(goal_)) return;
+    core_.tally.rejected_large = 0;  // for the limit that was
+    sweep(bounds_.next(bound_, bounds_.wanted(bound_, goal_)), 0, tick);
+  } while (!mustStop());
+}
+
+// Edges one by one, then with less regard for shapes.
+template <class S>
+void SweepSelector<S>::tryByAllMeans(const std::function<void()>& tick) {
   tryEverything(tick);
   while (!mustStop()) {
     const double floor = core_.thin.degrees;

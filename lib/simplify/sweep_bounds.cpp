@@ -15,6 +15,11 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 // While the law of kDecay says that the goal is farther. A pass that leaves less than a third of
 // the cells leaves fine seams between coarse tiles.
 constexpr double kLargestStride = 16;
+// Where the errors that were made bear no more.
+constexpr double kGuardedStep = 2;
+// A goal of which more than this many times is left is taken to be out of reach at any error; where
+// only a few cells are left their mean error tells nothing.
+constexpr int64_t kFar = 2, kFewCells = 1000;
 // Both with high effort: the smaller they are, the more nearly edges are taken in the order of
 // their errors, and the more often quadrics are made anew.
 constexpr double kCarefulStep = 2;
@@ -32,7 +37,11 @@ constexpr double kLargestBound = std::numeric_limits<float>::max();  // every fi
 
 template <class S>
 double SweepBounds<S>::start(const Goal& goal, double unit) {
+  unit_ = unit;
   yield_ = kFirstYield;
+  const bool must_reach =
+      goal.last && core_.options.last_resort && !std::isfinite(core_.error_limit);
+  reach_ = must_reach ? &kWorth : nullptr;
   return std::min(goal.first_bound * unit / std::pow(goal.step, goal.approaches), kLargestBound);
 }
 
@@ -80,7 +89,7 @@ double SweepBounds<S>::boundToTake(double cells) const {
 }
 
 template <class S>
-double SweepBounds<S>::next(double bound, const Goal& goal) {
+double SweepBounds<S>::wanted(double bound, const Goal& goal) const {
   const auto cells = static_cast<double>(core_.window.liveCells() - goal.cells);
   const double by_count = boundToTake(std::max(cells, 0.0)) / bound;
   // The squared error rises as n^(-4/3).
@@ -93,6 +102,37 @@ double SweepBounds<S>::next(double bound, const Goal& goal) {
   if (!is_careful && !std::isfinite(core_.error_limit))
     step = std::max(step, std::min({distance(1, goal), by_error, kLargestStride}));
   return std::min(bound * std::max(step, kLeastStep), kLargestBound);
+}
+
+template <class S>
+double SweepBounds<S>::next(double bound, double wanted) const {
+  const double guarded = std::max(errorIn(kFree) * unit_, kGuardedStep * bound);
+  const double next = std::min(wanted, guarded), most = limit() * unit_;
+  if (next <= most) return next;
+  return most > kLeastStep * bound ? most : bound;
+}
+
+template <class S>
+double SweepBounds<S>::errorIn(const Reach& reach) const {
+  const auto vertices =
+      static_cast<double>(core_.reached) - static_cast<double>(core_.tally.collapses);
+  const double square = reach.times * reach.times;
+  return std::max(errorOf(core_, reach.percent), square * core_.tally.error) /
+         std::max(vertices, 1.0);
+}
+
+template <class S>
+double SweepBounds<S>::limit() const {
+  return reach_ ? errorIn(*reach_) : std::numeric_limits<double>::infinity();
+}
+
+template <class S>
+bool SweepBounds<S>::widen(const Goal& goal) {
+  if (!reach_) return false;
+  const bool is_last = reach_ == &kLastWorth;
+  if (is_last && core_.window.liveCells() > std::max(kFar * goal.cells, kFewCells)) return false;
+  reach_ = is_last ? nullptr : &kLastWorth;
+  return true;
 }
 
 template class SweepBounds<float>;

@@ -20,6 +20,9 @@ void Tally::count(Outcome outcome) {
     case Outcome::kOrientation:
       ++rejected_orientation;
       break;
+    case Outcome::kTooLarge:
+      ++rejected_large;
+      [[fallthrough]];
     case Outcome::kTooMany:
     case Outcome::kTooFar:
     case Outcome::kDear:
@@ -37,6 +40,7 @@ void Tally::add(const Tally& part) {
   rejected_locked += part.rejected_locked;
   rejected_other += part.rejected_other;
   rejected_thin += part.rejected_thin;
+  rejected_large += part.rejected_large;
   error += part.error;
   largest_error = std::max(largest_error, part.largest_error);
   error_reached |= part.error_reached;

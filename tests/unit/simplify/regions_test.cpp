@@ -159,6 +159,55 @@ TEST(SimplifierRegions, GrowNoSpikes) {
   }
 }
 
+// Blocks of two materials, like a chessboard in space.
+TestMesh blocks(int n, int side) {
+  TestMesh mesh = fullGrid(n, n, n);
+  addPositionField(mesh, {"f", 1, k64}, [n](double x, double y, double z) {
+    return std::sin(3 * x / n) + std::cos(2 * y / n) + std::sin(z / n);
+  });
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    int sum = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      double x = 0;
+      for (size_t j = 0; j < 4; ++j)
+        x += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), i) / 4;
+      sum += static_cast<int>(x) / side;
+    }
+    return sum % 2;
+  });
+  return mesh;
+}
+
+// How far the farthest corner of the grid is from what is left.
+double cornersLost(const TestMesh& mesh, int n) {
+  double farthest = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double nearest = 3.0 * n * n;
+    for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+      double square = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double d = mesh.position(v, i) - (corner >> i & 1 ? n : 0);
+        square += d * d;
+      }
+      nearest = std::min(nearest, square);
+    }
+    farthest = std::max(farthest, std::sqrt(nearest));
+  }
+  return farthest;
+}
+
+// Edges across blocks are not legal, and no number of others that are dear makes up for them: the
+// target is missed, and the body is what it was.
+TEST(SimplifierRegions, DoNotCostTheBodyWhereTheyKeepTheTargetAway) {
+  const int n = 12;
+  const TestMesh mesh = blocks(n, 3);
+  const Result result = simplified(mesh, toRatio(0.02));
+  expectSound(mesh, result);
+  EXPECT_LT(cornersLost(result.out.mesh, n), 0.75);
+  EXPECT_LT(result.report.estimated_error, 10);
+  EXPECT_NE(result.report.limited_by.find("as large as the range"), std::string::npos);
+}
+
 TEST(SimplifierRegions, AreNotTakenFromIds) {
   const TestMesh mesh = twoMaterials(4);
   const Result result = withRegions(mesh, "auto", 0);

@@ -83,7 +83,7 @@ Result withoutFlips(const TestMesh& mesh, const SimplifyOptions& options) {
 TEST(Shapes, AreFlippedWhereManyAreFlat) {
   double flat = 0, flat_without = 0;
   int64_t flips = 0;
-  for (double flatness : {12.0, 70.0}) {
+  for (double flatness : {12.0, 30.0, 70.0}) {
     const TestMesh mesh = layered(layeredSide(), 6, flatness);
     for (double ratio : {0.1, 0.05}) {
       const SimplifyOptions options = toRatio(ratio, fourFrontsOfLayers());
