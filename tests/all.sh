@@ -48,8 +48,8 @@ sources() {
   find lib bindings tests \( -name '*.h' -o -name '*.c' -o -name '*.cpp' -o -name '*.inl' \)
 }
 
-# The prefix is that of the Debian packages, which a test makes. Rooms in one piece take seven
-# tenths of the time and give the same bytes; to build after each change, -DCMAKE_UNITY_BUILD=OFF is faster.
+# The prefix is that of the Debian packages, which a test makes. Rooms in one piece take seven tenths
+# of the time and give the same bytes; to build after each change, -DCMAKE_UNITY_BUILD=OFF is faster.
 stage_build() {
   configure build/release -DCMAKE_BUILD_TYPE=Release -DTETSTREAM_WARNINGS_AS_ERRORS=ON \
     -DCMAKE_INSTALL_PREFIX=/usr "${by_room[@]}" &&
