@@ -414,7 +414,7 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
     core_.most_error = bounds_.limit();
     tryByAllMeans(tick);
     core_.most_error = std::numeric_limits<double>::infinity();
-    if (mustStop() || !bounds_.widen(goal_)) return;
+    if (mustStop() || !bounds_.widen()) return;
     core_.tally.rejected_large = 0;  // for the limit that was
     sweep(bounds_.next(bound_, bounds_.wanted(bound_, goal_)), 0, tick);
   } while (!mustStop());

@@ -17,9 +17,8 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 constexpr double kLargestStride = 16;
 // Where the errors that were made bear no more.
 constexpr double kGuardedStep = 2;
-// A goal of which more than this many times is left is taken to be out of reach at any error; where
-// only a few cells are left their mean error tells nothing.
-constexpr int64_t kFar = 2, kFewCells = 1000;
+// Where no more cells are left their mean error tells nothing.
+constexpr int64_t kFewCells = 1000;
 // Both with high effort: the smaller they are, the more nearly edges are taken in the order of
 // their errors, and the more often quadrics are made anew.
 constexpr double kCarefulStep = 2;
@@ -127,10 +126,10 @@ double SweepBounds<S>::limit() const {
 }
 
 template <class S>
-bool SweepBounds<S>::widen(const Goal& goal) {
+bool SweepBounds<S>::widen() {
   if (!reach_) return false;
   const bool is_last = reach_ == &kLastWorth;
-  if (is_last && core_.window.liveCells() > std::max(kFar * goal.cells, kFewCells)) return false;
+  if (is_last && core_.window.liveCells() > kFewCells) return false;
   reach_ = is_last ? nullptr : &kLastWorth;
   return true;
 }

@@ -28,10 +28,9 @@ class SweepBounds {
   void learn(int64_t taken, int64_t looking);
   // The largest error that is worth to be made for the goal, in normalised units: few edges that
   // are legal must not make up for many that are not. What is left below it is tried by all means
-  // before it is widened, in the end without a limit; but not where the goal is far still, and what
-  // is left of the mesh would be lost for nothing.
+  // before it is widened, of few cells in the end without a limit.
   double limit() const;
-  bool widen(const Goal& goal);
+  bool widen();
 
  private:
   // The error that an edge may have: what all vertices could have for so many percent of the range,
