@@ -6,45 +6,19 @@
 
 namespace tetstream {
 
-constexpr size_t kFirstRows = 256;
-
 FrontMeter::FrontMeter(Account& account)
-    : front_(account), vertex_head_(account), corner_next_(account), pending_(account) {}
-
-uint32_t FrontMeter::takeVertex() {
-  if (vertex_free_ == kNone) {
-    const size_t size = vertex_head_.size();
-    vertex_head_.resize(size ? 2 * size : kFirstRows);
-    for (size_t i = vertex_head_.size(); i-- > size;) {
-      vertex_head_[i] = vertex_free_;
-      vertex_free_ = static_cast<uint32_t>(i);
-    }
-  }
-  const uint32_t vertex = vertex_free_;
-  vertex_free_ = vertex_head_[vertex];
-  return vertex;
-}
-
-uint32_t FrontMeter::takeCell() {
-  if (cell_free_ == kNone) {
-    const size_t size = pending_.size();
-    pending_.resize(size ? 2 * size : kFirstRows);
-    corner_next_.resize(4 * pending_.size());
-    for (size_t i = pending_.size(); i-- > size;) {
-      pending_[i] = 0;
-      corner_next_[4 * i] = cell_free_;
-      cell_free_ = static_cast<uint32_t>(i);
-    }
-  }
-  const uint32_t cell = cell_free_;
-  cell_free_ = corner_next_[4 * cell];
-  return cell;
-}
+    : front_(account),
+      vertex_rows_(account),
+      cell_rows_(account),
+      block_rows_(account),
+      vertices_(account),
+      blocks_(account),
+      pending_(account) {}
 
 void FrontMeter::introduceUpTo(uint64_t vertex) {
   while (front_.introduced() <= vertex) {
-    const uint32_t slot = takeVertex();
-    vertex_head_[slot] = kNone;
+    const uint32_t slot = vertex_rows_.take([this](size_t rows) { vertices_.resize(rows); });
+    vertices_[slot] = {kNoBlock, kBlockCells};
     front_.introduce(slot);
   }
 }
@@ -73,18 +47,35 @@ static bool areFour(const uint32_t s[4]) {
          s[2] != s[3];
 }
 
+void FrontMeter::use(Vertex& vertex, uint32_t cell) {
+  if (vertex.in_last == kBlockCells) {
+    const uint32_t block = block_rows_.take([this](size_t rows) { blocks_.resize(rows); });
+    blocks_[block].before = vertex.last_block;
+    vertex = {block, 0};
+  }
+  blocks_[vertex.last_block].cells[vertex.in_last++] = cell;
+}
+
 uint32_t FrontMeter::addCell(const int64_t corners[4]) {
   uint32_t slots[4];
   if (!front_.findFour(corners, slots) || !areFour(slots)) findCorners(corners, slots);
-  const uint32_t cell = takeCell();
+  const uint32_t cell = cell_rows_.take([this](size_t rows) {
+    const size_t before = pending_.size();
+    pending_.resize(rows);
+    std::fill(pending_.data() + before, pending_.data() + rows, uint8_t{0});
+  });
   pending_[cell] = 4;
-  for (uint32_t j = 0; j < 4; ++j) {
-    corner_next_[4 * cell + j] = vertex_head_[slots[j]];
-    vertex_head_[slots[j]] = 4 * cell + j;
-  }
+  for (uint32_t slot : slots) use(vertices_[slot], cell);
   ++live_cells_;
   ++cells_seen_;
   return cell;
+}
+
+// One of its vertices is final.
+void FrontMeter::settle(uint32_t cell) {
+  if (--pending_[cell] > 0) return;
+  cell_rows_.giveBack(cell);
+  --live_cells_;
 }
 
 uint32_t FrontMeter::finalize(int64_t vertex) {
@@ -96,17 +87,13 @@ uint32_t FrontMeter::finalize(int64_t vertex) {
   if (slot == kNoSlot)
     fail(Status::kBadData, "vertex %lld is finalized twice", static_cast<long long>(vertex));
   front_.finalize(rank);
-  for (uint32_t corner = vertex_head_[slot]; corner != kNone;) {
-    const uint32_t next = corner_next_[corner], cell = corner / 4;
-    if (--pending_[cell] == 0) {
-      corner_next_[4 * cell] = cell_free_;
-      cell_free_ = cell;
-      --live_cells_;
-    }
-    corner = next;
+  uint32_t count = vertices_[slot].in_last;
+  for (uint32_t block = vertices_[slot].last_block; block != kNoBlock; count = kBlockCells) {
+    for (uint32_t i = 0; i < count; ++i) settle(blocks_[block].cells[i]);
+    block_rows_.giveBack(block);
+    block = blocks_[block].before;
   }
-  vertex_head_[slot] = vertex_free_;
-  vertex_free_ = slot;
+  vertex_rows_.giveBack(slot);
   return slot;
 }
 

@@ -1,7 +1,9 @@
-// stream: measures a stream's front as it passes, and checks its references. Depends on front.h.
+// stream: measures a stream's front as it passes, and checks its references. Depends on front.h,
+// free_rows.h.
 #pragma once
 
 #include "batch.h"
+#include "free_rows.h"
 #include "front.h"
 
 namespace tetstream {
@@ -31,23 +33,31 @@ class FrontMeter {
   void note();
   const Front& front() const { return front_; }
   // Rows are below these; they are used again.
-  size_t cellRows() const { return pending_.size(); }
-  size_t vertexRows() const { return vertex_head_.size(); }
+  size_t cellRows() const { return cell_rows_.rows(); }
+  size_t vertexRows() const { return vertex_rows_.rows(); }
   bool isLive(uint32_t cell) const { return pending_[cell] != 0; }
 
  private:
-  static constexpr uint32_t kNone = 0xffffffffu;
+  // Cells of one vertex: with the number of the block before as long as a cache line.
+  static constexpr uint32_t kBlockCells = 15;
+  struct Block {
+    uint32_t before, cells[kBlockCells];
+  };
+  static constexpr uint32_t kNoBlock = 0xffffffffu;
+  struct Vertex {
+    uint32_t last_block, in_last;
+  };
+
   void introduceUpTo(uint64_t vertex);
   void findCorners(const int64_t corners[4], uint32_t slots[4]);
-  uint32_t takeVertex();
-  uint32_t takeCell();
+  void use(Vertex& vertex, uint32_t cell);
+  void settle(uint32_t cell);
 
   Front front_;
-  // A vertex holds the head of the list of its cells' corners; corner 4 * cell + j links on. Free
-  // vertices and cells are chained through the same members.
-  Array<uint32_t> vertex_head_, corner_next_;
+  FreeRows vertex_rows_, cell_rows_, block_rows_;
+  Array<Vertex> vertices_;
+  Array<Block> blocks_;
   Array<uint8_t> pending_;  // per cell: corners whose vertices are not final
-  uint32_t vertex_free_ = kNone, cell_free_ = kNone;
   uint64_t declared_ = 0, cells_seen_ = 0;
   int64_t live_cells_ = 0;
   FrontStatistics statistics_;
