@@ -1,5 +1,7 @@
 // generate: sine, hyperbolic tangent and random numbers made of + - * / alone, so that the same
 // arguments give the same bits on every processor and with every C library. Depends on nothing.
+//
+// F is float, or several of them side by side.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +13,36 @@ namespace tetstream {
 // t is brought to r in [-1/2, 1/2] by subtracting the nearest integer, which adding and
 // subtracting 1.5 * 2^23 leaves over, then folded to |f| <= 1/4 with the same sine. With
 // u = 2 pi f, |u| <= pi / 2, Taylor's series up to u^11 / 11! is off by less than 6e-8.
-inline float sineOfTurns(float t) {
+template <class F>
+inline F sineOfTurns(F t) {
   constexpr float kRounder = 12582912.0f;
   constexpr float kTwoPi = 6.28318530717958648f;
-  const float nearest = (t + kRounder) - kRounder;
-  const float r = t - nearest;
-  const float folded = r > 0.25f ? 0.5f - r : (r < -0.25f ? -0.5f - r : r);
-  const float u = kTwoPi * folded;
-  const float q = u * u;
-  float sum = -1.0f / 39916800.0f;
-  sum = sum * q + 1.0f / 362880.0f;
+  const F nearest = (t + kRounder) - kRounder;
+  const F r = t - nearest;
+  const F folded = r > 0.25f ? 0.5f - r : (r < -0.25f ? -0.5f - r : r);
+  const F u = kTwoPi * folded;
+  const F q = u * u;
+  F sum = -1.0f / 39916800.0f * q + 1.0f / 362880.0f;
   sum = sum * q - 1.0f / 5040.0f;
   sum = sum * q + 1.0f / 120.0f;
   sum = sum * q - 1.0f / 6.0f;
   return u + u * q * sum;
 }
 
+template <class F>
+inline F between(float low, F x, float high) {
+  const F lowest = F{} + low, highest = F{} + high;
+  return x > highest ? highest : (x < lowest ? lowest : x);
+}
+
 // tanh(x) within 2e-4, monotone, exactly -1 and 1 from about |x| = 5 on: the seventh convergent of
 // Lambert's continued fraction tanh x = x / (1 + x^2 / (3 + x^2 / (5 + ...))).
-inline float hyperbolicTangent(float x) {
-  const float q = x * x;
-  const float up = x * (135135.0f + q * (17325.0f + q * (378.0f + q)));
-  const float down = 135135.0f + q * (62370.0f + q * (3150.0f + q * 28.0f));
-  const float ratio = up / down;
-  return ratio > 1.0f ? 1.0f : (ratio < -1.0f ? -1.0f : ratio);
+template <class F>
+inline F hyperbolicTangent(F x) {
+  const F q = x * x;
+  const F up = x * (135135.0f + q * (17325.0f + q * (378.0f + q)));
+  const F down = 135135.0f + q * (62370.0f + q * (3150.0f + q * 28.0f));
+  return between(-1.0f, up / down, 1.0f);
 }
 
 // 64 bits that depend on every bit of the seed and of the counter: the mixing steps of SplitMix64

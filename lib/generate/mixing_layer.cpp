@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "arithmetic.h"
 
@@ -31,12 +32,13 @@ constexpr float kContrast = 0.87f, kStratification = 0.05f, kRipple = 0.08f;
 constexpr float kWaveSpeed = 0.2f;
 
 // cos(k pi x) and sin(k pi x) for k = 0 ... kMostHalfWaves, by the addition theorem from k = 1.
+template <class F>
 struct Multiples {
-  float cosine[kMostHalfWaves + 1], sine[kMostHalfWaves + 1];
+  F cosine[kMostHalfWaves + 1], sine[kMostHalfWaves + 1];
 
-  explicit Multiples(float x) {
-    cosine[0] = 1.0f;
-    sine[0] = 0.0f;
+  explicit Multiples(F x) {
+    cosine[0] = F{} + 1.0f;
+    sine[0] = F{};
     cosine[1] = sineOfTurns(0.5f * x + 0.25f);
     sine[1] = sineOfTurns(0.5f * x);
     for (int k = 2; k <= kMostHalfWaves; ++k) {
@@ -95,12 +97,13 @@ void MixingLayer::setWaves(uint64_t seed) {
   }
 }
 
-MixingLayer::Plumes MixingLayer::plumesAt(float x, float y) const {
-  const Multiples at_x(x), at_y(y);
-  Plumes plumes = {};
+template <class F>
+MixingLayer::Plumes<F> MixingLayer::plumesAt(F x, F y) const {
+  const Multiples<F> at_x(x), at_y(y);
+  Plumes<F> plumes = {};
   for (int m = 0; m < kPlumes; ++m) {
     const int p = kHalfWaves[m][0], q = kHalfWaves[m][1];
-    const float sine_x = at_x.sine[p] * at_y.cosine[q], sine_y = at_x.cosine[p] * at_y.sine[q];
+    const F sine_x = at_x.sine[p] * at_y.cosine[q], sine_y = at_x.cosine[p] * at_y.sine[q];
     plumes.sum += height_[m] * (at_x.cosine[p] * at_y.cosine[q]);
     plumes.slope_x -= slope_x_[m] * sine_x;
     plumes.slope_y -= slope_y_[m] * sine_y;
@@ -110,47 +113,57 @@ MixingLayer::Plumes MixingLayer::plumesAt(float x, float y) const {
   return plumes;
 }
 
-float MixingLayer::plumeSumAt(float x, float y) const {
-  const Multiples at_x(x), at_y(y);
-  float sum = 0;
+template <class F>
+F MixingLayer::plumeSumAt(F x, F y) const {
+  const Multiples<F> at_x(x), at_y(y);
+  F sum = {};
   for (int m = 0; m < kPlumes; ++m)
     sum += height_[m] * (at_x.cosine[kHalfWaves[m][0]] * at_y.cosine[kHalfWaves[m][1]]);
   return sum;
 }
 
-void MixingLayer::evaluateAt(float x, float y, float z, float* density, float velocity[3]) const {
-  float ripple = 0, along[3] = {0, 0, 0};
+template <class F>
+void MixingLayer::evaluateAt(const F at[3], F* density, F velocity[3]) const {
+  const F x = at[0], y = at[1], z = at[2];
+  F ripple = {}, along[3] = {};
   for (const Wave& wave : waves_) {
-    const float sine =
+    const F sine =
         sineOfTurns(wave.turns[0] * x + wave.turns[1] * y + wave.turns[2] * z + wave.phase);
     ripple += wave.height * sine;
     for (int i = 0; i < 3; ++i) along[i] += wave.along[i] * sine;
   }
-  const float far = z * z * (1.0f / (kZoneHeight * kZoneHeight));
-  const float zone = 1.0f / (1.0f + far * far);
+  const F far = z * z * (1.0f / (kZoneHeight * kZoneHeight));
+  const F zone = 1.0f / (1.0f + far * far);
 
-  const Plumes plumes = plumesAt(x, y);
-  const float head = z * (1.0f / kHeadHeight);
-  const float widening = kWidening * kHeadHeight * head / (1.0f + head * head);
-  const float warped = plumeSumAt(x + widening * plumes.slope_x, y + widening * plumes.slope_y);
-  const float distance = (z - kInterfaceHeight * warped) * (1.0f / kInterfaceThickness);
-  const float value = 2.0f + kContrast * hyperbolicTangent(distance + kRoughness * zone * ripple) -
-                      kStratification * 0.5f * z + kRipple * zone * ripple;
-  *density = std::min(3.0f, std::max(1.0f, value));
+  const Plumes<F> plumes = plumesAt(x, y);
+  const F head = z * (1.0f / kHeadHeight);
+  const F widening = kWidening * kHeadHeight * head / (1.0f + head * head);
+  const F warped = plumeSumAt(x + widening * plumes.slope_x, y + widening * plumes.slope_y);
+  const F distance = (z - kInterfaceHeight * warped) * (1.0f / kInterfaceThickness);
+  const F value = 2.0f + kContrast * hyperbolicTangent(distance + kRoughness * zone * ripple) -
+                  kStratification * 0.5f * z + kRipple * zone * ripple;
+  *density = between(1.0f, value, 3.0f);
 
-  const float depth = 1.0f - 0.25f * z * z;
-  const float speed = depth * depth, shear = -z * depth, share = kWaveSpeed * zone;
+  const F depth = 1.0f - 0.25f * z * z;
+  const F speed = depth * depth, shear = -z * depth, share = kWaveSpeed * zone;
   velocity[0] = shear * plumes.drift_x + share * along[0];
   velocity[1] = shear * plumes.drift_y + share * along[1];
   velocity[2] = speed * plumes.sum + share * along[2];
 }
 
+// Four points side by side.
 void MixingLayer::evaluate(const float* x, const float* y, const float* z, int count,
                            float* density, float* const velocity[3]) const {
-  for (int i = 0; i < count; ++i) {
-    float v[3];
-    evaluateAt(x[i], y[i], z[i], density + i, v);
-    for (int axis = 0; axis < 3; ++axis) velocity[axis][i] = v[axis];
+  typedef float Four __attribute__((vector_size(16)));
+  constexpr int kLanes = sizeof(Four) / sizeof(float);
+  const float* const places[3] = {x, y, z};
+  for (int i = 0; i < count; i += kLanes) {
+    const size_t bytes = static_cast<size_t>(std::min(count - i, kLanes)) * sizeof(float);
+    Four at[3] = {}, value, moving[3];
+    for (int axis = 0; axis < 3; ++axis) std::memcpy(&at[axis], places[axis] + i, bytes);
+    evaluateAt(at, &value, moving);
+    std::memcpy(density + i, &value, bytes);
+    for (int axis = 0; axis < 3; ++axis) std::memcpy(velocity[axis] + i, &moving[axis], bytes);
   }
 }
 
@@ -165,7 +178,8 @@ void MixingLayer::setBounds() {
   double low = 0, high = 0, drift[2] = {0, 0};
   for (int j = 0; j <= kSteps; ++j) {
     for (int i = 0; i <= kSteps; ++i) {
-      const Plumes at = plumesAt(static_cast<float>(i) / kSteps, static_cast<float>(j) / kSteps);
+      const Plumes<float> at =
+          plumesAt(static_cast<float>(i) / kSteps, static_cast<float>(j) / kSteps);
       low = std::min(low, static_cast<double>(at.sum));
       high = std::max(high, static_cast<double>(at.sum));
       drift[0] = std::max(drift[0], magnitude(at.drift_x));

@@ -38,8 +38,9 @@ class MixingLayer {
   static constexpr int kPlumes = 5;
   static constexpr int kWaves = 6;
 
+  template <class F>  // as in arithmetic.h
   struct Plumes {
-    float sum, slope_x, slope_y, drift_x, drift_y;  // S, grad S, grad P
+    F sum, slope_x, slope_y, drift_x, drift_y;  // S, grad S, grad P
   };
   struct Wave {
     float turns[3], phase;  // of the sine, in turns
@@ -50,9 +51,12 @@ class MixingLayer {
   void setPlumes(uint64_t seed);
   void setWaves(uint64_t seed);
   void setBounds();
-  Plumes plumesAt(float x, float y) const;
-  float plumeSumAt(float x, float y) const;
-  void evaluateAt(float x, float y, float z, float* density, float velocity[3]) const;
+  template <class F>
+  Plumes<F> plumesAt(F x, F y) const;
+  template <class F>
+  F plumeSumAt(F x, F y) const;
+  template <class F>
+  void evaluateAt(const F at[3], F* density, F velocity[3]) const;
 
   float height_[kPlumes];                      // a_m
   float slope_x_[kPlumes], slope_y_[kPlumes];  // a_m pi p_m, a_m pi q_m
