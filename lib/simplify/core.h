@@ -138,7 +138,7 @@ struct Core {
   static size_t budgetPerCell(const Plan& plan, const SimplifyOptions& options) {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options.feature_angle);
-    bytes += 1;  // what is tiled is marked by halves: two bytes of a vertex
+    bytes += 1;  // what is tiled is marked: a byte of a vertex, rounded up
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
       bytes += Tracer<S>::kCellBytes + Tracer<S>::kVertexBytes / kCellsPerVertex +
@@ -173,27 +173,40 @@ struct Core {
     return several && options.memory_bytes == 0 ? options.tasks : nullptr;
   }
 
-  // For what is done to all of the window; null as well where that is so little that another thread
-  // would come too late.
-  const Tasks* tasksForAll() const {
-    constexpr int64_t kLeastTiles = 8;  // fewer cells than these have vertices are few
+  // Parts that all of the window is cut into, one for a thread. Each has arrays of its own, so that
+  // threads write apart: of many they would take more memory than they save time.
+  size_t mostParts() const {
+    constexpr size_t kMostParts = 8;
+    const Tasks* const several = tasks();
+    return several ? std::min(several->threads(), kMostParts) : 1;
+  }
+  // Where there is little to do another thread would come too late.
+  size_t parts() const {
+    constexpr int64_t kLeastTiles = 4;  // fewer cells than these have vertices are few
     const int64_t tile = options.tile_vertices > 0 ? options.tile_vertices : kTileVertices;
-    return window.mesh.cellEnd() < kLeastTiles * tile ? nullptr : tasks();
+    const auto worth = static_cast<size_t>(window.mesh.cellEnd() / (kLeastTiles * tile));
+    return std::clamp<size_t>(worth, 1, mostParts());
   }
 
-  // Calls work(first, end, half) for the first of so many and for the others: half is 0 and 1.
-  // Where one thread works all are of the first half.
+  // Calls work(first, end, part) for each part of so many, in order where one thread works.
   template <class Work>
-  void forHalvesOf(uint32_t end, Work work) const {
-    const Tasks* const both = tasksForAll();
-    const uint32_t middle = both ? end / 2 : end;
-    doBoth(
-        both, [&] { work(0u, middle, 0u); }, [&] { work(middle, end, 1u); });
+  void forPartsOf(size_t count, Work work) const {
+    const size_t parts = this->parts();
+    const auto begin = [&](size_t part) { return static_cast<uint32_t>(count * part / parts); };
+    forEachOf(parts, [&](size_t part) { work(begin(part), begin(part + 1), part); });
   }
   // The same for the cells of the window.
   template <class Work>
-  void forHalves(Work work) const {
-    forHalvesOf(window.mesh.cellEnd(), work);
+  void forParts(Work work) const {
+    forPartsOf(window.mesh.cellEnd(), work);
+  }
+  // Calls work(i) for each of so many, at the same time where several threads are allowed.
+  template <class Work>
+  void forEachOf(size_t count, Work work) const {
+    if (const Tasks* const several = count > 1 ? tasks() : nullptr)
+      several->forParts(count, work);
+    else
+      for (size_t i = 0; i < count; ++i) work(i);
   }
 
   // Whether more than the price of their error is common among collapses; where the body is kept

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace tetstream {
 
@@ -50,25 +51,29 @@ bool Release<S>::mustGo(uint32_t keep) const {
 template <class S>
 void Release<S>::countUses() {
   const Topology& mesh = core_.window.mesh;
-  const size_t vertices = mesh.vertexEnd();
-  if (core_.tasks() && other_uses_.size() < vertices) other_uses_.resize(mesh.vertexCapacity());
-  uint32_t* const uses[2] = {core_.window.scratch(), other_uses_.data()};
-  int64_t front[2];
-  core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
+  const size_t vertices = mesh.vertexEnd(), parts = core_.parts();
+  std::vector<uint32_t*> uses_of = {core_.window.scratch()};
+  for (size_t other = 0; other + 1 < parts; ++other) {
+    if (other_uses_[other].size() < vertices) other_uses_[other].resize(mesh.vertexCapacity());
+    uses_of.push_back(other_uses_[other].data());
+  }
+  std::vector<int64_t> front(parts);
+  core_.forParts([&](uint32_t first, uint32_t end, size_t part) {
+    uint32_t* const uses = uses_of[part];
+    std::memset(uses, 0, vertices * sizeof(uint32_t));
     int64_t touching = 0;  // a vertex not yet final
-    front[half] = 0;
-    if (!uses[half]) return;  // one thread counts them all
-    std::memset(uses[half], 0, vertices * sizeof(uint32_t));
     for (uint32_t c = first; c < end; ++c) {
       if (!mesh.isLive(c)) continue;
-      for (int j = 0; j < 4; ++j) ++uses[half][mesh.corners(c)[j]];
+      for (int j = 0; j < 4; ++j) ++uses[mesh.corners(c)[j]];
       touching += !mayGo(c);
     }
-    front[half] = touching;
+    front[part] = touching;
   });
-  front_ = front[0] + front[1];
-  if (core_.tasks())
-    for (size_t v = 0; v < vertices; ++v) uses[0][v] += uses[1][v];
+  front_ = std::accumulate(front.begin(), front.end(), int64_t{0});
+  core_.forPartsOf(parts > 1 ? vertices : 0, [&](uint32_t first, uint32_t end, size_t) {
+    for (size_t other = 1; other < parts; ++other)
+      for (uint32_t v = first; v < end; ++v) uses_of[0][v] += uses_of[other][v];
+  });
 }
 
 template <class S>

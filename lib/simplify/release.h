@@ -2,6 +2,8 @@
 // Depends on core.h.
 #pragma once
 
+#include <vector>
+
 #include "core.h"
 #include "source.h"
 
@@ -15,7 +17,9 @@ template <class S>
 class Release {
  public:
   Release(Core<S>& core, Sink& out, Account& account)
-      : core_(core), out_(out), batch_(core.plan.schema), ranked_(account), other_uses_(account) {}
+      : core_(core), out_(out), batch_(core.plan.schema), ranked_(account) {
+    while (other_uses_.size() + 1 < core.mostParts()) other_uses_.emplace_back(account);
+  }
 
   // Lets cells go until `keep` live ones are left or no other may go, then packs the window.
   void write(uint32_t keep);
@@ -41,7 +45,7 @@ class Release {
   Sink& out_;
   Batch batch_;
   Array<RankedCell> ranked_;
-  Array<uint32_t> other_uses_;  // of vertices, by the second half of the cells
+  std::vector<Array<uint32_t>> other_uses_;  // of vertices, by parts of the cells but the first
   int64_t front_ = 0;
   uint64_t cells_ = 0, vertices_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <utility>
 
 #include "known_cells.h"
 #include "settled.h"
@@ -110,29 +111,29 @@ void Resolver<S>::forPlaced(uint32_t first, uint32_t end, Visit visit) const {
 }
 
 // Lists the corners of the first vertices, as many as fit; scratch holds a vertex's place in the
-// list plus one, 0 for others. Returns their number. Each half of the cells has its part of a star.
+// list plus one, 0 for others. Returns their number. Each part of the cells has its part of a star.
 template <class S>
 size_t Resolver<S>::listStars(size_t count) {
-  const size_t cells = core_.window.mesh.cellEnd();
-  for (Array<uint32_t>& next : next_) {
-    if (next.size() < count) next.resize(count);
-    std::fill_n(next.data(), count, 0u);
+  const size_t cells = core_.window.mesh.cellEnd(), parts = core_.parts();
+  for (size_t part = 0; part < parts; ++part) {
+    if (next_[part].size() < count) next_[part].resize(count);
+    std::fill_n(next_[part].data(), count, 0u);
   }
-  core_.forHalves([this](uint32_t first, uint32_t end, unsigned half) {
-    forPlaced(first, end, [next = next_[half].data()](uint32_t p, uint32_t) { ++next[p]; });
+  core_.forParts([this](uint32_t first, uint32_t end, size_t part) {
+    forPlaced(first, end, [next = next_[part].data()](uint32_t p, uint32_t) { ++next[p]; });
   });
   const size_t most = std::max<size_t>(kCornersAtOnce, core_.region_picks.empty() ? 0 : cells / 4);
   uint32_t fitting = 0, listed = 0;
   for (; fitting < count; ++fitting) {
-    const uint32_t before = next_[0][fitting], all = before + next_[1][fitting];
+    uint32_t all = 0;
+    for (size_t part = 0; part < parts; ++part) all += next_[part][fitting];
     if (fitting > 0 && listed + all > most) break;
-    next_[0][fitting] = listed;
-    next_[1][fitting] = listed + before;
-    listed += all;
+    for (size_t part = 0; part < parts; ++part)
+      listed += std::exchange(next_[part][fitting], listed);
   }
   if (corners_.size() < listed) corners_.resize(listed);
-  core_.forHalves([this, fitting](uint32_t first, uint32_t end, unsigned half) {
-    forPlaced(first, end, [&, next = next_[half].data()](uint32_t p, uint32_t corner) {
+  core_.forParts([this, fitting](uint32_t first, uint32_t end, size_t part) {
+    forPlaced(first, end, [&, next = next_[part].data()](uint32_t p, uint32_t corner) {
       if (p < fitting) corners_[next[p]++] = corner;
     });
   });
@@ -197,29 +198,25 @@ void Resolver<S>::findFaces(size_t begin, size_t end, Part& part) const {
   }
 }
 
-// Where there is nothing but boundary, stars are looked at by two threads; then their faces are
+// Where there is nothing but boundary, stars are looked at by several threads; then their faces are
 // added in the order of the vertices. One thread does it star by star, and keeps nothing.
 template <class S>
 void Resolver<S>::resolveListed(const uint32_t* vertices, size_t count) {
-  const Tasks* const tasks = core_.tasks();
   if (!core_.region_picks.empty() || !core_.window.faces.empty()) {
     for (size_t i = 0; i < count; ++i) resolveOpen(vertices[i], cornersOf(i));
     return;
   }
-  const size_t step = tasks ? count : 1;
-  for (size_t begin = 0; begin < count; begin += step) {
-    const size_t end = begin + step, middle = tasks ? begin + step / 2 : end;
-    if (tasks)
-      doBoth(
-          tasks, [&] { findFaces(begin, middle, first_); },
-          [&] { findFaces(middle, end, *second_); });
-    else
-      findFaces(begin, end, first_);
-    for (size_t i = begin; i < end; ++i) {
-      const Part& part = i < middle ? first_ : *second_;
-      const Found& found = part.found[i - (i < middle ? begin : middle)];
-      found.is_plain ? addFound(vertices[i], found, part) : resolveOpen(vertices[i], cornersOf(i));
-    }
+  const size_t parts = core_.parts(), step = parts > 1 ? count : 1;
+  for (size_t i = 0; i < count;) {
+    core_.forPartsOf(step, [&, begin = i](size_t first, size_t end, size_t part) {
+      findFaces(begin + first, begin + end, parts_[part]);
+    });
+    for (size_t part = 0; part < parts; ++part)
+      for (const Found& found : parts_[part].found) {
+        found.is_plain ? addFound(vertices[i], found, parts_[part])
+                       : resolveOpen(vertices[i], cornersOf(i));
+        ++i;
+      }
   }
 }
 
@@ -236,9 +233,9 @@ void Resolver<S>::addFound(uint32_t v, const Found& found, const Part& part) {
 
 template <class S>
 void Resolver<S>::resolveOpen(uint32_t v, Corners corners) {
-  gather(corners, first_.star);
+  gather(corners, star());
   resolveFaces(v);
-  finishFaces(v, boundary_.empty() || first_.border.isCircle(boundary_));
+  finishFaces(v, boundary_.empty() || parts_[0].border.isCircle(boundary_));
 }
 
 template <class S>
@@ -257,9 +254,9 @@ void Resolver<S>::finishFaces(uint32_t v, bool is_disk) {
 template <class S>
 void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
   Topology& mesh = core_.window.mesh;
-  for (const StarCell& s : first_.star)
+  for (const StarCell& s : star())
     if (s.has(a) && s.has(b) && (mesh.cellFlags(s.cell) & kFlat)) return;
-  for (const StarCell& s : first_.star) {
+  for (const StarCell& s : star()) {
     if (!s.has(a) || !s.has(b)) continue;
     if (mesh.cellFlags(s.cell) & kFolded) continue;
     mesh.flagCell(s.cell, kFolded);
@@ -312,9 +309,9 @@ template <class Visit>
 void Resolver<S>::forLinkEdges(Visit visit) {
   // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
   // 2^31. The lowest bit is the direction.
-  if (edges_.size() < 3 * first_.star.size()) edges_.resize(6 * first_.star.size());
+  if (edges_.size() < 3 * star().size()) edges_.resize(6 * star().size());
   size_t count = 0;
-  for (const StarCell& s : first_.star)
+  for (const StarCell& s : star())
     for (int i = 0; i < 3; ++i) {
       const uint64_t a = s.t[i], b = s.t[(i + 1) % 3];
       edges_[count++] = {a < b ? a << 33 | b << 1 : b << 33 | a << 1 | 1, s.cell};
@@ -406,7 +403,7 @@ void Resolver<S>::balance() {
   sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
   if (is_enough) {
     sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
-    forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, first_.star); });
+    forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, star()); });
   }
   core_.balance = known;
   chooseBalance(costs, core_.balance_ratio, &core_.balance);
@@ -421,7 +418,7 @@ void Resolver<S>::forStarsOf(const std::vector<uint32_t>& vertices, Visit visit)
   const size_t listed = listStars(vertices.size());
   for (uint32_t v : vertices) place[v] = 0;
   for (size_t i = 0; i < listed; ++i) {
-    gather(cornersOf(i), first_.star);
+    gather(cornersOf(i), star());
     visit(vertices[i]);
   }
 }

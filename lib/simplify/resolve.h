@@ -2,7 +2,7 @@
 // interfaces. Depends on balance_sample.h, link_border.h, metric.h, sheets.h.
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "balance_sample.h"
 #include "link_border.h"
@@ -24,12 +24,13 @@ class Resolver {
       : core_(core),
         metric_(metric),
         sheets_(core),
-        first_(account),
         corners_(account, 256),
         open_(account),
-        next_{Array<uint32_t>(account, 256), Array<uint32_t>(account, 256)},
         edges_(account) {
-    if (core_.tasks()) second_.emplace(account);
+    while (parts_.size() < core.mostParts()) {
+      parts_.emplace_back(account);
+      next_.emplace_back(account, 256);
+    }
   }
 
   // The window's cells from `first_new` on are new: they add their quadrics; older ones may have
@@ -51,8 +52,9 @@ class Resolver {
     size_t count;
   };
   Corners cornersOf(size_t place) const {
-    const uint32_t begin = place > 0 ? next_[1][place - 1] : 0;
-    return {corners_.data() + begin, next_[1][place] - begin};
+    const Array<uint32_t>& end = next_[core_.parts() - 1];
+    const uint32_t begin = place > 0 ? end[place - 1] : 0;
+    return {corners_.data() + begin, end[place] - begin};
   }
   void gather(Corners corners, Star& star) const;
   // What is known of a vertex before the boundary is added to: whether its link is that of a vertex
@@ -94,11 +96,13 @@ class Resolver {
   Core<S>& core_;
   Metric<S>& metric_;
   Sheets<S> sheets_;
-  Part first_;
-  std::optional<Part> second_;  // where two threads work
-  Array<uint32_t> corners_;     // of the stars that are looked at
-  Array<uint32_t> open_;        // vertices whose link is not closed, or of several labels
-  Array<uint32_t> next_[2];     // of each star among the corners, by halves; in the end, its end
+  Star& star() { return parts_[0].star; }  // what the caller's thread looks at, one by one
+  std::vector<Part> parts_;
+  Array<uint32_t> corners_;  // of the stars that are looked at
+  Array<uint32_t> open_;     // vertices whose link is not closed, or of several labels
+  // Of each star among the corners, by parts of the cells: where the next one goes. In the end that
+  // of the last part is its end.
+  std::vector<Array<uint32_t>> next_;
   struct LinkEdge {
     uint64_t key;  // directed, as (low, high, direction)
     uint32_t cell;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "median_cut.h"
 #include "settled.h"
 
 namespace tetstream {
@@ -35,18 +34,16 @@ void TileCells::copy(size_t tile, uint32_t* to) const {
   }
 }
 
-// In scratch: 1 for a vertex with an edge to be looked at. Near it: each half of the cells tells
-// its neighbours.
+// In scratch: 1 for a vertex with an edge to be looked at. Near it: each part of the cells tells
+// its neighbours; then those have 1, too.
 template <class S>
 void Tiling<S>::markVertices(float bound) {
   const Topology& mesh = core_.window.mesh;
   uint32_t* const mark = core_.window.scratch();
-  for (Part& part : parts_) {
-    part.looking = 0;
-    part.others_wait = false;
-    if (part.near.size() < mesh.vertexEnd()) part.near.resize(mesh.vertexCapacity());
-  }
-  core_.forHalvesOf(mesh.vertexEnd(), [&](uint32_t first, uint32_t end, unsigned half) {
+  const size_t parts = core_.parts();
+  for (size_t p = 0; p < parts; ++p)
+    if (parts_[p].near.size() < mesh.vertexEnd()) parts_[p].near.resize(mesh.vertexCapacity());
+  core_.forPartsOf(mesh.vertexEnd(), [&](uint32_t first, uint32_t end, size_t part) {
     int64_t looking = 0;
     bool others_wait = false;
     for (uint32_t v = first; v < end; ++v) {
@@ -56,13 +53,17 @@ void Tiling<S>::markVertices(float bound) {
       looking += mark[v];
       others_wait |= free && least > bound && least < std::numeric_limits<float>::infinity();
     }
-    parts_[half].looking = looking;
-    parts_[half].others_wait = others_wait;
+    parts_[part].looking = looking;
+    parts_[part].others_wait = others_wait;
   });
-  looking_ = parts_[0].looking + parts_[1].looking;
-  others_wait_ = parts_[0].others_wait || parts_[1].others_wait;
-  core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
-    uint8_t* const near = parts_[half].near.data();
+  looking_ = 0;
+  others_wait_ = false;
+  for (size_t p = 0; p < parts; ++p) {
+    looking_ += parts_[p].looking;
+    others_wait_ |= parts_[p].others_wait;
+  }
+  core_.forParts([&](uint32_t first, uint32_t end, size_t part) {
+    uint8_t* const near = parts_[part].near.data();
     std::fill_n(near, mesh.vertexEnd(), uint8_t{0});
     for (uint32_t c = first; c < end; ++c) {
       if (!mesh.isLive(c)) continue;
@@ -72,6 +73,7 @@ void Tiling<S>::markVertices(float bound) {
     }
   });
   if (core_.locked.any()) spreadOverLocked();
+  markNear();
 }
 
 // What lies round a locked vertex on the boundary beside those: a collapse must not push the
@@ -79,17 +81,35 @@ void Tiling<S>::markVertices(float bound) {
 template <class S>
 void Tiling<S>::spreadOverLocked() {
   const Topology& mesh = core_.window.mesh;
-  core_.forHalves([&](uint32_t first, uint32_t end, unsigned half) {
+  const size_t parts = core_.parts();
+  core_.forParts([&](uint32_t first, uint32_t end, size_t part) {
     const uint8_t* const flags = mesh.allVertexFlags();
+    const auto is_near = [&](uint32_t v) {
+      bool is = false;
+      for (size_t p = 0; p < parts; ++p) is |= parts_[p].near[v] != 0;
+      return is;
+    };
     const auto leads_on = [&](uint32_t v) {
       constexpr uint8_t kFixed = kLocked | kBoundary;
-      return (flags[v] & kFixed) == kFixed && (parts_[0].near[v] | parts_[1].near[v]);
+      return (flags[v] & kFixed) == kFixed && is_near(v);
     };
     for (uint32_t c = first; c < end; ++c) {
       const uint32_t* v = mesh.corners(c);
       if (!mesh.isLive(c) || std::none_of(v, v + 4, leads_on)) continue;
       for (int j = 0; j < 4; ++j)
-        if (isFreeVertex(flags[v[j]])) parts_[half].near[v[j]] = 1;
+        if (isFreeVertex(flags[v[j]])) parts_[part].near[v[j]] = 1;
+    }
+  });
+}
+
+template <class S>
+void Tiling<S>::markNear() {
+  uint32_t* const mark = core_.window.scratch();
+  const size_t parts = core_.parts();
+  core_.forPartsOf(core_.window.mesh.vertexEnd(), [&](uint32_t first, uint32_t end, size_t) {
+    for (size_t p = 0; p < parts; ++p) {
+      const uint8_t* const near = parts_[p].near.data();
+      for (uint32_t v = first; v < end; ++v) mark[v] |= near[v];
     }
   });
 }
@@ -102,7 +122,7 @@ size_t Tiling<S>::listVertices() {
   size_t count = 0;
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     vertices_[count] = v;
-    count += (mark[v] | parts_[0].near[v] | parts_[1].near[v]) != 0 && mesh.isFree(v);
+    count += mark[v] != 0 && mesh.isFree(v);
     mark[v] = 0;
   }
   return count;
@@ -131,6 +151,24 @@ size_t Tiling<S>::slicesOf(size_t vertices, size_t tile) const {
   return vertices > kFewSlices * tile ? kMostSlices : kFewSlices;
 }
 
+// Each piece in two, unless it is a leaf; returns where they begin then.
+template <class S>
+template <class Pieces>
+std::vector<size_t> Tiling<S>::cutOnce(Pieces& pieces, const CutRule& rule,
+                                       const std::vector<size_t>& begins) const {
+  std::vector<size_t> middles(begins.size() - 1);
+  core_.forEachOf(middles.size(), [&](size_t k) {
+    const bool is_leaf = rule.isLeaf(begins[k + 1] - begins[k]);
+    middles[k] = is_leaf ? begins[k] : pieces.cutOnce(begins[k], begins[k + 1]);
+  });
+  std::vector<size_t> all = {0};
+  for (size_t k = 0; k < middles.size(); ++k) {
+    if (middles[k] > begins[k]) all.push_back(middles[k]);
+    all.push_back(begins[k + 1]);
+  }
+  return all;
+}
+
 template <class S>
 void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
@@ -150,17 +188,21 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
     return;
   }
   tiles_.resize(rule.leavesOf(count));
-  const auto cutPart = [&](size_t begin, size_t end, size_t tile) {
-    pieces.cut(begin, end, [&](size_t first, size_t last) { setTile(tile++, first, last); });
-  };
-  const Tasks* const both = core_.tasksForAll();
-  if (!both || rule.isLeaf(count)) {
-    cutPart(0, count, 0);
-    return;
+  // Where each piece begins, that has a thread of its own in the end.
+  std::vector<size_t> begins = {0, count};
+  for (size_t parts = core_.parts(); begins.size() <= parts;) {
+    const size_t before = begins.size();
+    begins = cutOnce(pieces, rule, begins);
+    if (begins.size() == before) break;
   }
-  const size_t middle = pieces.cutOnce(0, count);
-  doBoth(
-      both, [&] { cutPart(0, middle, 0); }, [&] { cutPart(middle, count, rule.leavesOf(middle)); });
+  std::vector<size_t> first_tile = {0};
+  for (size_t k = 0; k + 1 < begins.size(); ++k)
+    first_tile.push_back(first_tile[k] + rule.leavesOf(begins[k + 1] - begins[k]));
+  core_.forEachOf(begins.size() - 1, [&](size_t k) {
+    size_t tile = first_tile[k];
+    pieces.cut(begins[k], begins[k + 1],
+               [&](size_t begin, size_t end) { setTile(tile++, begin, end); });
+  });
 }
 
 template <class S>
@@ -218,11 +260,13 @@ template <class S>
 void Tiling<S>::sortCells(bool whole) {
   for (Part& part : parts_) {
     part.cells.reset(tiles_.size());
+    part.shared.reset(tiles_.size());
     part.contacts.reset(tiles_.size());
+    part.torn.clear();
     part.between_count = 0;
   }
-  core_.forHalves([this, whole](uint32_t first, uint32_t end, unsigned half) {
-    sortCells(first, end, whole, parts_[half]);
+  core_.forParts([this, whole](uint32_t first, uint32_t end, size_t part) {
+    sortCells(first, end, whole, parts_[part]);
   });
   contacts_.reset(tiles_.size());
   for (const Part& part : parts_) contacts_.add(part.contacts);
@@ -281,19 +325,17 @@ void Tiling<S>::dropLeftOut() {
   }
 }
 
-// Few cells are torn: they are found by halves, and parted in the order of the cells.
+// Few cells are torn: they are found part by part, and parted in the order of the cells.
 template <class S>
 void Tiling<S>::keepApart() {
   std::vector<size_t> sizes;
   for (const TilePiece& tile : tiles_) sizes.push_back(tile.vertexCount());
   contacts_.divide(sizes);
-  const auto find = [this](Part& part) {
-    part.torn.clear();
+  core_.forEachOf(core_.parts(), [this](size_t p) {
+    Part& part = parts_[p];
     for (size_t i = 0; i < part.between_count; ++i)
       if (isTorn(part.between[i])) part.torn.push_back(part.between[i]);
-  };
-  doBoth(
-      core_.tasksForAll(), [&] { find(parts_[0]); }, [&] { find(parts_[1]); });
+  });
   for (const Part& part : parts_)
     for (uint32_t cell : part.torn) this->part(cell);
   dropLeftOut();
@@ -301,16 +343,14 @@ void Tiling<S>::keepApart() {
 
 template <class S>
 void Tiling<S>::addBetween() {
-  const auto add = [this](Part& part) {
-    part.shared.reset(tiles_.size());
+  core_.forEachOf(core_.parts(), [this](size_t p) {
+    Part& part = parts_[p];
     uint32_t tiles[4];
     for (size_t i = 0; i < part.between_count; ++i) {
       const size_t count = tilesOf(part.between[i], tiles);
       for (size_t k = 0; k < count; ++k) part.shared.add(tiles[k], part.between[i]);
     }
-  };
-  doBoth(
-      core_.tasksForAll(), [&] { add(parts_[0]); }, [&] { add(parts_[1]); });
+  });
   for (uint32_t tile = 0; tile < tiles_.size(); ++tile) {
     tiles_[tile].cell_count = 0;
     for (const Part& part : parts_)
@@ -322,11 +362,11 @@ template <class S>
 const uint32_t* Tiling<S>::listCells(const TilePiece& t, Array<uint32_t>& room) const {
   if (room.size() < t.cell_count) room.resize(t.cell_count + t.cell_count / 4);
   uint32_t* to = room.data();
-  for (const TileCells* cells :
-       {&parts_[0].cells, &parts_[1].cells, &parts_[0].shared, &parts_[1].shared}) {
-    cells->copy(t.number, to);
-    to += cells->count(t.number);
-  }
+  for (TileCells Part::*cells : {&Part::cells, &Part::shared})
+    for (const Part& part : parts_) {
+      (part.*cells).copy(t.number, to);
+      to += (part.*cells).count(t.number);
+    }
   return room.data();
 }
 

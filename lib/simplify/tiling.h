@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core.h"
+#include "median_cut.h"
 #include "tile_contacts.h"
 
 namespace tetstream {
@@ -49,8 +50,9 @@ enum class TileLayout : uint8_t {
 template <class S>
 class Tiling {
  public:
-  Tiling(Core<S>& core, Account& account)
-      : core_(core), vertices_(account), parts_{Part(account), Part(account)} {}
+  Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account) {
+    while (parts_.size() < core.mostParts()) parts_.emplace_back(account);
+  }
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
   // two along the longest side of their box, again and again, until a tile's cells and vertices fit
@@ -78,8 +80,12 @@ class Tiling {
  private:
   void markVertices(float bound);
   void spreadOverLocked();
+  void markNear();
   size_t listVertices();
   size_t slicesOf(size_t vertices, size_t tile) const;
+  template <class Pieces>
+  std::vector<size_t> cutOnce(Pieces& pieces, const CutRule& rule,
+                              const std::vector<size_t>& begins) const;
   void cut(size_t count, unsigned round, TileLayout layout);
   void setTile(size_t tile, size_t begin, size_t end);
   // What was found in a part of the window's cells.
@@ -113,7 +119,7 @@ class Tiling {
 
   Core<S>& core_;
   Array<uint32_t> vertices_;
-  Part parts_[2];  // the second is empty where one thread works
+  std::vector<Part> parts_;  // the later ones are empty where few threads work
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;
   float bound_ = 0;

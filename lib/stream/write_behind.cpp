@@ -7,7 +7,7 @@ namespace tetstream {
 // Writes what waits. Throws what the sink threw.
 class WriteBehind::Queue final : public BatchQueue {
  public:
-  Queue(Sink& out, const Schema& schema) : BatchQueue(schema, kBatchesBehind), out_(out) {}
+  Queue(Sink& out, const Schema& schema, size_t most) : BatchQueue(schema, most), out_(out) {}
 
   void put(const BatchView& batch) {
     Lock lock(mutex_);
@@ -50,7 +50,7 @@ WriteBehind::~WriteBehind() {
 
 void WriteBehind::begin(const Schema& schema) {
   out_.begin(schema);
-  queue_.emplace(new Queue(out_, schema));
+  queue_.emplace(new Queue(out_, schema, batchesBehind(tasks_.threads())));
 }
 
 void WriteBehind::put(const BatchView& batch) {

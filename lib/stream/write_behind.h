@@ -1,6 +1,7 @@
 // stream: batches that are written while the next ones are made. Depends on source.h, tasks.h.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "source.h"
@@ -8,8 +9,11 @@
 
 namespace tetstream {
 
-// Batches that may wait at once. Few are enough: the reduced mesh is small.
-constexpr size_t kBatchesBehind = 4;
+// Batches that may wait at once. Few are enough for two threads, the reduced mesh is small; with
+// many a window's worth comes in less time than one of them takes to write it.
+constexpr size_t batchesBehind(size_t threads) {
+  return std::clamp<size_t>(2 * threads, 4, 16);
+}
 
 // Hands on to `out` what it is given, batch by batch; what `out` throws comes with a later call.
 // Borrows both. `out` is called by one thread at a time, which for `put` may be another one than

@@ -86,7 +86,7 @@ TEST(WriteBehind, TellsAnErrorSoonAndWritesNothingAfterIt) {
         EXPECT_EQ(error.status(), Status::kIo);
         EXPECT_EQ(error.text(), textOf("batch %zu", fails_at));
       }
-      EXPECT_LE(put, fails_at + kBatchesBehind + 1);
+      EXPECT_LE(put, fails_at + batchesBehind(tasks.threads()) + 1);
       EXPECT_FALSE(sink.out.finished);
       lazy.workAll();
     }
@@ -94,21 +94,25 @@ TEST(WriteBehind, TellsAnErrorSoonAndWritesNothingAfterIt) {
 
 TEST(WriteBehind, LetsFewBatchesWait) {
   const TestMesh mesh = fullGrid(5, 5, 8, 0.1);
-  LazyWorkers lazy;
-  const Tasks tasks(2, &lazy);
-  WatchedSink sink;
-  WriteBehind behind(sink, tasks);
-  MeshStream in(mesh, smallBatches());
-  behind.begin(in.schema());
-  BatchView batch;
-  for (size_t put = 1; in.next(batch); ++put) {
-    behind.put(batch);
-    EXPECT_GE(sink.taken + kBatchesBehind, put);
-    EXPECT_GE(sink.taken, std::min(put, kBatchesOfOneThread));
+  for (const auto& [threads, most] : {std::pair<size_t, size_t>{2, 4}, {5, 10}, {64, 16}}) {
+    LazyWorkers lazy;
+    const Tasks tasks(threads, &lazy);
+    WatchedSink sink;
+    WriteBehind behind(sink, tasks);
+    MeshStream in(mesh, smallBatches());
+    behind.begin(in.schema());
+    BatchView batch;
+    size_t waited = 0;
+    for (size_t put = 1; in.next(batch); ++put) {
+      behind.put(batch);
+      waited = std::max(waited, put - sink.taken);
+      EXPECT_GE(sink.taken, std::min(put, kBatchesOfOneThread));
+    }
+    EXPECT_EQ(waited, most) << threads << " threads";
+    EXPECT_EQ(lazy.waiting.size(), 1u);
+    behind.settle();
+    EXPECT_EQ(sink.out.mesh.cellCount(), mesh.cellCount());
   }
-  EXPECT_EQ(lazy.waiting.size(), 1u);
-  behind.settle();
-  EXPECT_EQ(sink.out.mesh.cellCount(), mesh.cellCount());
 }
 
 TEST(WriteBehind, DropsWhatWaitsWhenItIsLeft) {
