@@ -52,6 +52,19 @@ def check_calibration(build):
         assert 0.1 < float(words[-2]) < 3000, line
 
 
+def check_threads(build):
+    lines = printed(build, "threads.py", "--cells", "3000", "--kinds", "ball", "--rounds", "1",
+                    "--windows", "0", "1000", "--threads", "1", "3", "--vtk-cells", "0")
+    assert [line.split(":")[0] for line in lines[-2:]] == ["Before", "After"], lines
+    rows = [line[2:-2].split(" | ") for line in lines[:-3]]
+    rows = [dict(zip(rows[0], row)) for row in rows[2:]]
+    assert [(row["window cells"] == "1000", row["threads"]) for row in rows] == [
+        (False, "1"), (False, "3"), (True, "1"), (True, "3")], rows
+    for row in rows:
+        assert row["same bytes"] == "yes" and float(row["M cells/s"]) > 0, row
+        assert row["threads"] != "1" or row["gain"] == "1.00 (1.00)", row
+
+
 def check_slope(build):
     rows = table(build, "memory.py", "--slope", "--windows", "2000", "20000", "--fills", "2")
     assert len(rows) == 10, rows
@@ -238,6 +251,7 @@ def main():
     check_calibration(build)
     check_memory(build)
     check_memory_limit(build)
+    check_threads(build)
     check_slope(build)
     check_structures(build)
     check_reading(build)
