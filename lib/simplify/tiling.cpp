@@ -135,12 +135,15 @@ size_t Tiling<S>::listVertices() {
 constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastPart = 4;
 
 // What a pass looks at again are few vertices with many cells. A tile that is smaller still has
-// more seams than it has inside.
-constexpr size_t kPieces = 8, kLeastPieces = 6;
+// more seams than it has inside. Windows of more tiles have as many pieces, for as many threads,
+// but larger ones: of a sixth of a tile they cost 2 % more RMS error at 0.02, of a quarter 0.2 %.
+constexpr size_t kPieces = 8, kLeastPieces = 6, kLeastOfWide = 4;
 
-// The most vertices of one.
-size_t pieceOf(size_t vertices, size_t tile) {
-  return std::clamp(vertices / kPieces + 1, tile / kLeastPieces, tile);
+// The most vertices of one. `window`: all vertices of it.
+static size_t pieceOf(size_t vertices, size_t window, size_t tile) {
+  const size_t tiles = window / tile;
+  const size_t least = tile / (tiles > kPieces ? kLeastOfWide : kLeastPieces);
+  return std::clamp(vertices / std::max(tiles, kPieces) + 1, least, tile);
 }
 
 // 0: none. `tile`: the most vertices of one.
@@ -174,7 +177,9 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
   const auto largest =
       static_cast<size_t>(tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan)));
-  const size_t most = layout == TileLayout::kPieces ? pieceOf(count, largest) : largest;
+  const size_t most = layout == TileLayout::kPieces
+                          ? pieceOf(count, core_.window.mesh.vertexEnd(), largest)
+                          : largest;
   const CutRule rule{kShare[round % 3], most};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), count, rule, at);
