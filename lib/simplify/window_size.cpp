@@ -44,7 +44,7 @@ int64_t WindowSize::knownFront() const {
 }
 
 int64_t WindowSize::forFront(int64_t front) const {
-  return front * (front < kWideFront ? kFrontsPerWindow : kFrontsOfWide);
+  return front < kWideFront ? kFrontsPerWindow * front : kQuarterFrontsOfWide * front / 4;
 }
 
 bool WindowSize::gainsWhole() const {

@@ -9,7 +9,8 @@ constexpr int64_t kFrontsPerWindow = 4;
 // Of such a front, as streams of 2e8 cells have: its window takes some 70 MB. What stays in it is
 // looked at again at every turn, which is less beside what is new where there are two fronts more:
 // 14 % of the time of two threads at a ratio of 0.01. Errors are those of four, as no more stays.
-constexpr int64_t kWideFront = 1 << 18, kFrontsOfWide = 6;
+// Of 1e9 cells with four components six fronts would take 260 MB, these less than 256.
+constexpr int64_t kWideFront = 1 << 18, kQuarterFrontsOfWide = 23;
 
 constexpr double kUsualRatio = 0.1;  // where there is no target
 // Reductions, cells in over cells out.

@@ -40,7 +40,7 @@ TEST(SimplifierWindow, HoldsSmallMeshesWhole) {
 
 TEST(SimplifierWindow, HoldsMoreFrontsWhereTheyAreWide) {
   EXPECT_EQ(windowOf(1000000000, 262143, {}), 4 * 262143);
-  EXPECT_EQ(windowOf(1000000000, 262144, {}), 6 * 262144);
+  EXPECT_EQ(windowOf(1000000000, 262144, {}), 23 * 262144 / 4);
   EXPECT_EQ(windowOf(1000000, 262144, {}), 1000000) << "the mesh has no more";
   SimplifyOptions budgeted;
   budgeted.memory_bytes = 64 << 20;
