@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <numeric>
 
 namespace tetstream {
 
@@ -69,7 +68,8 @@ void Release<S>::countUses() {
     }
     front[part] = touching;
   });
-  front_ = std::accumulate(front.begin(), front.end(), int64_t{0});
+  front_ = 0;
+  for (int64_t touching : front) front_ += touching;
   core_.forPartsOf(parts > 1 ? vertices : 0, [&](uint32_t first, uint32_t end, size_t) {
     for (size_t other = 1; other < parts; ++other)
       for (uint32_t v = first; v < end; ++v) uses_of[0][v] += uses_of[other][v];
