@@ -70,6 +70,7 @@ class Resolver {
     std::vector<uint64_t> faces;  // as edges of the links
     std::vector<Found> found;
   };
+  Star& star() { return parts_[0].star; }  // that the caller's thread looks at
   void findFaces(size_t begin, size_t end, Part& part) const;
   void resolveListed(const uint32_t* vertices, size_t count);
   void addFound(uint32_t v, const Found& found, const Part& part);
@@ -96,7 +97,6 @@ class Resolver {
   Core<S>& core_;
   Metric<S>& metric_;
   Sheets<S> sheets_;
-  Star& star() { return parts_[0].star; }  // what the caller's thread looks at, one by one
   std::vector<Part> parts_;
   Array<uint32_t> corners_;  // of the stars that are looked at
   Array<uint32_t> open_;     // vertices whose link is not closed, or of several labels
