@@ -18,26 +18,16 @@ HEAD = ("mesh", "cells", "ratio", "threads", "got / asked", "s", "CPU s", "M cel
 
 
 def arguments():
-    parser = harness.bench_parser(__doc__)
-    parser.add_argument("--kinds", nargs="+", default=["fluid", "ball"], metavar="KIND")
-    parser.add_argument("--cells", nargs="+", type=float, default=[1e5, 1e6, 1e7], metavar="N")
-    parser.add_argument("--mesh", nargs="+", type=harness.mesh_and_field, default=[],
-                        metavar="MESH:FIELD", help="real meshes, too: a name in TETSTREAM_MESHES "
-                        "or a path")
+    parser = harness.streams_parser(__doc__, [1e5, 1e6, 1e7])
     parser.add_argument("--ratio", nargs="+", type=float, default=[0.1], metavar="R")
     parser.add_argument("--threads", nargs="+", type=int, default=[1], metavar="N",
                         help="0: one for each core")
     parser.add_argument("--rounds", type=int, default=3, help="runs for the time; 5 is fair")
-    parser.add_argument("--vtk-cells", type=float, default=4e6)
     parser.add_argument("--calibrate", action="store_true", help="measure the memory, too")
     return parser.parse_args()
 
 
-class Speed:
-    def __init__(self, args):
-        self.args = args
-        self.tetstream, self.vtk = harness.bench_programs(args.build)
-
+class Speed(harness.Streams):
     def lines(self, name, stream, mesh, field):
         for ratio in self.args.ratio:
             for self.tetstream.threads in self.args.threads:
@@ -64,29 +54,13 @@ class Speed:
             line += ["-"] * 5
         harness.print_row(line)
 
-    def generated(self, kind, cells):
-        stream, mesh = self.tetstream.path("in.tets"), None
-        self.tetstream.run("generate", kind, "--cells", int(cells), stream, "--quiet")
-        if self.vtk and cells <= self.args.vtk_cells:
-            mesh = self.tetstream.convert(stream, self.tetstream.path("in.vtu"))
-        self.lines(kind, stream, mesh, "density")
-
-    def real(self, name, field):
-        mesh = harness.mesh_path(name)
-        stream = self.tetstream.convert(mesh, self.tetstream.path("in.tets"))
-        self.lines(f"{name} {field}", stream, mesh if self.vtk else None, field)
-
 
 def main():
     args = arguments()
     speed = Speed(args)
     before = harness.calibration(args.build) if args.calibrate else ""
     harness.print_head(HEAD)
-    for name, field in args.mesh:
-        speed.real(name, field)
-    for kind in args.kinds:
-        for cells in args.cells:
-            speed.generated(kind, cells)
+    speed.all_lines()
     if args.calibrate:
         print(f"\nBefore: {before}.\nAfter: {harness.calibration(args.build)}.")
 

@@ -20,19 +20,13 @@ HEAD = ("mesh", "cells", "ratio", "window cells", "threads", "s", "gain", "CPU s
 
 
 def arguments():
-    parser = harness.bench_parser(__doc__)
-    parser.add_argument("--kinds", nargs="+", default=["fluid", "ball"], metavar="KIND")
-    parser.add_argument("--cells", nargs="+", type=float, default=[3e6], metavar="N")
-    parser.add_argument("--mesh", nargs="+", type=harness.mesh_and_field, default=[],
-                        metavar="MESH:FIELD", help="real meshes, too: a name in TETSTREAM_MESHES "
-                        "or a path")
+    parser = harness.streams_parser(__doc__, [3e6])
     parser.add_argument("--ratio", type=float, default=0.1)
     parser.add_argument("--windows", nargs="+", type=int, default=[0], metavar="CELLS",
                         help="0: as by default")
     parser.add_argument("--threads", nargs="+", type=int, metavar="N",
                         help="by default 1, 2, 4, ... up to the cores that may be used")
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--vtk-cells", type=float, default=4e6)
     args = parser.parse_args()
     if not args.threads:
         cores = len(os.sched_getaffinity(0))
@@ -45,10 +39,9 @@ def digest(path):
         return hashlib.sha256(file.read()).hexdigest()
 
 
-class Curve:
+class Curve(harness.Streams):
     def __init__(self, args):
-        self.args = args
-        self.tetstream, self.vtk = harness.bench_programs(args.build)
+        super().__init__(args)
         self.same = True
 
     def run(self, threads, stream, field, window):
@@ -94,29 +87,13 @@ class Curve:
                 "yes" if same else "NO", f"{vtk:.3f}" if vtk else "-",
                 f"{vtk / wall:.2f}" if vtk else "-"])
 
-    def generated(self, kind, cells):
-        stream, mesh = self.tetstream.path("in.tets"), None
-        self.tetstream.run("generate", kind, "--cells", int(cells), stream, "--quiet")
-        if self.vtk and cells <= self.args.vtk_cells:
-            mesh = self.tetstream.convert(stream, self.tetstream.path("in.vtu"))
-        self.lines(kind, stream, mesh, "density")
-
-    def real(self, name, field):
-        mesh = harness.mesh_path(name)
-        stream = self.tetstream.convert(mesh, self.tetstream.path("in.tets"))
-        self.lines(f"{name} {field}", stream, mesh if self.vtk else None, field)
-
 
 def main():
     args = arguments()
     curve = Curve(args)
     before = harness.calibration(args.build)
     harness.print_head(HEAD)
-    for name, field in args.mesh:
-        curve.real(name, field)
-    for kind in args.kinds:
-        for cells in args.cells:
-            curve.generated(kind, cells)
+    curve.all_lines()
     print(f"\nBefore: {before}.\nAfter: {harness.calibration(args.build)}.")
     return 0 if curve.same else 1
 

@@ -165,6 +165,46 @@ def bench_programs(build):
     return Tetstream(os.path.join(build, "bindings", "cli", "tetstream"), measured, threads=1), vtk
 
 
+def streams_parser(description, cells):
+    """The arguments of a measurement on .tets files, which `Streams` takes; `cells` by default."""
+    parser = bench_parser(description)
+    parser.add_argument("--kinds", nargs="+", default=["fluid", "ball"], metavar="KIND")
+    parser.add_argument("--cells", nargs="+", type=float, default=cells, metavar="N")
+    parser.add_argument("--mesh", nargs="+", type=mesh_and_field, default=[], metavar="MESH:FIELD",
+                        help="real meshes, too: a name in TETSTREAM_MESHES or a path")
+    parser.add_argument("--vtk-cells", type=float, default=4e6,
+                        help="VTK is left out for generated meshes of more")
+    return parser
+
+
+class Streams:
+    """The meshes of such arguments as .tets files, one after the other. What is measured on each is
+    lines(name, stream, mesh, field); `mesh` is the .vtu of `stream`, or None: VTK is left out."""
+
+    def __init__(self, args):
+        self.args = args
+        self.tetstream, self.vtk = bench_programs(args.build)
+
+    def all_lines(self):
+        for name, field in self.args.mesh:
+            self.real(name, field)
+        for kind in self.args.kinds:
+            for cells in self.args.cells:
+                self.generated(kind, cells)
+
+    def generated(self, kind, cells):
+        stream, mesh = self.tetstream.path("in.tets"), None
+        self.tetstream.run("generate", kind, "--cells", int(cells), stream, "--quiet")
+        if self.vtk and cells <= self.args.vtk_cells:
+            mesh = self.tetstream.convert(stream, self.tetstream.path("in.vtu"))
+        self.lines(kind, stream, mesh, "density")
+
+    def real(self, name, field):
+        mesh = mesh_path(name)
+        stream = self.tetstream.convert(mesh, self.tetstream.path("in.tets"))
+        self.lines(f"{name} {field}", stream, mesh if self.vtk else None, field)
+
+
 def bench_path(build, name):
     """A program of tests/bench."""
     path = os.path.join(build, "tests", "bench", name)
