@@ -94,14 +94,16 @@ void Tasks::forParts(size_t count, const std::function<void(size_t)>& work) cons
   parts_->finish();
 }
 
+void doEach(const Tasks* tasks, size_t count, const std::function<void(size_t)>& work) {
+  if (tasks && count > 1)
+    tasks->forParts(count, work);
+  else
+    for (size_t i = 0; i < count; ++i) work(i);
+}
+
 void doBoth(const Tasks* tasks, const std::function<void()>& one,
             const std::function<void()>& other) {
-  if (tasks) {
-    tasks->forParts(2, [&](size_t part) { part == 0 ? one() : other(); });
-    return;
-  }
-  one();
-  other();
+  doEach(tasks, 2, [&](size_t i) { i == 0 ? one() : other(); });
 }
 
 }  // namespace tetstream

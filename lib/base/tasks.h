@@ -35,7 +35,8 @@ class Tasks {
   Kept<Parts> parts_;
 };
 
-// Both, at the same time where there are tasks; without, the first one before the other.
+// work(0) to work(count - 1), at the same time where there are tasks; without, one after the other.
+void doEach(const Tasks* tasks, size_t count, const std::function<void(size_t)>& work);
 void doBoth(const Tasks* tasks, const std::function<void()>& one,
             const std::function<void()>& other);
 

@@ -193,20 +193,12 @@ struct Core {
   void forPartsOf(size_t count, Work work) const {
     const size_t parts = this->parts();
     const auto begin = [&](size_t part) { return static_cast<uint32_t>(count * part / parts); };
-    forEachOf(parts, [&](size_t part) { work(begin(part), begin(part + 1), part); });
+    doEach(tasks(), parts, [&](size_t part) { work(begin(part), begin(part + 1), part); });
   }
   // The same for the cells of the window.
   template <class Work>
-  void forParts(Work work) const {
+  void forPartsOfCells(Work work) const {
     forPartsOf(window.mesh.cellEnd(), work);
-  }
-  // Calls work(i) for each of so many, at the same time where several threads are allowed.
-  template <class Work>
-  void forEachOf(size_t count, Work work) const {
-    if (const Tasks* const several = count > 1 ? tasks() : nullptr)
-      several->forParts(count, work);
-    else
-      for (size_t i = 0; i < count; ++i) work(i);
   }
 
   // Whether more than the price of their error is common among collapses; where the body is kept

@@ -57,7 +57,7 @@ void Release<S>::countUses() {
     uses_of.push_back(other_uses_[other].data());
   }
   std::vector<int64_t> front(parts);
-  core_.forParts([&](uint32_t first, uint32_t end, size_t part) {
+  core_.forPartsOfCells([&](uint32_t first, uint32_t end, size_t part) {
     uint32_t* const uses = uses_of[part];
     std::memset(uses, 0, vertices * sizeof(uint32_t));
     int64_t touching = 0;  // a vertex not yet final

@@ -119,7 +119,7 @@ size_t Resolver<S>::listStars(size_t count) {
     if (next_[part].size() < count) next_[part].resize(count);
     std::fill_n(next_[part].data(), count, 0u);
   }
-  core_.forParts([this](uint32_t first, uint32_t end, size_t part) {
+  core_.forPartsOfCells([this](uint32_t first, uint32_t end, size_t part) {
     forPlaced(first, end, [next = next_[part].data()](uint32_t p, uint32_t) { ++next[p]; });
   });
   const size_t most = std::max<size_t>(kCornersAtOnce, core_.region_picks.empty() ? 0 : cells / 4);
@@ -132,7 +132,7 @@ size_t Resolver<S>::listStars(size_t count) {
       listed += std::exchange(next_[part][fitting], listed);
   }
   if (corners_.size() < listed) corners_.resize(listed);
-  core_.forParts([this, fitting](uint32_t first, uint32_t end, size_t part) {
+  core_.forPartsOfCells([this, fitting](uint32_t first, uint32_t end, size_t part) {
     forPlaced(first, end, [&, next = next_[part].data()](uint32_t p, uint32_t corner) {
       if (p < fitting) corners_[next[p]++] = corner;
     });

@@ -62,7 +62,7 @@ void Tiling<S>::markVertices(float bound) {
     looking_ += parts_[p].looking;
     others_wait_ |= parts_[p].others_wait;
   }
-  core_.forParts([&](uint32_t first, uint32_t end, size_t part) {
+  core_.forPartsOfCells([&](uint32_t first, uint32_t end, size_t part) {
     uint8_t* const near = parts_[part].near.data();
     std::fill_n(near, mesh.vertexEnd(), uint8_t{0});
     for (uint32_t c = first; c < end; ++c) {
@@ -82,7 +82,7 @@ template <class S>
 void Tiling<S>::spreadOverLocked() {
   const Topology& mesh = core_.window.mesh;
   const size_t parts = core_.parts();
-  core_.forParts([&](uint32_t first, uint32_t end, size_t part) {
+  core_.forPartsOfCells([&](uint32_t first, uint32_t end, size_t part) {
     const uint8_t* const flags = mesh.allVertexFlags();
     const auto is_near = [&](uint32_t v) {
       bool is = false;
@@ -160,7 +160,7 @@ template <class Pieces>
 std::vector<size_t> Tiling<S>::cutOnce(Pieces& pieces, const CutRule& rule,
                                        const std::vector<size_t>& begins) const {
   std::vector<size_t> middles(begins.size() - 1);
-  core_.forEachOf(middles.size(), [&](size_t k) {
+  doEach(core_.tasks(), middles.size(), [&](size_t k) {
     const bool is_leaf = rule.isLeaf(begins[k + 1] - begins[k]);
     middles[k] = is_leaf ? begins[k] : pieces.cutOnce(begins[k], begins[k + 1]);
   });
@@ -203,7 +203,7 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   std::vector<size_t> first_tile = {0};
   for (size_t k = 0; k + 1 < begins.size(); ++k)
     first_tile.push_back(first_tile[k] + rule.leavesOf(begins[k + 1] - begins[k]));
-  core_.forEachOf(begins.size() - 1, [&](size_t k) {
+  doEach(core_.tasks(), begins.size() - 1, [&](size_t k) {
     size_t tile = first_tile[k];
     pieces.cut(begins[k], begins[k + 1],
                [&](size_t begin, size_t end) { setTile(tile++, begin, end); });
@@ -270,7 +270,7 @@ void Tiling<S>::sortCells(bool whole) {
     part.torn.clear();
     part.between_count = 0;
   }
-  core_.forParts([this, whole](uint32_t first, uint32_t end, size_t part) {
+  core_.forPartsOfCells([this, whole](uint32_t first, uint32_t end, size_t part) {
     sortCells(first, end, whole, parts_[part]);
   });
   contacts_.reset(tiles_.size());
@@ -336,7 +336,7 @@ void Tiling<S>::keepApart() {
   std::vector<size_t> sizes;
   for (const TilePiece& tile : tiles_) sizes.push_back(tile.vertexCount());
   contacts_.divide(sizes);
-  core_.forEachOf(core_.parts(), [this](size_t p) {
+  doEach(core_.tasks(), core_.parts(), [this](size_t p) {
     Part& part = parts_[p];
     for (size_t i = 0; i < part.between_count; ++i)
       if (isTorn(part.between[i])) part.torn.push_back(part.between[i]);
@@ -348,7 +348,7 @@ void Tiling<S>::keepApart() {
 
 template <class S>
 void Tiling<S>::addBetween() {
-  core_.forEachOf(core_.parts(), [this](size_t p) {
+  doEach(core_.tasks(), core_.parts(), [this](size_t p) {
     Part& part = parts_[p];
     uint32_t tiles[4];
     for (size_t i = 0; i < part.between_count; ++i) {
