@@ -44,6 +44,7 @@ Input& ReaderUse::input(bool rounded, const std::string& temp_dir) {
   }
   if (!rounded) return *input;
   rounded_.stays_with_caller = input->stays_with_caller;
+  rounded_.waiting = input->waiting;
   rounded_.name = input->name;
   if (input->stream) rounded_.stream = std::make_unique<RoundingSource>(*input->stream);
   if (input->indexed) rounded_.indexed = std::make_unique<RoundingIndexedSource>(*input->indexed);

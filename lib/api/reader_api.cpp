@@ -37,10 +37,11 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   wrappingOf(path, &options.path);
   bytes = unwrapped(std::move(bytes));
   if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), options.temp_dir);
-  const bool waits = bytes->waits();
+  std::shared_ptr<Waiting> waiting = bytes->waiting();
   const std::string name = bytes->name();
   reader.input = format.open(std::move(bytes), options);
-  reader.input.stays_with_caller = waits;
+  reader.input.stays_with_caller = false;
+  reader.input.waiting = std::move(waiting);
   reader.input.name = name;
   openReader(reader);
 }

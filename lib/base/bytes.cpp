@@ -26,11 +26,16 @@ static void widenPipe(int fd, const struct stat& info) {
 #endif
 }
 
-static size_t readSome(int fd, void* out, size_t size, const std::string& name) {
+// `waiting` may be null.
+static size_t readSome(int fd, void* out, size_t size, const Waiting* waiting,
+                       const std::string& name) {
   for (;;) {
+    if (waiting && !waiting->forBytes(fd))
+      fail(Status::kCancelled, "%s: nobody waits for it any more", name.c_str());
     const ssize_t got = ::read(fd, out, size);
     if (got >= 0) return static_cast<size_t>(got);
-    if (errno != EINTR) failIo(name, "read");
+    const bool is_shared = waiting && errno == EAGAIN;  // others were there before
+    if (errno != EINTR && !is_shared) failIo(name, "read");
   }
 }
 
@@ -82,25 +87,28 @@ class DescriptorSource final : public ByteSource {
       failIo(this->name(), "open");
     }
     widenPipe(fd, info);
-    waits_ = !S_ISREG(info.st_mode);
-    seekable_ = !waits_ && ::lseek(fd, 0, SEEK_CUR) == 0;
+    if (!S_ISREG(info.st_mode)) waiting_ = std::make_shared<Waiting>();
+    seekable_ = !waiting_ && ::lseek(fd, 0, SEEK_CUR) == 0;
     size_ = seekable_ ? static_cast<uint64_t>(info.st_size) : 0;
   }
   ~DescriptorSource() override {
     if (owned_) ::close(fd_);
   }
-  size_t read(void* out, size_t size) override { return readSome(fd_, out, size, name()); }
+  size_t read(void* out, size_t size) override {
+    return readSome(fd_, out, size, waiting_.get(), name());
+  }
   size_t readAt(uint64_t offset, void* out, size_t size) override {
     return readFully(fd_, offset, out, size, name());
   }
   bool seekable() const override { return seekable_; }
   uint64_t size() const override { return size_; }
-  bool waits() const override { return waits_; }
+  std::shared_ptr<Waiting> waiting() const override { return waiting_; }
 
  private:
   int fd_;
-  bool owned_, waits_, seekable_;
+  bool owned_, seekable_;
   uint64_t size_;
+  std::shared_ptr<Waiting> waiting_;
 };
 
 class MemorySource final : public ByteSource {
@@ -139,7 +147,7 @@ class SecondReading final : public ByteSource {
   }
   bool seekable() const override { return true; }
   uint64_t size() const override { return source_.size(); }
-  bool waits() const override { return source_.waits(); }
+  std::shared_ptr<Waiting> waiting() const override { return source_.waiting(); }
 
  private:
   ByteSource& source_;
@@ -161,7 +169,7 @@ class PrefixedSource final : public ByteSource {
   size_t readAt(uint64_t, void*, size_t) override { return 0; }
   bool seekable() const override { return false; }
   uint64_t size() const override { return 0; }
-  bool waits() const override { return rest_->waits(); }
+  std::shared_ptr<Waiting> waiting() const override { return rest_->waiting(); }
 
  private:
   std::vector<unsigned char> prefix_;

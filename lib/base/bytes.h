@@ -1,4 +1,5 @@
-// base: where bytes come from and go to: files, file descriptors, memory. Depends on status.h.
+// base: where bytes come from and go to: files, file descriptors, memory. Depends on status.h,
+// waiting.h.
 //
 // All calls handle short transfers and EINTR, and throw kIo with the name and the system's word.
 #pragma once
@@ -9,6 +10,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "waiting.h"
 
 namespace tetstream {
 
@@ -24,8 +27,9 @@ class ByteSource {
   virtual size_t readAt(uint64_t offset, void* out, size_t size) = 0;
   virtual bool seekable() const = 0;
   virtual uint64_t size() const = 0;  // of seekable sources
-  // Whether a read may wait, for ever, for somebody at the other end: of a pipe, a terminal.
-  virtual bool waits() const { return false; }
+  // Of a pipe, a terminal, whose reads may wait, for ever, for somebody at the other end; null: of
+  // none. Once it is ended they fail.
+  virtual std::shared_ptr<Waiting> waiting() const { return nullptr; }
   const std::string& name() const { return name_; }  // for messages
 
  protected:

@@ -15,7 +15,7 @@ class WrappedSource : public ByteSource {
   size_t readAt(uint64_t, void*, size_t) override { return 0; }
   bool seekable() const override { return false; }
   uint64_t size() const override { return 0; }
-  bool waits() const override { return bytes_->waits(); }
+  std::shared_ptr<Waiting> waiting() const override { return bytes_->waiting(); }
 
  protected:
   WrappedSource(std::unique_ptr<ByteSource> bytes, size_t buffer_bytes)

@@ -65,6 +65,7 @@ Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFuncti
   if (!indexed) {
     source_ = input.stream.get();
     stays_with_caller_ = input.stays_with_caller;
+    waiting_ = input.waiting;
     chosen_ = "none: the stream is as it was" + reasonToKeep(input.stream->schema());
     return;
   }

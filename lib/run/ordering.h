@@ -21,8 +21,9 @@ class Ordering {
 
   Source& source() const { return *source_; }
   bool isOrdered() const { return ordered_ != nullptr; }
-  // As an Input; what was ordered is in memory and in files.
+  // As of an Input; what was ordered is in memory and in files.
   bool staysWithCaller() const { return stays_with_caller_; }
+  const std::shared_ptr<Waiting>& waiting() const { return waiting_; }
   double share() const;                                  // of the time of a run
   const std::string& chosen() const { return chosen_; }  // "spatial, along z"
   int64_t unusedVertices() const { return ordered_ ? ordered_->unusedVertices() : 0; }
@@ -36,6 +37,7 @@ class Ordering {
   std::unique_ptr<OrderedSource> ordered_;
   Source* source_ = nullptr;
   bool stays_with_caller_ = false;
+  std::shared_ptr<Waiting> waiting_;
   std::string chosen_;
 };
 

@@ -82,7 +82,9 @@ struct SimplifyRun::State {
     const int64_t cells = stream.schema().cell_count;
     const bool is_short = cells >= 0 && cells <= kReadAtOnce;
     if (!overlaps() || is_short || ordering.staysWithCaller()) return nullptr;
-    return std::make_unique<ReadAhead>(stream, tasks);
+    if (!ordering.waiting()) return std::make_unique<ReadAhead>(stream, tasks);
+    // To threads that the caller brings none of ours are added.
+    return options.workers ? nullptr : std::make_unique<ReadAhead>(stream, ordering.waiting());
   }
 
   // Of two errors the one that came first in the stream's order: what was put before the other is

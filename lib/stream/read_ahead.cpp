@@ -1,5 +1,7 @@
 #include "read_ahead.h"
 
+#include <utility>
+
 #include "batch_queue.h"
 
 namespace tetstream {
@@ -49,7 +51,15 @@ class ReadAhead::Queue final : public BatchQueue {
 ReadAhead::ReadAhead(Source& in, const Tasks& tasks)
     : tasks_(tasks), schema_(in.schema()), queue_(new Queue(in)) {}
 
+ReadAhead::ReadAhead(Source& in, std::shared_ptr<Waiting> waiting)
+    : waiting_(std::move(waiting)),
+      own_(2),
+      tasks_(*own_),
+      schema_(in.schema()),
+      queue_(new Queue(in)) {}
+
 ReadAhead::~ReadAhead() {
+  if (waiting_) waiting_->end();
   queue_->close();
 }
 

@@ -1,9 +1,13 @@
 // stream: batches of a source that are read while those before are worked on. Depends on source.h,
-// tasks.h.
+// tasks.h, waiting.h.
 #pragma once
+
+#include <memory>
+#include <optional>
 
 #include "source.h"
 #include "tasks.h"
+#include "waiting.h"
 
 namespace tetstream {
 
@@ -18,12 +22,17 @@ constexpr size_t kBatchesAhead = 8;
 class ReadAhead final : public Source {
  public:
   ReadAhead(Source& in, const Tasks& tasks);
-  ~ReadAhead() override;  // waits for the batch that is being read
+  // By a thread of its own, since it may wait for somebody at the other end.
+  ReadAhead(Source& in, std::shared_ptr<Waiting> waiting);
+  // Waits for the batch that is being read, but for nobody at the other end, and ends the waiting.
+  ~ReadAhead() override;
   const Schema& schema() const override { return schema_; }
   bool next(BatchView& batch) override;
 
  private:
   class Queue;
+  std::shared_ptr<Waiting> waiting_;
+  std::optional<Tasks> own_;
   const Tasks& tasks_;
   const Schema schema_;
   size_t asked_ = 0;  // batches

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "batch.h"
+#include "waiting.h"
 
 namespace tetstream {
 
@@ -80,9 +81,10 @@ class IndexedSource {
 struct Input {
   std::unique_ptr<Source> stream;
   std::unique_ptr<IndexedSource> indexed;
-  // Callbacks of the caller's, or what may wait for somebody at the other end: a stream that is
-  // read by the caller's thread alone.
+  // Callbacks of the caller's: a stream that is read by the caller's thread alone.
   bool stays_with_caller = true;
+  // Where reading may wait for somebody at the other end: no thread reads it that others wait for.
+  std::shared_ptr<Waiting> waiting = {};
   std::string name = {};  // of the file that it is read from; empty: of none
   const Schema& schema() const { return stream ? stream->schema() : indexed->schema(); }
 };

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <thread>
@@ -220,6 +221,56 @@ TEST(Pipes, AreMadeWideAtEitherEnd) {
   }
 }
 #endif
+
+TEST(Waiting, IsOfWhatHasAnotherEnd) {
+  Folder folder;
+  writeFile(folder.file("in"), "abc");
+  EXPECT_FALSE(openFile(folder.file("in"))->waiting());
+  EXPECT_FALSE(openMemory("abc", 3, "memory")->waiting());
+  int fds[2];
+  ASSERT_EQ(::pipe(fds), 0);
+  auto pipe = openDescriptor(fds[0], "pipe");
+  const std::shared_ptr<Waiting> waiting = pipe->waiting();
+  ASSERT_TRUE(waiting);
+  EXPECT_EQ(withPrefix({'a'}, std::move(pipe))->waiting(), waiting);
+  for (const int fd : fds) ::close(fd);
+}
+
+TEST(Waiting, CanBeEndedByAnotherThread) {
+  int fds[2];
+  ASSERT_EQ(::pipe(fds), 0);
+  const auto pipe = openDescriptor(fds[0], "pipe");
+  const auto thrown = [&] {
+    return thrownBy([&] {
+      char byte;
+      pipe->read(&byte, 1);
+    });
+  };
+  const std::pair<Status, std::string> ended = {Status::kCancelled,
+                                                "pipe: nobody waits for it any more"};
+  std::thread reader([&] { EXPECT_EQ(thrown(), ended); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  pipe->waiting()->end();
+  reader.join();
+  EXPECT_EQ(::write(fds[1], "a", 1), 1);
+  EXPECT_EQ(thrown(), ended);
+  for (const int fd : fds) ::close(fd);
+}
+
+// Others may have made them so; a read that would not wait is none that failed.
+TEST(Waiting, IsDoneForDescriptorsThatDoNot) {
+  int fds[2];
+  ASSERT_EQ(::pipe(fds), 0);
+  ASSERT_EQ(::fcntl(fds[0], F_SETFL, O_NONBLOCK), 0);
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(::write(fds[1], "late", 4), 4);
+    ::close(fds[1]);
+  });
+  EXPECT_EQ(contents(*openDescriptor(fds[0], "pipe")), "late");
+  writer.join();
+  ::close(fds[0]);
+}
 
 TEST(MakeSeekable, SpoolsAPipe) {
   int fds[2];

@@ -8,6 +8,7 @@
 #include "run.h"
 #include "shapes.h"
 #include "status.h"
+#include "strange_workers.h"
 
 namespace tetstream::test {
 namespace {
@@ -37,7 +38,7 @@ Cut smallBatches() {
 // What both ends of a run have seen.
 struct Ends {
   size_t reader_fails_at = kNever, writer_fails_at = kNever;
-  bool stay_with_caller = false;
+  bool stay_with_caller = false, reader_waits = false;
   std::atomic<bool> read_elsewhere = false, written_elsewhere = false;
   std::thread::id caller = std::this_thread::get_id();
 };
@@ -90,6 +91,7 @@ std::vector<unsigned char> ran(const TestMesh& mesh, const RunOptions& options, 
                   [&ends](const Progress&) { EXPECT_EQ(std::this_thread::get_id(), ends.caller); });
   Input input;
   input.stays_with_caller = ends.stay_with_caller;
+  if (ends.reader_waits) input.waiting = std::make_shared<Waiting>();
   input.stream = std::make_unique<In>(mesh, ends);
   run.run(input);
   EXPECT_EQ(out.out.problem, "");
@@ -114,6 +116,21 @@ TEST(Overlap, LeavesToTheCallersThreadWhatIsTheCallers) {
   ends.stay_with_caller = true;
   ran(mesh, through(4), ends);
   EXPECT_FALSE(ends.read_elsewhere || ends.written_elsewhere);
+}
+
+TEST(Overlap, HasNoThreadOfAPoolWaitForTheOtherEnd) {
+  const TestMesh mesh = wavyGrid();
+  Ends alone;
+  const std::vector<unsigned char> bytes = ran(mesh, through(1), alone);
+  SwiftWorkers pool;
+  for (Workers* workers : {static_cast<Workers*>(nullptr), static_cast<Workers*>(&pool)}) {
+    Ends ends;
+    ends.reader_waits = true;
+    RunOptions options = through(2);
+    options.workers = workers;
+    EXPECT_TRUE(ran(mesh, options, ends) == bytes);
+    EXPECT_FALSE(workers && ends.read_elsewhere);
+  }
 }
 
 TEST(Overlap, IsNoneWithAMemoryBudget) {

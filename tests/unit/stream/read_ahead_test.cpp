@@ -2,10 +2,13 @@
 #include "read_ahead.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
+#include <thread>
 
 #include "batch_ring.h"
+#include "bytes.h"
 #include "shapes.h"
 #include "status.h"
 #include "strange_workers.h"
@@ -130,6 +133,54 @@ TEST(ReadAhead, MayBeLeftInTheMiddle) {
     ReadAhead ahead(in, tasks);
     BatchView batch;
     for (size_t i = 0; i < asked; ++i) EXPECT_TRUE(ahead.next(batch));
+  }
+}
+
+// Gives a mesh's first batches, then waits for a pipe that nobody writes to.
+class StuckSource final : public Source {
+ public:
+  StuckSource(const TestMesh& mesh, size_t batches)
+      : in_(mesh, smallExplicitBatches()), left_(batches) {
+    if (::pipe(fds_) != 0) ADD_FAILURE() << "no pipe";
+    pipe_ = openDescriptor(fds_[0], "pipe");
+  }
+  ~StuckSource() override {
+    for (const int fd : fds_) ::close(fd);
+  }
+  std::shared_ptr<Waiting> waiting() const { return pipe_->waiting(); }
+  const Schema& schema() const override { return in_.schema(); }
+  bool next(BatchView& batch) override {
+    if (std::this_thread::get_id() != caller_) read_elsewhere = true;
+    if (left_-- > 0) return in_.next(batch);
+    char byte;
+    return pipe_->read(&byte, 1) > 0;
+  }
+  std::atomic<bool> read_elsewhere = false;
+
+ private:
+  MeshStream in_;
+  size_t left_;
+  int fds_[2];
+  std::unique_ptr<ByteSource> pipe_;
+  const std::thread::id caller_ = std::this_thread::get_id();
+};
+
+TEST(ReadAhead, ReadsByAThreadOfItsOwnWhatMayWait) {
+  const TestMesh mesh = richMesh();
+  StuckSource in(mesh, 20);
+  ReadAhead ahead(in, in.waiting());
+  BatchView batch;
+  for (size_t i = 0; i < 10; ++i) EXPECT_TRUE(ahead.next(batch));
+  while (!in.read_elsewhere) std::this_thread::yield();
+}
+
+TEST(ReadAhead, IsLeftWithoutWaitingForTheOtherEnd) {
+  const TestMesh mesh = richMesh();
+  for (size_t batches = 3; batches < 8; ++batches) {
+    StuckSource in(mesh, batches);
+    ReadAhead ahead(in, in.waiting());
+    BatchView batch;
+    for (size_t i = 0; i < batches; ++i) EXPECT_TRUE(ahead.next(batch));
   }
 }
 
