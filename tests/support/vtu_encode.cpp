@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <bit>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <utility>
 
 namespace tetstream::test {
 
@@ -72,6 +74,24 @@ std::string textOf(const VtuTestArray& a) {
   return out;
 }
 
+#ifdef TETSTREAM_WITH_LZMA
+// A dictionary larger than the block would never be filled, but be cleared for each.
+std::string byLzma(const std::string& bytes, std::string out) {
+  lzma_options_lzma options;
+  lzma_lzma_preset(&options, 1);
+  const auto size = static_cast<uint32_t>(bytes.size());
+  options.dict_size = std::clamp<uint32_t>(size, LZMA_DICT_SIZE_MIN, options.dict_size);
+  lzma_filter filters[] = {{LZMA_FILTER_LZMA2, &options}, {LZMA_VLI_UNKNOWN, nullptr}};
+  size_t made = 0;
+  const lzma_ret result = lzma_stream_buffer_encode(
+      filters, LZMA_CHECK_CRC32, nullptr, reinterpret_cast<const uint8_t*>(bytes.data()),
+      bytes.size(), reinterpret_cast<uint8_t*>(out.data()), &made, out.size());
+  if (result != LZMA_OK) std::abort();
+  out.resize(made);
+  return out;
+}
+#endif
+
 std::string compressed(const std::string& bytes, const std::string& codec) {
   std::string out(bytes.size() + 1024, '\0');
 #ifdef TETSTREAM_WITH_LZ4
@@ -82,14 +102,7 @@ std::string compressed(const std::string& bytes, const std::string& codec) {
   }
 #endif
 #ifdef TETSTREAM_WITH_LZMA
-  if (codec == "lzma") {
-    size_t made = 0;
-    lzma_easy_buffer_encode(1, LZMA_CHECK_CRC32, nullptr,
-                            reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(),
-                            reinterpret_cast<uint8_t*>(out.data()), &made, out.size());
-    out.resize(made);
-    return out;
-  }
+  if (codec == "lzma") return byLzma(bytes, std::move(out));
 #endif
   uLongf size = static_cast<uLongf>(out.size());
   compress(reinterpret_cast<Bytef*>(out.data()), &size,

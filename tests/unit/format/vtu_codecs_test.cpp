@@ -39,13 +39,13 @@ TEST(VtuCodecs, ReadBlocksOfAnySizeInAnyCoding) {
   for (const char* codec : kCodecs)
     for (const VtuCoding coding :
          {VtuCoding::kInline, VtuCoding::kAppendedBase64, VtuCoding::kAppendedRaw})
-      for (const size_t block_bytes : {1, 7, 16, 32768})
+      for (const size_t block_bytes : {1, 7, 16, 32768}) {
+        const std::string file = makeVtu({twoCellPiece()}, styleOf(codec, coding, block_bytes));
         for (const size_t step : {1, 3, 1000}) {
           if (slowRun() && step == 1) continue;
-          EXPECT_TRUE(readVtu(makeVtu({twoCellPiece()}, styleOf(codec, coding, block_bytes)),
-                              step) == plain)
-              << codec << " in blocks of " << block_bytes;
+          EXPECT_TRUE(readVtu(file, step) == plain) << codec << " in blocks of " << block_bytes;
         }
+      }
 }
 
 TEST(VtuCodecs, SurviveDamageOfEveryByte) {
