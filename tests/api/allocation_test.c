@@ -267,7 +267,7 @@ static tetstream_status read_diagram(void) {
 }
 
 /* The original's bytes and a stream, with the raster that a picture is drawn from; exactly, or by
- * samples. */
+ * samples. Of more memory the raster would have more pixels, which is all that would take time. */
 static const char* samples;
 
 static tetstream_status compare_stream(void) {
@@ -284,6 +284,7 @@ static tetstream_status compare_stream(void) {
                                             close_unwatched};
   tetstream_status status = tetstream_options_create(&options);
   if (status >= 0) status = tetstream_options_parse(options, "cut", "auto");
+  if (status >= 0) status = tetstream_options_parse(options, "memory", "1M");
   if (status >= 0) status = tetstream_options_parse(options, "samples", samples);
   if (status >= 0) status = tetstream_options_parse(options, "boundary-samples", "500");
   if (status >= 0) status = tetstream_comparison_create(options, &comparison);
