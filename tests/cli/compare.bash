@@ -97,7 +97,7 @@ only_files in.tets out.vtu cut.tets
 [[ $(tetstream --version) == *"no cairo"* ]] && exit 0
 for picture in a.svg a.png; do
   expect 0 compare in.tets out.vtu --quiet --picture $picture --cut z=0.1 --title "Two balls" \
-    "${less_boundary[@]}"
+    "${less_pixels[@]}"
 done
 [[ $(head -c 5 a.svg) == "<?xml" && $(tail -n 1 a.svg) == "</svg>" ]] || fail "a.svg is no SVG"
 [[ $(head -c 4 a.png | tr -d '\0') == $'\x89PNG' ]] || fail "a.png is no PNG"

@@ -72,9 +72,9 @@ expect_error 1 "it lies in -1:1,-1:1,-1:1" compare in.tets out.tets --box 5:6,:,
 expect_error 1 "--box" simplify in.tets a.tets --ratio 0.5 --box :,:,:
 only_files in.tets out.tets
 [[ $(tetstream --version) == *"no cairo"* ]] && exit 0
-expect 0 compare in.tets out.tets --quiet --picture part.svg --box $box "${less_boundary[@]}"
-expect 0 compare in.tets out.tets --quiet --picture whole.svg "${less_boundary[@]}"
+expect 0 compare in.tets out.tets --quiet --picture part.svg --box $box "${less_pixels[@]}"
+expect 0 compare in.tets out.tets --quiet --picture whole.svg "${less_pixels[@]}"
 cmp -s part.svg whole.svg && fail "the picture of a part is that of the whole"
-expect 0 compare in.tets out.tets --quiet --picture part.png "${less_boundary[@]}" --box $box \
+expect 0 compare in.tets out.tets --quiet --picture part.png "${less_pixels[@]}" --box $box \
   --cut z=0.9 # beside the part
 only_files in.tets out.tets part.svg whole.svg part.png
