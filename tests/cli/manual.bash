@@ -4,6 +4,18 @@ source "${BASH_SOURCE%/*}/common.bash"
 pages=$TETSTREAM_SOURCE/man/man1
 common=$(<"$pages/tetstream.1")
 
+# The flags that each page describes, one a line.
+declare -A described
+for path in "$pages"/*.1; do
+  name=$(basename "$path" .1)
+  described[$name]=$(sed -nE 's/^\.It Fl -([a-z][a-z-]*)( .*)?$/\1/p' "$path")
+done
+
+# has_line TEXT LINE
+has_line() {
+  [[ $'\n'$1$'\n' == *$'\n'"$2"$'\n'* ]]
+}
+
 # flags_of TEXT PATTERN: what follows the pattern, sorted, each once.
 flags_of() {
   grep -oE -- "$2[a-z][a-z-]*" <<<"$1" | sed -E "s/^$2//" | sort -u
@@ -22,18 +34,17 @@ for command in simplify info convert layout generate diagram compare completion;
   # The pages that may describe its flags: its own first.
   referred=$(sed -n 's/^\.Xr \(tetstream[a-z-]*\) 1.*/\1/p' <<<"$page" | sort -u)
   for flag in $shown; do
-    entry="^\.It Fl -$flag( |$)"
-    places=0
-    if grep -qE -- "$entry" <<<"$page"; then
+    own=${described[tetstream-$command]} places=0
+    if has_line "$own" "$flag"; then
       places=1
     else
       for name in $referred; do
-        grep -qE -- "$entry" "$pages/$name.1" && places=$((places + 1))
+        has_line "${described[$name]}" "$flag" && places=$((places + 1))
       done
     fi
     ((places == 1)) || fail "$command: --$flag is described in $places pages"
     # A flag that is described in the page of all commands has the same meaning everywhere.
-    if grep -qE -- "$entry" <<<"$page" && grep -qE -- "$entry" <<<"$common" &&
+    if has_line "$own" "$flag" && has_line "${described[tetstream]}" "$flag" &&
       [[ $command/$flag != info/format ]]; then
       fail "$command: --$flag is described in tetstream(1), too"
     fi
@@ -42,7 +53,7 @@ for command in simplify info convert layout generate diagram compare completion;
 
   # Nothing is described that is not there.
   for flag in $(flags_of "$page" "^\.It Fl -" || true); do
-    grep -qx -- "$flag" <<<"$shown" || fail "tetstream-$command(1) describes --$flag"
+    has_line "$shown" "$flag" || fail "tetstream-$command(1) describes --$flag"
   done
   for word in $(sed -n 's/^usage:.*\[options\] //p' <<<"$out"); do
     word=$(tr '[:upper:]' '[:lower:]' <<<"$word")
