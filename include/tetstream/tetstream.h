@@ -31,9 +31,9 @@
  *   its own (option `threads`), which end with it, or uses the caller's
  *   (tetstream_options_set_pool): they simplify, and read and write some batches ahead and behind;
  *   so do readers of some formats of files. Callbacks are called on the caller's thread alone.
- *   There, too, pipes and all else that may wait for somebody are written; they are read by one
- *   more thread of the simplifier's, or, where it uses the caller's threads, on the caller's as
- *   well. With the option `memory` or one thread there is no other.
+ *   There, too, pipes and all else that may wait for somebody are written; they are read there as
+ *   well, or, where a simplifier has three threads of its own or more, by one that does nothing
+ *   else. With the option `memory` or one thread there is no other.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
  *

@@ -83,8 +83,10 @@ struct SimplifyRun::State {
     const bool is_short = cells >= 0 && cells <= kReadAtOnce;
     if (!overlaps() || is_short || ordering.staysWithCaller()) return nullptr;
     if (!ordering.waiting()) return std::make_unique<ReadAhead>(stream, tasks);
-    // To threads that the caller brings none of ours are added.
-    return options.workers ? nullptr : std::make_unique<ReadAhead>(stream, ordering.waiting());
+    // To threads that the caller brings none of ours are added; and two leave no core to who is at
+    // the other end as it is.
+    if (options.workers || tasks.threads() == 2) return nullptr;
+    return std::make_unique<ReadAhead>(stream, ordering.waiting());
   }
 
   // Of two errors the one that came first in the stream's order: what was put before the other is

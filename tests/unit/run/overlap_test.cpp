@@ -126,7 +126,7 @@ TEST(Overlap, HasNoThreadOfAPoolWaitForTheOtherEnd) {
   for (Workers* workers : {static_cast<Workers*>(nullptr), static_cast<Workers*>(&pool)}) {
     Ends ends;
     ends.reader_waits = true;
-    RunOptions options = through(2);
+    RunOptions options = through(3);
     options.workers = workers;
     EXPECT_TRUE(ran(mesh, options, ends) == bytes);
     EXPECT_FALSE(workers && ends.read_elsewhere);
