@@ -31,9 +31,9 @@
  *   its own (option `threads`), which end with it, or uses the caller's
  *   (tetstream_options_set_pool): they simplify, and read and write some batches ahead and behind;
  *   so do readers of some formats of files. Callbacks are called on the caller's thread alone.
- *   There, too, pipes and all else that may wait for somebody are written; they are read there as
- *   well, or, where a simplifier has three threads of its own or more, by one that does nothing
- *   else. With the option `memory` or one thread there is no other.
+ *   There, too, pipes and all else that may wait for somebody are written, and read; in a run of a
+ *   simplifier with three threads of its own or more they are also read ahead by one in addition,
+ *   which does nothing else. With the option `memory` or one thread there is no other.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
  *
@@ -335,7 +335,8 @@ TETSTREAM_API tetstream_status tetstream_reader_create(const tetstream_reader_ca
 TETSTREAM_API tetstream_status tetstream_reader_open_file(const char *path, const char *format,
                                                           tetstream_reader **reader);
 /* A file descriptor, which stays the caller's to close, after the reader is destroyed; for formats
- * that must seek, a pipe is spooled to a temporary file in $TMPDIR or /tmp. `format` must be given.
+ * that must seek, a pipe is spooled to a temporary file in $TMPDIR or /tmp. What does not block is
+ * waited for all the same, and a time limit of a socket's is not kept. `format` must be given.
  * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *format,
                                                         tetstream_reader **reader);

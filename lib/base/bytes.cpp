@@ -87,8 +87,11 @@ class DescriptorSource final : public ByteSource {
       failIo(this->name(), "open");
     }
     widenPipe(fd, info);
-    if (!S_ISREG(info.st_mode)) waiting_ = std::make_shared<Waiting>();
-    seekable_ = !waiting_ && ::lseek(fd, 0, SEEK_CUR) == 0;
+    const bool is_file = S_ISREG(info.st_mode);
+    // What is only written to has never anything to read, which a read tells at once.
+    if (!is_file && (::fcntl(fd, F_GETFL) & O_ACCMODE) != O_WRONLY)
+      waiting_ = std::make_shared<Waiting>();
+    seekable_ = is_file && ::lseek(fd, 0, SEEK_CUR) == 0;
     size_ = seekable_ ? static_cast<uint64_t>(info.st_size) : 0;
   }
   ~DescriptorSource() override {

@@ -60,7 +60,7 @@ class ByteSink {
   // Seekable sinks only: overwrites bytes written before.
   virtual void writeAt(uint64_t offset, const void* data, size_t size) = 0;
   virtual bool seekable() const = 0;
-  // Whether a write may wait for somebody at the other end.
+  // As `waiting` of a source; nobody ends it.
   virtual bool waits() const { return false; }
   // Makes the output complete, under its final name unless that is given to several together.
   // Called once, last.

@@ -83,7 +83,8 @@ struct Input {
   std::unique_ptr<IndexedSource> indexed;
   // Callbacks of the caller's: a stream that is read by the caller's thread alone.
   bool stays_with_caller = true;
-  // Where reading may wait for somebody at the other end: no thread reads it that others wait for.
+  // Where reading may wait for somebody at the other end: no thread reads it that others wait for,
+  // and it is ended when that has been read, so it is for a stream that is not read again.
   std::shared_ptr<Waiting> waiting = {};
   std::string name = {};  // of the file that it is read from; empty: of none
   const Schema& schema() const { return stream ? stream->schema() : indexed->schema(); }

@@ -91,7 +91,7 @@ kill -INT "$pid"
 ended 7
 only_files pipe
 
-# While another of its threads waits for more; and an output that fails then waits for nobody.
+# While another of its threads waits for more.
 tetstream generate fluid --cells 1e6 - | head -c 3000000 >part
 start simplify - out.tets --ratio 0.1 --threads 3 <pipe
 cat part >pipe
@@ -100,16 +100,6 @@ until_true waits_in_read
 sleep 0.5
 kill -INT "$pid"
 ended 7
-if [[ -c /dev/full ]]; then
-  ln -s /dev/full full.tets
-  start simplify - full.tets --ratio 0.9 --window 10000 --threads 3 <pipe
-  cat part >pipe &
-  feeder=$!
-  ended 3
-  kill "$feeder" 2>"$logs/kill" || true  # what nobody reads any more
-  wait "$feeder" || true
-  rm full.tets
-fi
 rm part
 only_files pipe
 

@@ -233,6 +233,9 @@ TEST(Waiting, IsOfWhatHasAnotherEnd) {
   const std::shared_ptr<Waiting> waiting = pipe->waiting();
   ASSERT_TRUE(waiting);
   EXPECT_EQ(withPrefix({'a'}, std::move(pipe))->waiting(), waiting);
+  const auto wrong = openDescriptor(fds[1], "wrong end");
+  EXPECT_FALSE(wrong->waiting());
+  EXPECT_EQ(thrownBy([&] { contents(*wrong); }).first, Status::kIo);
   for (const int fd : fds) ::close(fd);
 }
 

@@ -2,6 +2,7 @@
 // of threads, and nothing of the caller's on another thread than his.
 #include <gtest/gtest.h>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <thread>
 
@@ -38,7 +39,10 @@ Cut smallBatches() {
 // What both ends of a run have seen.
 struct Ends {
   size_t reader_fails_at = kNever, writer_fails_at = kNever;
-  bool stay_with_caller = false, reader_waits = false;
+  bool stay_with_caller = false;
+  bool reader_waits = false;  // for somebody at the other end
+  bool caller_waits = false;  // for another thread that reads
+  std::atomic<size_t> given = 0;
   std::atomic<bool> read_elsewhere = false, written_elsewhere = false;
   std::thread::id caller = std::this_thread::get_id();
 };
@@ -49,14 +53,13 @@ class In final : public Source {
   const Schema& schema() const override { return in_.schema(); }
   bool next(BatchView& batch) override {
     if (std::this_thread::get_id() != ends_.caller) ends_.read_elsewhere = true;
-    if (given_++ == ends_.reader_fails_at) fail(Status::kBadData, "the reader");
+    if (ends_.given++ == ends_.reader_fails_at) fail(Status::kBadData, "the reader");
     return in_.next(batch);
   }
 
  private:
   MeshStream in_;
   Ends& ends_;
-  size_t given_ = 0;
 };
 
 class Out final : public Sink {
@@ -85,10 +88,19 @@ RunOptions through(int64_t threads) {
   return options;
 }
 
+// Until another thread has read, once it was asked to; not for ever.
+void waitForReader(const Ends& ends) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(10);
+  while (ends.given > 5 && !ends.read_elsewhere && Clock::now() < end) std::this_thread::yield();
+}
+
 std::vector<unsigned char> ran(const TestMesh& mesh, const RunOptions& options, Ends& ends) {
   Out out(ends);
-  SimplifyRun run(options, out,
-                  [&ends](const Progress&) { EXPECT_EQ(std::this_thread::get_id(), ends.caller); });
+  SimplifyRun run(options, out, [&ends](const Progress&) {
+    EXPECT_EQ(std::this_thread::get_id(), ends.caller);
+    if (ends.caller_waits) waitForReader(ends);
+  });
   Input input;
   input.stays_with_caller = ends.stay_with_caller;
   if (ends.reader_waits) input.waiting = std::make_shared<Waiting>();
@@ -118,18 +130,25 @@ TEST(Overlap, LeavesToTheCallersThreadWhatIsTheCallers) {
   EXPECT_FALSE(ends.read_elsewhere || ends.written_elsewhere);
 }
 
-TEST(Overlap, HasNoThreadOfAPoolWaitForTheOtherEnd) {
+// Neither one of a pool, nor of two, waits for the other end.
+TEST(Overlap, LeavesWhatMayWaitToAThreadMoreThanThree) {
   const TestMesh mesh = wavyGrid();
   Ends alone;
   const std::vector<unsigned char> bytes = ran(mesh, through(1), alone);
   SwiftWorkers pool;
-  for (Workers* workers : {static_cast<Workers*>(nullptr), static_cast<Workers*>(&pool)}) {
+  struct Case {
+    int64_t threads;
+    Workers* workers;
+    bool elsewhere;
+  };
+  for (const Case& c : {Case{2, nullptr, false}, Case{3, nullptr, true}, Case{3, &pool, false}}) {
     Ends ends;
     ends.reader_waits = true;
-    RunOptions options = through(3);
-    options.workers = workers;
+    ends.caller_waits = c.elsewhere;
+    RunOptions options = through(c.threads);
+    options.workers = c.workers;
     EXPECT_TRUE(ran(mesh, options, ends) == bytes);
-    EXPECT_FALSE(workers && ends.read_elsewhere);
+    EXPECT_EQ(ends.read_elsewhere, c.elsewhere) << c.threads << " threads";
   }
 }
 
@@ -153,6 +172,7 @@ TEST(Overlap, TellsTheErrorThatCameFirstInTheStream) {
         Case{150, 0, "the writer"}, Case{205, 3, "the writer"}, Case{12, 3, "the reader"}})
     for (int64_t threads : threadCounts()) {
       Ends ends;
+      ends.reader_waits = threads % 2 == 0;
       ends.reader_fails_at = c.reader;
       ends.writer_fails_at = c.writer;
       try {
