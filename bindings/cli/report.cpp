@@ -1,5 +1,7 @@
 #include "report.h"
 
+#include <cmath>
+
 #include "json.h"
 #include "text.h"
 
@@ -37,6 +39,16 @@ static std::string rejectionText(const tetstream_report& r) {
 // neither.
 constexpr double kLargeError = 20;
 
+// Percent: less than that is within what a boundary of fewer faces may mean.
+constexpr double kVolumeChange = 0.1;
+
+static std::string volumeRow(const tetstream_report& r) {
+  const double percent = 100 * (r.volume_out - r.volume_in) / r.volume_in;
+  if (!std::isfinite(percent) || std::fabs(percent) < kVolumeChange) return "";
+  return row("volume", textOf("%.3g %% %s than in the input", std::fabs(percent),
+                              percent < 0 ? "less" : "more"));
+}
+
 std::string reportText(const tetstream_report& r) {
   std::string ratio;
   if (r.cells_in > 0)
@@ -53,6 +65,7 @@ std::string reportText(const tetstream_report& r) {
       row("largest error", textOf("%.6g", r.largest_error)) +
       row("order", oneLine(r.order ? r.order : "")) +
       row("regions", oneLine(r.regions ? r.regions : ""));
+  text += volumeRow(r);
   if (r.balance && *r.balance) text += row("balance", oneLine(r.balance));
   if (r.locked_cells > 0)
     text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
@@ -114,6 +127,8 @@ std::string reportJson(const tetstream_report& r, tetstream_status status) {
   add("locked_cells", r.locked_cells);
   add("unused_vertices", r.unused_vertices);
   add("largest_error", r.largest_error);
+  add("volume_in", r.volume_in);
+  add("volume_out", r.volume_out);
   add("estimated_error", r.estimated_error);
   add("seconds", r.seconds);
   add("peak_window_bytes", r.peak_window_bytes);

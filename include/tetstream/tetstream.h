@@ -514,6 +514,8 @@ typedef struct tetstream_report {
   const char *order;            /* how the input was ordered, in words. Since 0.1 */
   const char *balance;          /* what the boundary and interfaces count for less, and fields for
                                    more than asked, in words, or "". Since 0.1 */
+  double volume_in, volume_out; /* of all cells, without signs, in the cube of the positions' unit:
+                                   of the input and of what was written. Since 0.1 */
 } tetstream_report;
 
 typedef struct tetstream_simplifier tetstream_simplifier;

@@ -185,6 +185,8 @@ static tetstream_report publicReport(const Report& report) {
   out.reached = report.reached.c_str();
   out.order = report.order.c_str();
   out.balance = report.balance.c_str();
+  out.volume_in = report.volume_in;
+  out.volume_out = report.volume_out;
   return out;
 }
 

@@ -69,6 +69,7 @@ struct Report {
   int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
   int64_t locked_cells = 0, unused_vertices = 0;
   double largest_error = 0;
+  double volume_in = 0, volume_out = 0;  // sums of the cells' volumes without signs
   double estimated_error = 0;  // RMS, percent of the range, not less than the true one as a rule
   double seconds = 0;
   uint64_t peak_window_bytes = 0;

@@ -1,8 +1,11 @@
 #include "release.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
+
+#include "vector3.h"
 
 namespace tetstream {
 
@@ -126,6 +129,9 @@ void Release<S>::writeCell(uint32_t cell) {
     if (--core_.window.scratch()[v[j]] == 0) batch_.lastUses(row) |= static_cast<uint8_t>(1 << j);
   }
   writeCellData(cell, row);
+  double corners[4][3];
+  cornersIn(core_.window, cell, corners);
+  volume_ += std::fabs(sixVolume(corners)) / 6;
   if (core_.window.faces.anyPlaced()) writeFaces(cell);
   mesh.kill(cell);
   ++cells_;

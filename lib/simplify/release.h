@@ -29,6 +29,7 @@ class Release {
   int64_t frontCells() const { return front_; }
   uint64_t cellsWritten() const { return cells_; }
   uint64_t verticesWritten() const { return vertices_; }
+  double volumeWritten() const { return volume_; }  // without signs
 
  private:
   bool mayGo(uint32_t cell) const;
@@ -48,6 +49,7 @@ class Release {
   std::vector<Array<uint32_t>> other_uses_;  // of vertices, by parts of the cells but the first
   int64_t front_ = 0;
   uint64_t cells_ = 0, vertices_ = 0;
+  double volume_ = 0;
 };
 
 }  // namespace tetstream

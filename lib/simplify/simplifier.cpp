@@ -353,6 +353,9 @@ class WindowedEngine final : public Simplifier::Engine {
     r.cells_in = static_cast<int64_t>(intake_.cellsRead());
     r.vertices_in = static_cast<int64_t>(core_.front.introduced());
     r.vertices_out = static_cast<int64_t>(release_.verticesWritten());
+    const auto unit = static_cast<double>(core_.inverse_scale[0]);  // the cube of a small one is 0
+    r.volume_in = core_.volume * unit * unit * unit;
+    r.volume_out = release_.volumeWritten();
     r.front_width = core_.front.width();
     r.front_span = core_.front.span();
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;

@@ -110,7 +110,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_progress, fraction, 32);
   MEMBER(tetstream_progress, phase, 40);
   MEMBER(tetstream_progress, temporary_bytes, 48);
-  CHECK_EQUAL(sizeof(tetstream_report), 216);
+  CHECK_EQUAL(sizeof(tetstream_report), 232);
   MEMBER(tetstream_report, struct_size, 0);
   MEMBER(tetstream_report, cells_in, 8);
   MEMBER(tetstream_report, vertices_in, 16);
@@ -138,6 +138,8 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_report, reached, 192);
   MEMBER(tetstream_report, order, 200);
   MEMBER(tetstream_report, balance, 208);
+  MEMBER(tetstream_report, volume_in, 216);
+  MEMBER(tetstream_report, volume_out, 224);
   CHECK_EQUAL(sizeof(tetstream_front_info), 72);
   MEMBER(tetstream_front_info, struct_size, 0);
   MEMBER(tetstream_front_info, width, 8);

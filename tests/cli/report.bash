@@ -15,6 +15,19 @@ contains_not "$out" "caution"
 expect 0 simplify in.tets coarse.tets --cells 30
 contains "$out" $'\ncaution       the error is large'
 
+# The volume is told where it is another, as where a ball becomes coarse as the paper has it.
+expect 0 generate ball --cells 6000 ball.tets
+expect 0 simplify ball.tets small.tets --ratio 0.05
+contains_not "$out" $'\nvolume'
+expect 0 simplify ball.tets small.tets --ratio 0.05 --mode paper
+contains "$out" $'\nvolume '
+contains "$out" ' % less than in the input'
+expect 0 simplify ball.tets small.tets --ratio 0.05 --mode paper --quiet --report json
+volumes="$(member "$out" volume_in) $(member "$out" volume_out)"
+expect 0 compare ball.tets small.tets --report json
+[[ $(grep -oE '"volume": [0-9.e+-]+' <<<"$out" | grep -oE '[0-9.]+$' | xargs printf '%.6f ') == \
+  "$(printf '%.6f ' $volumes)" ]] || fail "compare finds other volumes than $volumes: $out"
+
 # To standard error if the mesh goes to standard output, by whatever name.
 code=0
 tetstream simplify in.tets - --ratio 0.5 >piped.tets 2>"$logs/err" || code=$?

@@ -88,6 +88,8 @@ class Report(Record):
     target_cells: int
     window_cells: int
     estimated_error: float
+    volume_in: float
+    volume_out: float
     seconds: float
     peak_window_bytes: int
     regions: str

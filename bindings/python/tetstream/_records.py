@@ -25,9 +25,9 @@ class Report(Record):
     """What a simplification came to: ``cells_in``, ``cells_out``, ``vertices_in``,
     ``vertices_out``, ``target_cells``, ``reached`` (the target that ended the run, or ""),
     ``limited_by`` (what stopped it short of its target, or ""), ``estimated_error`` (RMS, percent
-    of the fields' range), ``seconds`` and the other members of ``tetstream_report`` in
-    tetstream_simplifier(3); ``notes``, sentences on what the reader and the writer left out or
-    assumed."""
+    of the fields' range), ``volume_in`` and ``volume_out`` (of all cells), ``seconds`` and the
+    other members of ``tetstream_report`` in tetstream_simplifier(3); ``notes``, sentences on what
+    the reader and the writer left out or assumed."""
 
 
 class LayoutReport(Record):

@@ -56,6 +56,13 @@ inline SimplifyOptions toRatio(double ratio, int64_t window = 0,
   return options;
 }
 
+// Without signs.
+inline double volumeOf(const TestMesh& mesh) {
+  double volume = 0;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) volume += cellVolume(mesh, c);
+  return volume;
+}
+
 // What holds for every result: it is a stream, and the report says what is in it.
 inline void expectSound(const TestMesh& in, const Result& result) {
   EXPECT_EQ(result.out.problem, "");
@@ -67,6 +74,8 @@ inline void expectSound(const TestMesh& in, const Result& result) {
   EXPECT_EQ(report.vertices_in, static_cast<int64_t>(in.vertexCount()));
   EXPECT_EQ(report.cells_out, static_cast<int64_t>(result.out.mesh.cellCount()));
   EXPECT_EQ(report.vertices_out, static_cast<int64_t>(result.out.mesh.vertexCount()));
+  EXPECT_NEAR(report.volume_in, volumeOf(in), 1e-5 * volumeOf(in));
+  EXPECT_NEAR(report.volume_out, volumeOf(result.out.mesh), 1e-9 * volumeOf(result.out.mesh));
   EXPECT_EQ(report.limited_by.empty(), report.cells_out <= report.target_cells)
       << report.limited_by;
 }
