@@ -78,7 +78,7 @@ template <class Mesh>
 bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after) {
   if (after == 0) return true;
   const size_t before = thin_counts_.count(u, v, stars_, angle);
-  if (before == 0 && core_.options.shape == Shape::kSolver) {
+  if (before == 0 && core_.shapesFirst()) {
     sound_.add(u);
     sound_.add(v);
   }
@@ -379,7 +379,7 @@ Outcome Collapser<Mesh>::collapse(uint32_t u, uint32_t v, const S* z, S error, i
   tally_.count(outcome);
   if (outcome == Outcome::kDone) {
     mergeInto(u, v, error);
-    if (core_.options.shape == Shape::kSolver) sound_.merged(u, stars_, leaves_thin_);
+    if (core_.shapesFirst()) sound_.merged(u, stars_, leaves_thin_);
   }
   return outcome;
 }

@@ -208,8 +208,9 @@ struct Core {
   // price.
   bool isFlat() const { return dear.size() > 1; }
   // Whether cells are flipped for their shapes more than for the field. Where so many are below a
-  // degree no flips that are small beside the error would bring them above the solver's floor.
-  bool shapesFirst() const { return options.shape == Shape::kSolver && !isFlat(); }
+  // degree, or most are thin, no flips that are small beside the error would bring them above the
+  // solver's floor.
+  bool shapesFirst() const { return options.shape == Shape::kSolver && !isFlat() && !is_thin; }
   // A log of collapses from which the cells follow has no flips.
   bool flips() const {
     const bool is_logged = tracer && tracer->keepsLog();
@@ -237,6 +238,7 @@ struct Core {
   ThinAngle thin;               // no more cells below than the input has
   double poor = 1;              // cells thinner than this are worth a flip (thinness.h)
   std::vector<ThinAngle> dear;  // falling, above: more cells below have their price
+  bool is_thin = false;         // the input, in most of its cells
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();
