@@ -20,9 +20,10 @@ static bool isTooWide(const Schema& schema) {
   return static_cast<double>(schema.front_width) > kTooWide * narrow;
 }
 
-static std::string reasonToKeep(const Schema& schema) {
-  if (schema.front_width < 0) return ", with a front that is not known";
-  return textOf(", with a front of %lld vertices", static_cast<long long>(schema.front_width));
+std::string Ordering::wordsForNone(const Schema& schema) {
+  const std::string kept = "none: the stream is as it was, with a front ";
+  if (schema.front_width < 0) return kept + "that is not known";
+  return kept + textOf("of %lld vertices", static_cast<long long>(schema.front_width));
 }
 
 // Null where the stream stays as it is.
@@ -66,7 +67,7 @@ Ordering::Ordering(Input& input, const RunOptions& options, const ProgressFuncti
     source_ = input.stream.get();
     stays_with_caller_ = input.stays_with_caller;
     waiting_ = input.waiting;
-    chosen_ = "none: the stream is as it was" + reasonToKeep(input.stream->schema());
+    chosen_ = wordsForNone(input.stream->schema());
     return;
   }
   order.tell = part(spooling, 1);

@@ -19,6 +19,8 @@ class Ordering {
   Ordering(Input& input, const RunOptions& options, const ProgressFunction& progress,
            std::vector<bool> measured = {});
 
+  static std::string wordsForNone(const Schema& schema);  // of a stream that stays as it is
+
   Source& source() const { return *source_; }
   bool isOrdered() const { return ordered_ != nullptr; }
   // As of an Input; what was ordered is in memory and in files.

@@ -119,18 +119,20 @@ struct SimplifyRun::State {
   Simplifier simplifier;
   std::unique_ptr<SpooledMesh> collector;
   Clock::time_point start;
+  std::string order;  // in words
   Report report;
+  bool is_done = false;
 
   void simplify(Input& input) {
     Ordering stream(input, options, progress,
                     Simplifier::measuredFields(input.schema(), options.simplify));
     order_share = stream.share();
+    order = stream.chosen();
     readBefore(stream);
     const auto before = ahead(stream.source(), stream);
     copyStream(before ? *before : stream.source(), simplifier);
     close();
     report.unused_vertices += stream.unusedVertices();
-    report.order = stream.chosen();
   }
   // Looks at the stream before it is simplified, where that is worth its time: at a mesh larger
   // than its window.
@@ -249,9 +251,15 @@ struct SimplifyRun::State {
     p.fraction = sample_share = std::max(sample_share, share_before + kSampleShare / 2 * part);
     tell(p);
   }
+  Report soFar() const {
+    Report r = simplifier.report();
+    r.seconds = secondsSince(start);
+    r.order = order;
+    return r;
+  }
   void close() {
-    report = simplifier.report();
-    report.seconds = secondsSince(start);
+    report = soFar();
+    is_done = true;
   }
 };
 
@@ -272,10 +280,12 @@ void SimplifyRun::run(Input& input) {
 
 void SimplifyRun::begin(const Schema& schema, bool indexed) {
   state_->start = Clock::now();
-  if (indexed)
+  if (indexed) {
     state_->collector = std::make_unique<SpooledMesh>(schema, state_->options.temp_dir);
-  else
+  } else {
+    state_->order = Ordering::wordsForNone(schema);
     state_->simplifier.begin(schema);
+  }
 }
 
 void SimplifyRun::put(const BatchView& batch) {
@@ -298,8 +308,8 @@ void SimplifyRun::finish() {
   }
 }
 
-const Report& SimplifyRun::report() const {
-  return state_->report.cells_in > 0 ? state_->report : state_->simplifier.report();
+Report SimplifyRun::report() const {
+  return state_->is_done ? state_->report : state_->soFar();
 }
 
 // What is copied or looked at needs no window, and orders by place take little longer in little

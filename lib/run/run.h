@@ -53,7 +53,7 @@ class SimplifyRun {
   void put(const BatchView& batch);
   void finish();
 
-  const Report& report() const;
+  Report report() const;  // what was done so far
 
  private:
   struct State;

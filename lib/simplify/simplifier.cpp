@@ -88,7 +88,11 @@ class WindowedEngine final : public Simplifier::Engine {
     explainingBudget([&] { end(); });
   }
 
-  const Report& report() const override { return core_.report; }
+  Report report() const override {
+    Report report = core_.report;
+    countInto(report);
+    return report;
+  }
   Pilot pilot() const override {
     Pilot pilot = pilot_;
     pilot.balance = core_.balance;
@@ -335,8 +339,8 @@ class WindowedEngine final : public Simplifier::Engine {
     progress_(p);
   }
 
-  void reportTally() {
-    Report& r = core_.report;
+  // What was done so far.
+  void countInto(Report& r) const {
     const Tally& t = core_.tally;
     r.collapses = t.collapses;
     r.flips = t.flips;
@@ -345,13 +349,10 @@ class WindowedEngine final : public Simplifier::Engine {
     r.rejected_locked = t.rejected_locked;
     r.rejected_other = t.rejected_other;
     r.largest_error = t.largest_error;
-  }
-
-  void closeReport() {
-    Report& r = core_.report;
-    reportTally();
+    r.estimated_error = percentOf(core_, t.error);
     r.cells_in = static_cast<int64_t>(intake_.cellsRead());
     r.vertices_in = static_cast<int64_t>(core_.front.introduced());
+    r.cells_out = static_cast<int64_t>(release_.cellsWritten());
     r.vertices_out = static_cast<int64_t>(release_.verticesWritten());
     const auto unit = static_cast<double>(core_.inverse_scale[0]);  // the cube of a small one is 0
     r.volume_in = core_.volume * unit * unit * unit;
@@ -360,7 +361,11 @@ class WindowedEngine final : public Simplifier::Engine {
     r.front_span = core_.front.span();
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
     r.peak_window_bytes = account_.peak();
-    r.estimated_error = percentOf(core_, core_.tally.error);
+  }
+
+  void closeReport() {
+    Report& r = core_.report;
+    countInto(r);
     r.balance = inWords(core_.balance, core_.interfaces, plan_.schema.fields);
     tell(0);
     const Target target = targetOf(plan_.schema, options_);
@@ -486,8 +491,8 @@ Pilot Simplifier::pilot() const {
   return engine_->pilot();
 }
 
-const Report& Simplifier::report() const {
-  return engine_ ? engine_->report() : no_report_;
+Report Simplifier::report() const {
+  return engine_ ? engine_->report() : Report{};
 }
 
 }  // namespace tetstream

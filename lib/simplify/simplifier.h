@@ -20,7 +20,7 @@ class Simplifier : public Sink {
   void put(const BatchView& batch) override;
   void finish() override;
 
-  const Report& report() const;
+  Report report() const;  // what was done so far
 
   // Cells of the window that a stream would get.
   static int64_t windowCells(const Schema& schema, const SimplifyOptions& options);
@@ -41,7 +41,7 @@ class Simplifier : public Sink {
     virtual ~Engine() = default;
     virtual void put(const BatchView& batch) = 0;
     virtual void finish() = 0;
-    virtual const Report& report() const = 0;
+    virtual Report report() const = 0;
     virtual Pilot pilot() const = 0;
   };
 
@@ -49,7 +49,6 @@ class Simplifier : public Sink {
   SimplifyOptions options_;
   Sink& out_;
   ProgressFunction progress_;
-  Report no_report_;
   Pilot pilot_;
   TraceSinks sinks_;
   std::unique_ptr<Engine> engine_;

@@ -207,6 +207,33 @@ static void wrong_states_are_named(void) {
   rig_destroy(r);
 }
 
+static void check_counts(const tetstream_simplifier* simplifier, const char* order) {
+  tetstream_report report = {0};
+  report.struct_size = sizeof report;
+  CHECK_EQUAL(tetstream_simplifier_get_report(simplifier, &report), TETSTREAM_OK);
+  CHECK_EQUAL(report.cells_in, mesh->cell_count);
+  CHECK_EQUAL(report.vertices_in, mesh->vertex_count);
+  CHECK_SAYS(report.order, order);
+  CHECK(report.peak_window_bytes > 0);
+}
+
+static void a_report_says_what_was_done_so_far(void) {
+  rig r = rig_create("tets");
+  tetstream_stream_info info;
+  tetstream_batch batch;
+  const void* pointers[3];
+  hostile_mesh_info(mesh, &info);
+  hostile_mesh_batch(mesh, &batch, pointers);
+  info.flags = 0;
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_OK);
+  check_counts(r.simplifier, "none: the stream is as it was");
+  batch.cell_count = -2;
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_BAD_DATA);
+  check_counts(r.simplifier, "none: the stream is as it was");
+  rig_destroy(r);
+}
+
 static void a_failed_push_breaks_the_simplifier_alone(void) {
   rig r = rig_create("tets");
   tetstream_stream_info info;
@@ -339,6 +366,7 @@ int main(void) {
   RUN_CASE(progress_cancels_at_any_call);
   RUN_CASE(calls_from_inside_a_callback_are_refused);
   RUN_CASE(wrong_states_are_named);
+  RUN_CASE(a_report_says_what_was_done_so_far);
   RUN_CASE(a_failed_push_breaks_the_simplifier_alone);
   RUN_CASE(fields_that_do_not_exist_are_told_when_the_stream_begins);
   RUN_CASE(handles_are_destroyed_in_any_order);
