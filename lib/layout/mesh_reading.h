@@ -24,15 +24,16 @@ void readInPieces(uint64_t rows, const Tell& tell, Visit visit) {
 }
 
 // Throws kBadData where the corners are not four different points of the mesh.
-void refuseCell(uint64_t cell, const int64_t corners[4], int64_t points);
+void refuseCell(const IndexedSource& source, uint64_t cell, const int64_t corners[4]);
 
-inline void checkCell(uint64_t cell, const int64_t corners[4], int64_t points) {
+inline void checkCell(const IndexedSource& source, uint64_t cell, const int64_t corners[4],
+                      int64_t points) {
   bool is_good = true;
   for (int j = 0; j < 4; ++j) {
     is_good &= static_cast<uint64_t>(corners[j]) < static_cast<uint64_t>(points);
     for (int i = 0; i < j; ++i) is_good &= corners[i] != corners[j];
   }
-  if (!is_good) refuseCell(cell, corners, points);
+  if (!is_good) refuseCell(source, cell, corners);
 }
 
 // visit(first, count, corners [count][4]), of each cell four different points of the mesh.
@@ -43,7 +44,7 @@ void readAllCells(IndexedSource& source, const Tell& tell, Visit visit) {
   std::vector<int64_t> corners(4 * std::min<uint64_t>(kRowsAtOnce, cells));
   readInPieces(cells, tell, [&](uint64_t first, size_t count) {
     source.readCells(first, count, corners.data());
-    for (size_t i = 0; i < count; ++i) checkCell(first + i, &corners[4 * i], points);
+    for (size_t i = 0; i < count; ++i) checkCell(source, first + i, &corners[4 * i], points);
     visit(first, count, corners.data());
   });
 }

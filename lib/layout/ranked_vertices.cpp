@@ -88,6 +88,7 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
   schema.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
   schema.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
   std::vector<PieceColumn> columns = columnsOf(schema, measured);
+  const uint64_t number = source_.firstNumber();
   std::vector<int64_t> origins(source_.hasOrigins() ? kRowsAtOnce : 0);
   readInPieces(static_cast<uint64_t>(schema.vertex_count), tell, [&](uint64_t first, size_t count) {
     source_.readPositions(first, count, columns[0].values.data());
@@ -97,11 +98,11 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
     for (size_t i = 0; i < count; ++i) {
       const uint64_t point = first + i;
       if (!survey.isUsed(point)) continue;
-      for (const PieceColumn& column : columns) growBox(column, i, point, schema);
+      for (const PieceColumn& column : columns) growBox(column, i, number + point, schema);
       double place[3];
       for (size_t k = 0; k < 3; ++k)
         place[k] = valueAt(columns[0].values.data(), columns[0].type, 3 * i + k);
-      checkPlace(point, place);
+      checkPlace(number + point, place);
       unsigned char* row = sort.add(key(point, place));
       const bool locked = source_.locked() && source_.locked()[point];
       const uint64_t head = point | (locked ? kLockedBit : 0);

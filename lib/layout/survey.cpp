@@ -71,7 +71,7 @@ void checkPlace(uint64_t point, const double place[3]) {
 }
 
 void Survey::takePoint(uint64_t point, const double place[3]) {
-  checkPlace(point, place);
+  checkPlace(source_.firstNumber() + point, place);
   if (used_count_++ == 0) std::copy_n(place, 3, first_);
   double d[3];
   for (int k = 0; k < 3; ++k) {

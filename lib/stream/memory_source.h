@@ -23,6 +23,7 @@ class MemorySource : public IndexedSource {
   const Schema& schema() const override { return schema_; }
   bool randomAccess() const override { return true; }
   const uint8_t* locked() const override { return mesh_.locked; }
+  uint64_t firstNumber() const override { return static_cast<uint64_t>(ids_.first); }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
   void readCells(uint64_t first, size_t count, int64_t* out) override;

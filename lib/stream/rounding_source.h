@@ -54,6 +54,7 @@ class RoundingIndexedSource final : public IndexedSource {
   const Schema& schema() const override { return rounding_.schema(); }
   bool randomAccess() const override { return in_.randomAccess(); }
   const uint8_t* locked() const override { return in_.locked(); }
+  uint64_t firstNumber() const override { return in_.firstNumber(); }
   bool hasOrigins() const override { return in_.hasOrigins(); }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;

@@ -63,6 +63,8 @@ class IndexedSource {
   // Per point, non-zero: never moved, as a point, or as one of an edge or a face that is locked;
   // null where there are none.
   virtual const uint8_t* locked() const { return nullptr; }
+  // Of the first point, cell and face, in messages.
+  virtual uint64_t firstNumber() const { return 0; }
   // Whether the points have come out of another order; then readOrigins tells their ranks there.
   virtual bool hasOrigins() const { return false; }
   // Rows [first, first + count) into `out`, laid out as in BatchView.

@@ -1,6 +1,9 @@
 /* Labelled faces and locks through the C interface: of meshes in memory and of pushed ones, told by
  * inspections and comparisons. */
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "rig.h"
 
@@ -291,6 +294,28 @@ static void ids_may_count_from_one(void) {
   CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
   CHECK_SAYS(tetstream_reader_message(reader), "cell 2: vertex 0 is not one of the mesh's");
   tetstream_reader_destroy(reader);
+  info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
+  cells[5] = cells[4];
+  char twice[80];
+  snprintf(twice, sizeof twice, "cell 2: point %lld is there twice", (long long)cells[4]);
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
+  CHECK_SAYS(tetstream_reader_message(reader), twice);
+  tetstream_reader_destroy(reader);
+  info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
+  cells[5] = mesh->cells[5] + 1;
+  const size_t places = 3 * (size_t)mesh->vertex_count;
+  double* torn = malloc(places * sizeof *torn);
+  memcpy(torn, batch.positions, places * sizeof *torn);
+  torn[3 * mesh->cells[0]] = NAN;
+  batch.positions = torn;
+  char place[80];
+  snprintf(place, sizeof place, "point %lld: its position", (long long)cells[0]);
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
+  CHECK_SAYS(tetstream_reader_message(reader), place);
+  tetstream_reader_destroy(reader);
+  free(torn);
   info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
   corners[0] = mesh->vertex_count + 1;
   locked_faces[0] = 1;
