@@ -324,12 +324,11 @@ class WindowedEngine final : public Simplifier::Engine {
 
   // The window's cells beyond its goal are what is left to do of what was read.
   void tell(int64_t goal) {
-    core_.report.cells_out = static_cast<int64_t>(release_.cellsWritten());
     if (!progress_) return;
     Progress p;
     p.cells_read = static_cast<int64_t>(intake_.cellsRead());
     p.cells_total = plan_.schema.cell_count;
-    p.cells_written = core_.report.cells_out;
+    p.cells_written = static_cast<int64_t>(release_.cellsWritten());
     const int64_t done = p.cells_read - std::max<int64_t>(mesh().liveCells() - goal, 0);
     if (p.cells_total > 0) {
       const double fraction = static_cast<double>(done) / static_cast<double>(p.cells_total);

@@ -284,47 +284,55 @@ static void ids_may_count_from_one(void) {
     tetstream_writer_destroy(again);
   }
   tetstream_writer_destroy(writer);
+  free(cells);
+  free(corners);
+  free(narrow);
+}
 
-  /* 0 is no vertex then, and messages count as the caller does. */
+/* A mesh whose ids count from one, found to be wrong when it is opened, or when it is read. */
+static void check_refused(const tetstream_batch* batch, int when_opened, const char* text) {
   tetstream_stream_info info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
   tetstream_reader* reader = NULL;
-  cells[5] = 0;
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, batch, &reader),
+              when_opened ? TETSTREAM_BAD_DATA : TETSTREAM_OK);
+  if (!when_opened)
+    CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
+  CHECK_SAYS(tetstream_reader_message(reader), text);
+  tetstream_reader_destroy(reader);
+}
+
+static void messages_count_as_the_caller_does(void) {
+  tetstream_batch batch = whole_mesh();
+  int64_t* cells = from_one(mesh->cells, 4 * mesh->cell_count);
+  int64_t* corners = from_one(faces, 3 * face_count);
+  const int64_t ends[2] = {edge[0] + 1, edge[1] + 1};
+  char text[80];
   batch.cells = cells;
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
-  CHECK_SAYS(tetstream_reader_message(reader), "cell 2: vertex 0 is not one of the mesh's");
-  tetstream_reader_destroy(reader);
-  info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
+  batch.faces = corners;
+  batch.locked_edges = ends;
+
+  cells[5] = 0;
+  check_refused(&batch, 0, "cell 2: vertex 0 is not one of the mesh's");
   cells[5] = cells[4];
-  char twice[80];
-  snprintf(twice, sizeof twice, "cell 2: point %lld is there twice", (long long)cells[4]);
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
-  CHECK_SAYS(tetstream_reader_message(reader), twice);
-  tetstream_reader_destroy(reader);
-  info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
+  snprintf(text, sizeof text, "cell 2: point %lld is there twice", (long long)cells[4]);
+  check_refused(&batch, 0, text);
   cells[5] = mesh->cells[5] + 1;
+
   const size_t places = 3 * (size_t)mesh->vertex_count;
   double* torn = malloc(places * sizeof *torn);
   memcpy(torn, batch.positions, places * sizeof *torn);
   torn[3 * mesh->cells[0]] = NAN;
   batch.positions = torn;
-  char place[80];
-  snprintf(place, sizeof place, "point %lld: its position", (long long)cells[0]);
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
-  CHECK_SAYS(tetstream_reader_message(reader), place);
-  tetstream_reader_destroy(reader);
+  snprintf(text, sizeof text, "point %lld: its position", (long long)cells[0]);
+  check_refused(&batch, 0, text);
+  batch.positions = mesh->positions;
   free(torn);
-  info = info_of_mesh(TETSTREAM_STREAM_FROM_ONE);
+
   corners[0] = mesh->vertex_count + 1;
   locked_faces[0] = 1;
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_BAD_DATA);
-  CHECK_SAYS(tetstream_reader_message(reader), "locked face 1: vertex");
-  tetstream_reader_destroy(reader);
+  check_refused(&batch, 1, "locked face 1: vertex");
   free(cells);
   free(corners);
-  free(narrow);
 }
 
 int main(void) {
@@ -335,6 +343,7 @@ int main(void) {
   RUN_CASE(comparisons_tell_areas);
   RUN_CASE(faces_of_unknown_vertices_are_refused);
   RUN_CASE(ids_may_count_from_one);
+  RUN_CASE(messages_count_as_the_caller_does);
   free_faces();
   return check_end();
 }

@@ -160,18 +160,14 @@ static void calls_from_inside_a_callback_are_refused(void) {
 
 static void wrong_states_are_named(void) {
   rig r = rig_create("tets");
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_BAD_STATE);
+  whole w = whole_of(mesh);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "tetstream_simplifier_push");
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "has not begun");
   CHECK_EQUAL(tetstream_simplifier_finish(r.simplifier), TETSTREAM_BAD_STATE);
 
-  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "has begun");
   CHECK_EQUAL(tetstream_simplifier_set_progress(r.simplifier, NULL, NULL), TETSTREAM_BAD_STATE);
   tetstream_reader* reader = arrays_of(mesh);
@@ -179,9 +175,9 @@ static void wrong_states_are_named(void) {
   CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, NULL), TETSTREAM_BAD_ARGUMENT);
 
   /* None of that did harm. */
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_OK);
   CHECK(tetstream_simplifier_finish(r.simplifier) >= 0);
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "has finished");
   CHECK_EQUAL(tetstream_simplifier_finish(r.simplifier), TETSTREAM_BAD_STATE);
 
@@ -219,35 +215,27 @@ static void check_counts(const tetstream_simplifier* simplifier, const char* ord
 
 static void a_report_says_what_was_done_so_far(void) {
   rig r = rig_create("tets");
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  info.flags = 0;
-  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_OK);
+  whole w = whole_of(mesh);
+  w.info.flags = 0;
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_OK);
   check_counts(r.simplifier, "none: the stream is as it was");
-  batch.cell_count = -2;
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_BAD_DATA);
+  w.batch.cell_count = -2;
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_BAD_DATA);
   check_counts(r.simplifier, "none: the stream is as it was");
   rig_destroy(r);
 }
 
 static void a_failed_push_breaks_the_simplifier_alone(void) {
   rig r = rig_create("tets");
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
+  whole w = whole_of(mesh);
   tetstream_report report = {0};
   report.struct_size = sizeof report;
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  batch.cell_count = -2;
-  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_BAD_DATA);
+  w.batch.cell_count = -2;
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_BAD_DATA);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "-2");
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "failed before");
   CHECK_EQUAL(tetstream_simplifier_get_report(r.simplifier, &report), TETSTREAM_OK);
   const void* data = NULL;
@@ -303,15 +291,11 @@ static void handles_are_destroyed_in_any_order(void) {
 
 static void a_simplifier_without_its_writer_can_only_be_destroyed(void) {
   rig r = rig_create("tets");
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
+  whole w = whole_of(mesh);
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_OK);
   tetstream_writer_destroy(r.writer);
   r.writer = NULL;
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_BAD_STATE);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_BAD_STATE);
   CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "writer was destroyed");
   CHECK_EQUAL(tetstream_simplifier_finish(r.simplifier), TETSTREAM_BAD_STATE);
   rig_destroy(r);

@@ -206,14 +206,10 @@ static void null_takes_a_map_back(void) {
 static void a_run_that_is_dropped_closes_its_traces(void) {
   traces* t = new_traces();
   rig r = rig_create("tets");
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
+  whole w = whole_of(mesh);
   set_both(r, t);
-  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &info), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &batch), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_OK);
   rig_destroy(r);
   CHECK_EQUAL(t->map_closes, 1);
   CHECK_EQUAL(t->log_closes, 1);

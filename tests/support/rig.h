@@ -39,15 +39,25 @@ static inline void rig_destroy(rig r) {
   tetstream_options_destroy(r.options);
 }
 
-/* A reader of the mesh's own arrays. One at a time: the pointers to its columns are shared. */
-static inline tetstream_reader* arrays_of(const hostile_mesh* mesh) {
-  static const void* pointers[3];
+/* All of a mesh in one batch. One at a time: the pointers to its columns are shared. */
+typedef struct whole {
   tetstream_stream_info info;
   tetstream_batch batch;
+} whole;
+
+static inline whole whole_of(const hostile_mesh* mesh) {
+  static const void* pointers[3];
+  whole w;
+  hostile_mesh_info(mesh, &w.info);
+  hostile_mesh_batch(mesh, &w.batch, pointers);
+  return w;
+}
+
+/* A reader of the mesh's own arrays, likewise. */
+static inline tetstream_reader* arrays_of(const hostile_mesh* mesh) {
+  const whole w = whole_of(mesh);
   tetstream_reader* reader = NULL;
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_mesh(&w.info, &w.batch, &reader), TETSTREAM_OK);
   return reader;
 }
 
