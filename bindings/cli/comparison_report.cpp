@@ -41,12 +41,13 @@ ComparisonFigures figuresOf(const tetstream_comparison* comparison) {
 
 namespace {
 
-std::string number(double value) {
-  return std::isinf(value) ? "infinite" : textOf("%.6g", value);
+std::string number(double value, const char* format = "%.6g") {
+  if (std::isinf(value)) return value < 0 ? "-infinite" : "infinite";
+  return textOf(format, value);
 }
 
 std::string short3(double value) {
-  return std::isinf(value) ? "infinite" : textOf("%.3g", value);
+  return number(value, "%.3g");
 }
 
 double percentOf(double part, double whole) {

@@ -815,7 +815,8 @@ typedef struct tetstream_comparison_info {
   double outside_volume;       /* of what is compared, outside the simplified mesh */
   double repeated_volume;      /* the same in more than one simplified cell; 0 if sampled */
   double distance, rms_distance;   /* from the original's boundary to the simplified one: the
-                                      largest, and the root of the mean square */
+                                      largest, and the root of the mean square; infinite, as are
+                                      fields' errors, of a simplified mesh without cells */
   double distance_back, rms_distance_back; /* from the simplified boundary to the original's */
   double distance_place[3];        /* where `distance` is */
   double distance_back_place[3];   /* where `distance_back` is */

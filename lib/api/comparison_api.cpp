@@ -107,7 +107,7 @@ static tetstream_field_comparison publicField(const FieldComparison& field) {
   out.largest = field.largest;
   for (int k = 0; k < 3; ++k) out.largest_place[k] = field.largest_place[k];
   out.largest_inside = field.largest_inside;
-  out.cmse = field.cmse;
+  out.cmse = field.cmse();
   out.rms = field.rms();
   out.rms_inside = field.rmsInside();
   out.cpsnr = field.cpsnr();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "id_hash.h"
 #include "random.h"
@@ -46,7 +47,11 @@ DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
                                  const SurfaceSampling& sampling, const SearchBudget& budget,
                                  const std::function<void(double)>& share) {
   DistanceFigures figures;
-  if (from.count() == 0 || to.count() == 0) return figures;
+  if (from.count() == 0) return figures;
+  if (to.count() == 0) {
+    figures.largest = figures.rms = figures.mean = std::numeric_limits<double>::infinity();
+    return figures;
+  }
   NearestPoints places(1, 0, budget.temp_dir);
   addPlaces(from, sampling, budget.account, places);
   double samples = 0, squares = 0, sum = 0;

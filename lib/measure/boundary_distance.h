@@ -29,7 +29,8 @@ struct SearchBudget {
   size_t bytes;
 };
 
-// From `from` to the nearest points of all of `to`; all zero where one of them has no triangles.
+// From `from` to the nearest points of all of `to`; all zero where `from` has no triangles,
+// infinite where only `to` has none.
 DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
                                  const SurfaceSampling& sampling, const SearchBudget& budget,
                                  const std::function<void(double)>& share);

@@ -14,16 +14,20 @@ constexpr size_t kOriginalShare = 3, kSimplifiedShare = 1, kShares = 8, kBoundar
 // Shares of the time after reading.
 constexpr double kFieldsEnd = 0.85, kOutsideEnd = 0.92, kCutPixels = 1.6e6;
 
+double FieldComparison::cmse() const {
+  return mean_square * unit * unit;
+}
+
 double FieldComparison::rms() const {
-  return std::sqrt(cmse);
+  return std::sqrt(mean_square) * unit;
 }
 
 double FieldComparison::rmsInside() const {
-  return std::sqrt(cmse_inside);
+  return std::sqrt(mean_square_inside) * unit;
 }
 
 double FieldComparison::cpsnr() const {
-  if (cmse == 0) return std::numeric_limits<double>::infinity();
+  if (mean_square == 0) return std::numeric_limits<double>::infinity();
   return 20 * std::log10(range / rms());
 }
 
@@ -178,14 +182,7 @@ void Comparison::measure(const Done& done) {
   box_ = original_->box();
   cells_compared_ = original_->cells().count();
   volume_compared_ = original_->volumeKept();
-  for (FieldComparison& field : fields_) {
-    double square = 0;
-    for (size_t c = field.first; c < field.first + field.components; ++c) {
-      const double width = original_->highest()[c] - original_->lowest()[c];
-      square += width > 0 ? width * width : 0;  // of no vertices: none
-    }
-    field.range = std::sqrt(square);
-  }
+  for (FieldComparison& field : fields_) findRange(field);
   compareRegions();
   face_labels_ = pairByLabel<FaceLabelComparison>(original_->faceLabels().labels(),
                                                   simplified_->faceLabels().labels());
@@ -196,9 +193,25 @@ void Comparison::measure(const Done& done) {
   simplified_.reset();
 }
 
+// Of the largest power of two for which its inverse is a number, too, at most.
+static double unitOf(double width) {
+  return width > 0 ? std::ldexp(1, std::clamp(std::ilogb(width), -1022, 1022)) : 1;
+}
+
+void Comparison::findRange(FieldComparison& field) const {
+  std::vector<double> widths;
+  for (size_t c = field.first; c < field.first + field.components; ++c)
+    widths.push_back(std::max(original_->highest()[c] - original_->lowest()[c], 0.0));
+  field.unit = unitOf(*std::max_element(widths.begin(), widths.end()));
+  double square = 0;
+  for (const double width : widths) square += (width / field.unit) * (width / field.unit);
+  field.range = std::sqrt(square) * field.unit;
+}
+
 void Comparison::measureFields(const Done& done) {
   std::vector<ComparedField> compared;
-  for (const FieldComparison& f : fields_) compared.push_back({f.first, f.components, f.range});
+  for (const FieldComparison& f : fields_)
+    compared.push_back({f.first, f.components, f.range / f.unit, 1 / f.unit});
   FieldDifference difference(compared, values_,
                              {plan_.options.samples, plan_.seed, volume_compared_},
                              {account_, plan_.temp_dir, memory_ / 2});
@@ -213,11 +226,11 @@ void Comparison::measureFields(const Done& done) {
     const FieldSums &in = difference.inside(f), &out = difference.outside(f);
     FieldComparison& field = fields_[f];
     const FieldSums& larger = out.largest > in.largest ? out : in;
-    field.largest_inside = in.largest;
-    field.largest = larger.largest;
+    field.largest_inside = in.largest * field.unit;
+    field.largest = larger.largest * field.unit;
     std::copy_n(larger.place, 3, field.largest_place);
-    field.cmse = volume > 0 ? (in.squares + out.squares) / volume : 0;
-    field.cmse_inside = volumes_.covered > 0 ? in.squares / volumes_.covered : 0;
+    field.mean_square = volume > 0 ? (in.squares + out.squares) / volume : 0;
+    field.mean_square_inside = volumes_.covered > 0 ? in.squares / volumes_.covered : 0;
     for (int s = 0; s < ErrorHistogram::kSteps; ++s)
       field.histogram.volume[s] = in.histogram.volume[s] + out.histogram.volume[s];
   }

@@ -37,8 +37,10 @@ struct FieldComparison {
   double range = 0;  // norm of the original's ranges of the components
   double largest = 0, largest_place[3] = {0, 0, 0};
   double largest_inside = 0;  // where the original is inside the simplified mesh
-  double cmse = 0;            // mean of the squared error over the original's volume
-  double cmse_inside = 0;
+  double unit = 1;            // a power of two near the range, in which errors are squared
+  double mean_square = 0;     // over the original's volume, in squares of it
+  double mean_square_inside = 0;
+  double cmse() const;
   double rms() const;
   double rmsInside() const;
   double cpsnr() const;                // decibels; infinite where there is no error
@@ -110,6 +112,7 @@ class Comparison {
   void matchFields(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void checkPart();
+  void findRange(FieldComparison& field) const;
   void measureFields(const Done& done);
   void measureDistances(const Done& done);
   void compareRegions();

@@ -113,7 +113,8 @@ void FieldDifference::Leaf::integratePair(size_t i, const double* other,
   for (size_t f = 0; f < whole_.fields_.size(); ++f) {
     const ComparedField& field = whole_.fields_[f];
     FieldSums& sums = whole_.inside_[f];
-    const double* d = differences_.data() + 4 * field.first;
+    double* d = differences_.data() + 4 * field.first;
+    for (size_t k = 0; k < 4 * field.components; ++k) d[k] *= field.per_unit;
     double squares = 0, norms[4] = {};
     for (size_t c = 0; c < field.components; ++c) {
       squares += overlap_.integralOfSquare(d + 4 * c);
@@ -289,9 +290,7 @@ void FieldDifference::Leaf::takeSamples() {
     const double* found = found_.data() + n * shape_.values;
     for (size_t f = 0; f < whole_.fields_.size(); ++f) {
       const ComparedField& field = whole_.fields_[f];
-      double square = 0;
-      for (size_t c = field.first; c < field.first + field.components; ++c)
-        square += (values_[c] - found[c]) * (values_[c] - found[c]);
+      const double square = field.squareBetween(values_.data(), found);
       FieldSums& sums = whole_.inside_[f];
       sums.squares += each * square;
       sums.take(std::sqrt(square), place);

@@ -19,6 +19,15 @@ double ErrorHistogram::lowerEnd(int step) {
   return kLowest * std::pow(10, static_cast<double>(step) / kPerDecade);
 }
 
+double ComparedField::squareBetween(const double* values, const double* others) const {
+  double square = 0;
+  for (size_t c = first; c < first + components; ++c) {
+    const double d = (values[c] - others[c]) * per_unit;
+    square += d * d;
+  }
+  return square;
+}
+
 void FieldSums::take(double norm, const double at[3]) {
   if (!(norm > largest)) return;
   largest = norm;
@@ -180,13 +189,11 @@ void FieldDifference::measureOutside(SimplexRows& boundary,
       [&](const NearestPoints::Found& found) {
         const double volume = found.carried[0];
         for (size_t f = 0; f < fields_.size(); ++f) {
-          double square = 0;
-          for (size_t c = fields_[f].first; c < fields_[f].first + fields_[f].components; ++c) {
-            const double d = found.carried[1 + c] - found.values[c];
-            square += d * d;
-          }
+          const double square = std::isinf(found.distance)  // there is no boundary
+                                    ? found.distance
+                                    : fields_[f].squareBetween(found.carried + 1, found.values);
           FieldSums& sums = outside_[f];
-          sums.squares += volume * square;
+          if (volume > 0) sums.squares += volume * square;
           sums.take(std::sqrt(square), found.place);
           if (volume > 0 && fields_[f].range > 0)
             sums.histogram.add(std::sqrt(square) / fields_[f].range, volume);

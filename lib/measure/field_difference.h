@@ -16,10 +16,13 @@
 
 namespace tetstream {
 
-// A field: some components of the values of a corner.
+// A field: some components of the values of a corner. Its errors are told in units: what a power of
+// two turns the values into, whose squares are numbers whatever the values are.
 struct ComparedField {
   size_t first, components;
-  double range;  // of the original; 0: it is constant
+  double range;     // of the original, in units; 0: it is constant
+  double per_unit;  // by which a difference of values is multiplied
+  double squareBetween(const double* values, const double* others) const;
 };
 
 // By the size of the error relative to the range: steps of a quarter of a decade from 1e-10 to 10;
@@ -32,6 +35,7 @@ struct ErrorHistogram {
   static double lowerEnd(int step);
 };
 
+// In units of the field.
 struct FieldSums {
   double squares = 0;  // of the error's norm, times volume
   double largest = 0;  // norm of the error, where that is found exactly

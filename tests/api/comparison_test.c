@@ -143,6 +143,39 @@ static void a_constant_shift_of_a_field_is_its_error(void) {
   hostile_mesh_destroy(shifted);
 }
 
+/* A shift of values whose squares are no doubles, exactly and by points; the errors are as large.
+ */
+static void errors_have_the_size_of_the_values_whatever_that_is(void) {
+  const int exponents[] = {-900, -500, 500, 900};
+  hostile_mesh* original = mesh;
+  for (size_t i = 0; i < sizeof exponents / sizeof *exponents; ++i) {
+    const double unit = ldexp(1, exponents[i]);
+    hostile_mesh* shifted = hostile_mesh_create(3, 4, layers);
+    mesh = hostile_mesh_create(3, 4, layers);
+    double low = mesh->density[0], high = low;
+    for (int64_t v = 0; v < mesh->vertex_count; ++v) {
+      low = fmin(low, mesh->density[v]);
+      high = fmax(high, mesh->density[v]);
+      shifted->density[v] = (mesh->density[v] + 0.25) * unit;
+      mesh->density[v] *= unit;
+    }
+    for (int by_points = 0; by_points < 2; ++by_points) {
+      tetstream_comparison* comparison = comparison_with("samples", by_points ? "100" : "0");
+      CHECK_EQUAL(compare(comparison, shifted, HOSTILE_ODD, 0), TETSTREAM_OK);
+      const tetstream_field_comparison field = field_of(comparison, 0);
+      CHECK(fabs(field.range / unit - (high - low)) < 1e-12);
+      CHECK(fabs(field.rms / unit - 0.25) < 1e-12);
+      CHECK(fabs(field.largest / unit - 0.25) < 1e-12);
+      CHECK(fabs(field.largest_percent - 25 / (high - low)) < 1e-10);
+      CHECK(isfinite(field.cpsnr) && field.cpsnr < 40);
+      tetstream_comparison_destroy(comparison);
+    }
+    hostile_mesh_destroy(shifted);
+    hostile_mesh_destroy(mesh);
+  }
+  mesh = original;
+}
+
 static void boundaries_are_sampled_at_as_many_points_as_asked(void) {
   hostile_mesh* lower = hostile_mesh_create(3, 4, layers - 1);
   tetstream_comparison* comparison = comparison_with("boundary-samples", "3000");
@@ -323,7 +356,7 @@ static void misuse_is_refused_and_does_no_harm(void) {
   tetstream_reader_destroy(reader);
 }
 
-/* Nor does a picture need anything of it on the plane. */
+/* Nothing is near to it; nor does a picture need anything of it on the plane. */
 static void a_mesh_of_nothing_can_be_compared(void) {
   char svg[] = "/tmp/tetstream-nothing-XXXXXX.svg";
   hostile_reader hostile;
@@ -336,6 +369,8 @@ static void a_mesh_of_nothing_can_be_compared(void) {
   CHECK_EQUAL(info.topology_kept, 0);
   CHECK_EQUAL(figures_of(comparison, TETSTREAM_SIMPLIFIED).cells, 0);
   CHECK(fabs(info.outside_volume - figures_of(comparison, TETSTREAM_ORIGINAL).volume) < 1e-9);
+  CHECK(isinf(info.distance) && isinf(info.rms_distance) && info.distance_back == 0);
+  CHECK(isinf(field_of(comparison, 0).rms) && isinf(field_of(comparison, 0).largest_percent));
   const int fd = mkstemps(svg, 4);
   if (CHECK(fd >= 0)) {
     CHECK_EQUAL(tetstream_comparison_write(comparison, svg, NULL),
@@ -355,6 +390,7 @@ int main(void) {
   CHECK(mesh != NULL);
   RUN_CASE(a_mesh_is_itself_in_any_order);
   RUN_CASE(a_constant_shift_of_a_field_is_its_error);
+  RUN_CASE(errors_have_the_size_of_the_values_whatever_that_is);
   RUN_CASE(what_is_cut_off_is_outside);
   RUN_CASE(boundaries_are_sampled_at_as_many_points_as_asked);
   RUN_CASE(a_page_is_drawn_where_a_cut_was_asked_for);
