@@ -131,7 +131,8 @@ class SweepSelector final : public Selector {
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::unique_ptr<Selector> exhaustive_;
   std::vector<Swept> swept_;
-  double share_ = 1;  // of its cells that a tile of the group may take
+  typename SweepBounds<S>::Refused refused_{};  // by the last round of trying everything
+  double share_ = 1;                            // of its cells that a tile of the group may take
   Goal goal_{};
   double unit_ = 1, bound_ = 0;
   bool is_ready_ = false;  // the only tile is loaded in the first lane, and its edges are evaluated
@@ -395,6 +396,7 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
   int64_t live;
   do {
     live = core_.window.liveCells();
+    const Tally so_far = core_.tally;
     tiling_.build(round_++, std::numeric_limits<float>::infinity());
     for (const TilePiece& tile : tiling_.tiles()) {
       onTile(lane(), tile, [&] {
@@ -404,6 +406,8 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
       addOf(lane());
       if (mustStop()) return;
     }
+    refused_ = {core_.tally.rejected_large - so_far.rejected_large,
+                core_.tally.rejected() - so_far.rejected()};
   } while (core_.window.liveCells() < live);
 }
 
@@ -414,7 +418,7 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
     core_.most_error = bounds_.limit();
     tryByAllMeans(tick);
     core_.most_error = std::numeric_limits<double>::infinity();
-    if (mustStop() || !bounds_.widen()) return;
+    if (mustStop() || !bounds_.widen(goal_, refused_)) return;
     core_.tally.rejected_large = 0;  // for the limit that was
     sweep(bounds_.next(bound_, bounds_.wanted(bound_, goal_)), 0, tick);
   } while (!mustStop());

@@ -390,7 +390,7 @@ class WindowedEngine final : public Simplifier::Engine {
     name(core_.locked.by_caller, "vertices locked by the stream");
     core_.report.limited_by = "no legal collapse is left";
     if (core_.tally.rejected_large > 0)
-      core_.report.limited_by += " but with errors as large as the range of the fields";
+      core_.report.limited_by += " but with errors of a tenth of the range of the fields and more";
     if (core_.report.window_cells < 2 * core_.report.front_cells)
       core_.report.limited_by += textOf(
           "; the window of %lld cells is less than two fronts of %lld: give it more cells or "

@@ -19,6 +19,10 @@ constexpr double kLargestStride = 16;
 constexpr double kGuardedStep = 2;
 // Where no more cells are left their mean error tells nothing.
 constexpr int64_t kFewCells = 1000;
+// A goal is in reach that is so near, or where most edges that are left are refused for their error
+// alone. Of others, most of whose edges are not legal, what costs more than it is worth took 18 %
+// of the cells at most: it would be spent for nothing.
+constexpr double kNear = 1.25, kMost = 0.5;
 // Both with high effort: the smaller they are, the more nearly edges are taken in the order of
 // their errors, and the more often quadrics are made anew.
 constexpr double kCarefulStep = 2;
@@ -126,10 +130,16 @@ double SweepBounds<S>::limit() const {
 }
 
 template <class S>
-bool SweepBounds<S>::widen() {
+bool SweepBounds<S>::isInReach(const Goal& goal, const Refused& refused) const {
+  return static_cast<double>(core_.window.liveCells()) <= kNear * static_cast<double>(goal.cells) ||
+         static_cast<double>(refused.as_large) > kMost * static_cast<double>(refused.all);
+}
+
+template <class S>
+bool SweepBounds<S>::widen(const Goal& goal, const Refused& refused) {
   if (!reach_) return false;
   const bool is_last = reach_ == &kLastWorth;
-  if (is_last && core_.window.liveCells() > kFewCells) return false;
+  if (core_.window.liveCells() > kFewCells && (is_last || !isInReach(goal, refused))) return false;
   reach_ = is_last ? nullptr : &kLastWorth;
   return true;
 }

@@ -28,9 +28,13 @@ class SweepBounds {
   void learn(int64_t taken, int64_t looking);
   // The largest error that is worth to be made for the goal, in normalised units: few edges that
   // are legal must not make up for many that are not. What is left below it is tried by all means
-  // before it is widened, of few cells in the end without a limit.
+  // before it is widened, towards a goal that is in reach, of few cells in the end without a limit;
+  // so many edges were refused then.
+  struct Refused {
+    int64_t as_large, all;
+  };
   double limit() const;
-  bool widen();
+  bool widen(const Goal& goal, const Refused& refused);
 
  private:
   // The error that an edge may have: what all vertices could have for so many percent of the range,
@@ -41,6 +45,7 @@ class SweepBounds {
   static constexpr Reach kFree = {1, 2}, kWorth = {10, 4}, kLastWorth = {100, 4};
 
   double errorIn(const Reach& reach) const;
+  bool isInReach(const Goal& goal, const Refused& refused) const;
   double boundToTake(double cells) const;
   double distance(double share_left, const Goal& goal) const;
 

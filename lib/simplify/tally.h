@@ -39,6 +39,9 @@ struct Tally {
   double largest_error = 0;    // in the report's unit
   bool error_reached = false;  // a collapse was refused for the limit on the error
 
+  int64_t rejected() const {
+    return rejected_orientation + rejected_link + rejected_locked + rejected_other;
+  }
   void count(Outcome outcome);
   void add(const Tally& part);
 };

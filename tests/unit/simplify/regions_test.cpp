@@ -203,9 +203,9 @@ TEST(SimplifierRegions, DoNotCostTheBodyWhereTheyKeepTheTargetAway) {
   const TestMesh mesh = blocks(n, 3);
   const Result result = simplified(mesh, toRatio(0.02));
   expectSound(mesh, result);
-  EXPECT_LT(cornersLost(result.out.mesh, n), 0.75);
-  EXPECT_LT(result.report.estimated_error, 10);
-  EXPECT_NE(result.report.limited_by.find("as large as the range"), std::string::npos);
+  EXPECT_LT(cornersLost(result.out.mesh, n), 0.01);
+  EXPECT_LT(result.report.estimated_error, 2);
+  EXPECT_NE(result.report.limited_by.find("a tenth of the range"), std::string::npos);
 }
 
 TEST(SimplifierRegions, AreNotTakenFromIds) {
