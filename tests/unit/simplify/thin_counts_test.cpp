@@ -29,18 +29,39 @@ struct Layers : WholePatch<S> {
   double cos2Of(unsigned angle) const {
     return angle == 0 ? this->core.thin.cos2 : this->core.dear[angle - 1].cos2;
   }
+  double thinnessOf(uint32_t cell) const {
+    double p[4][3];
+    for (uint32_t k = 0; k < 4; ++k)
+      for (uint32_t i = 0; i < 3; ++i)
+        p[k][i] = static_cast<double>(this->patch.values(this->patch.vertexOf(cell, k))[i]);
+    return thinness(p);
+  }
   // Cell by cell, each once.
   size_t thinIn(const Stars& stars, unsigned angle) const {
     size_t thin = 0;
     for (const Star* star : {&stars.u, &stars.ring, &stars.v})
-      for (const StarCell& s : *star) {
-        double p[4][3];
-        for (uint32_t k = 0; k < 4; ++k)
-          for (uint32_t i = 0; i < 3; ++i)
-            p[k][i] = static_cast<double>(this->patch.values(this->patch.vertexOf(s.cell, k))[i]);
-        thin += thinness(p) > cos2Of(angle);
-      }
+      for (const StarCell& s : *star) thin += thinnessOf(s.cell) > cos2Of(angle);
     return thin;
+  }
+  double thinnestIn(std::initializer_list<const Star*> all) const {
+    double largest = 0;
+    for (const Star* star : all)
+      for (const StarCell& s : *star) largest = std::max(largest, thinnessOf(s.cell));
+    return largest;
+  }
+  // A free vertex and one that it may have an edge with, their stars gathered; false if there is
+  // none.
+  bool gatherAny(Random& random, Stars& stars, uint32_t* u, uint32_t* v) {
+    *u = static_cast<uint32_t>(random.below(this->patch.ownedEnd()));
+    if (!this->patch.isFree(*u)) return false;
+    this->patch.gather(*u, kGoneCorner, stars.u, stars.ring);
+    if (stars.ring.size() + stars.u.size() == 0) return false;
+    const Star& all = stars.ring.size() > 0 ? stars.ring : stars.u;
+    *v = all[random.below(all.size())].t[0];
+    if (*v == *u || !this->patch.isFree(*v)) return false;
+    this->patch.gather(*u, *v, stars.u, stars.ring);
+    this->patch.gather(*v, *u, stars.v, stars.ring_from_v);
+    return true;
   }
   Collapser<Patch<S>> collapser;
 };
@@ -61,15 +82,8 @@ TYPED_TEST(ThinCountsOf, StarsAreThoseOfTheirCellsAlsoAfterCollapses) {
   std::array<size_t, 3> found{};
   int collapses = 0;
   for (int round = 0; round < 400; ++round) {
-    const auto u = static_cast<uint32_t>(random.below(layers.patch.ownedEnd()));
-    if (!layers.patch.isFree(u)) continue;
-    layers.patch.gather(u, kGoneCorner, stars.u, stars.ring);
-    if (stars.ring.size() + stars.u.size() == 0) continue;
-    const Star& all = stars.ring.size() > 0 ? stars.ring : stars.u;
-    const uint32_t v = all[random.below(all.size())].t[0];
-    if (v == u || !layers.patch.isFree(v)) continue;
-    layers.patch.gather(u, v, stars.u, stars.ring);
-    layers.patch.gather(v, u, stars.v, stars.ring_from_v);
+    uint32_t u, v;
+    if (!layers.gatherAny(random, stars, &u, &v)) continue;
     for (unsigned angle = 0; angle < 3; ++angle) {
       const size_t thin = counts.count(u, v, stars, static_cast<typename Counts::Angle>(angle));
       EXPECT_EQ(thin, layers.thinIn(stars, angle)) << angle;
@@ -83,6 +97,28 @@ TYPED_TEST(ThinCountsOf, StarsAreThoseOfTheirCellsAlsoAfterCollapses) {
   EXPECT_GT(found[0], 0u);
   EXPECT_GT(found[2], found[0]);  // the second dear angle, and the floor
   EXPECT_GT(found[1], found[2]);
+}
+
+// Fewer cells below the floor, one of them as good as flat, were let pass before.
+TYPED_TEST(ThinCountsOf, NoCollapseMakesTheThinnestCellThinner) {
+  Layers<TypeParam> layers;
+  layers.core.thin = ThinAngle(12);
+  layers.core.dear.clear();
+  Stars stars(layers.account);
+  Random random(5);
+  const std::vector<TypeParam> z(3, TypeParam(0));
+  int thin_ones = 0;
+  for (int round = 0; round < 3000; ++round) {
+    uint32_t u, v;
+    if (!layers.gatherAny(random, stars, &u, &v)) continue;
+    const double before = layers.thinnestIn({&stars.u, &stars.ring, &stars.v});
+    if (layers.collapser.collapse(u, v, z.data(), 0, 0) != Outcome::kDone) continue;
+    layers.patch.gather(u, kGoneCorner, stars.u, stars.ring);
+    const double after = layers.thinnestIn({&stars.u, &stars.ring});
+    EXPECT_LE(after, std::max(before, layers.core.thin.cos2));
+    thin_ones += after > layers.core.thin.cos2;
+  }
+  EXPECT_GT(thin_ones, 20);
 }
 
 // With other angles what was known is forgotten.
