@@ -10,6 +10,7 @@ namespace tetstream {
 struct OrderedFace {
   int64_t vertices[3];  // as the stream numbers them
   int64_t label;
+  int64_t number;  // in the source, from the one that it starts with
   int64_t last() const { return std::max({vertices[0], vertices[1], vertices[2]}); }
 };
 

@@ -100,6 +100,7 @@ class OrderedSource::Reading final : public Source {
       const OrderedFace face = faces.face(face_);
       if (static_cast<uint64_t>(face.last()) >= introduced_) break;
       batch_.addFace(face.vertices, face.label);
+      batch_.addFaceOrigin(face.number);
     }
   }
   // kNoSlot: it is new, the next one.

@@ -10,22 +10,21 @@
 namespace tetstream {
 
 // A hash from keys of 64-bit numbers (equality and `hash()`) to labels.
-template <class Key>
+template <class Key, class Label = int64_t>
 class LabelMap {
  public:
   explicit LabelMap(Account& account) : account_(&account), places_(account) {}
 
   bool empty() const { return count_ == 0; }
-  size_t size() const { return count_; }
   // Null if there is none; until the next change.
-  const int64_t* find(const Key& key) const {
+  const Label* find(const Key& key) const {
     if (count_ == 0) return nullptr;
     const size_t i = placeOf(key);
     return places_[i].state == kUsed ? &places_[i].label : nullptr;
   }
-  void put(const Key& key, int64_t label) {
-    if (2 * (used_ + 1) > places_.size())
-      rebuild(count_ + 1, [](const Key& k, Key* kept) {
+  void put(const Key& key, const Label& label) {
+    if (4 * (used_ + 1) > 3 * places_.size())
+      rebuild(count_ + 1, [](const Key& k, const Label&, Key* kept) {
         *kept = k;
         return true;
       });
@@ -43,10 +42,15 @@ class LabelMap {
     entry.state = kRemoved;
     --count_;
   }
-  // moved(key, &kept): the new key, or false where it is to be forgotten.
+  // moved(key, label, &kept): the new key, or false where it is to be forgotten.
   template <class Moved>
   void remap(Moved moved) {
     if (count_ > 0) rebuild(count_, moved);
+  }
+  template <class Visit>
+  void forEachLabel(Visit visit) const {
+    for (size_t i = 0; i < places_.size(); ++i)
+      if (places_[i].state == kUsed) visit(places_[i].label);
   }
 
  private:
@@ -54,7 +58,7 @@ class LabelMap {
   struct Entry {
     Key key;
     State state;  // fills up what a key of 32-bit numbers leaves
-    int64_t label;
+    Label label;
   };
 
   // Of the key, or the empty place where it would be.
@@ -68,14 +72,14 @@ class LabelMap {
   template <class Moved>
   void rebuild(size_t entries, Moved moved) {
     size_t size = 64;
-    while (size < 3 * entries) size *= 2;
+    while (size < 2 * entries) size *= 2;
     Array<Entry> before(*account_, size);
-    std::fill_n(before.data(), size, Entry{{}, kEmpty, 0});
+    std::fill_n(before.data(), size, Entry{{}, kEmpty, {}});
     before.swap(places_);
     count_ = used_ = 0;
     for (size_t i = 0; i < before.size(); ++i) {
       Key key;
-      if (before[i].state != kUsed || !moved(before[i].key, &key)) continue;
+      if (before[i].state != kUsed || !moved(before[i].key, before[i].label, &key)) continue;
       places_[placeOf(key)] = {key, kUsed, before[i].label};
       ++count_;
       ++used_;
@@ -83,7 +87,7 @@ class LabelMap {
   }
 
   Account* account_;
-  Array<Entry> places_;          // a power of two of them, half in use at most
+  Array<Entry> places_;          // a power of two of them, three quarters in use at most
   size_t count_ = 0, used_ = 0;  // entries; places that are in use or were
 };
 

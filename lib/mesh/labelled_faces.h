@@ -15,24 +15,24 @@ class LabelledFaces {
 
   bool empty() const { return coming_.empty() && of_corner_.empty(); }
 
-  // Three vertices, whose cell is not looked for yet. False, and the first stays, if the face has
-  // come before and has no cell yet.
-  bool expect(uint32_t a, uint32_t b, uint32_t c, int64_t label) {
+  // Three vertices, whose cell is not looked for yet, and the number by which messages name the
+  // face. That of the one that has come before and has no cell yet, which stays; null if none has.
+  const int64_t* expect(uint32_t a, uint32_t b, uint32_t c, int64_t label, int64_t number) {
     const Face face = Face::of(a, b, c);
-    if (coming_.find(face)) return false;
-    coming_.put(face, label);
-    return true;
+    if (const Coming* before = coming_.find(face)) return &before->number;
+    coming_.put(face, {label, number});
+    return nullptr;
   }
   // The label of the face with these vertices, opposite a corner and, if there is a cell across it,
   // opposite `across`; otherwise that is `corner` again. It may have come since it was last asked
   // for. Null if there is none.
   const int64_t* labelOf(uint32_t corner, uint32_t across, uint32_t a, uint32_t b, uint32_t c) {
     const Face face = Face::of(a, b, c);
-    if (const int64_t* label = coming_.find(face)) {
+    if (const Coming* coming = coming_.find(face)) {
       if (labelOf(corner) || labelOf(across))
-        ++again_;
+        again_.add(coming->number);
       else
-        of_corner_.put({corner}, *label);
+        of_corner_.put({corner}, coming->label);
       coming_.remove(face);
     }
     const int64_t* label = labelOf(corner);
@@ -52,20 +52,28 @@ class LabelledFaces {
     for (uint32_t j = 0; j < 4; ++j) of_corner_.remove({4 * cell + j});
   }
 
+  struct Strange {
+    size_t count = 0;
+    int64_t first = 0;  // of their numbers the smallest
+    void add(int64_t number) { first = count++ == 0 ? number : std::min(first, number); }
+  };
   // Those that were faces of no cell, and those that came again when they had one; once all
   // vertices were looked at, all of them.
-  size_t ofNoCell() const { return gone_ + coming_.size(); }
-  size_t again() const { return again_; }
+  Strange ofNoCell() const {
+    Strange all = gone_;
+    coming_.forEachLabel([&](const Coming& c) { all.add(c.number); });
+    return all;
+  }
+  Strange again() const { return again_; }
 
   // The window is packed: keep[v] is the new slot of vertex v; cells move to lower ones, in order.
   // What still waits for its cell and loses a vertex has none.
   void remapVertices(const uint32_t* keep) {
-    const size_t before = coming_.size();
-    coming_.remap([keep](const Face& f, Face* kept) {
+    coming_.remap([&](const Face& f, const Coming& coming, Face* kept) {
       *kept = Face::of(keep[f.v[0]], keep[f.v[1]], keep[f.v[2]]);
+      if (kept->v[2] == kNone) gone_.add(coming.number);
       return kept->v[2] != kNone;
     });
-    gone_ += before - coming_.size();
   }
   void moveCell(uint32_t from, uint32_t to) {
     for (uint32_t j = 0; j < 4 && !of_corner_.empty(); ++j) hand(4 * from + j, 4 * to + j);
@@ -88,9 +96,13 @@ class LabelledFaces {
     uint64_t hash() const { return mix(number); }
   };
 
-  LabelMap<Face> coming_;
+  struct Coming {
+    int64_t label, number;
+  };
+
+  LabelMap<Face, Coming> coming_;
   LabelMap<Corner> of_corner_;
-  size_t gone_ = 0, again_ = 0;
+  Strange gone_, again_;
 };
 
 }  // namespace tetstream

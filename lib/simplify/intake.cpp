@@ -51,17 +51,17 @@ void Intake<S>::startBatch(const BatchView& batch) {
 
 // Of a vertex of a labelled face or locked edge, which has to be known before the vertex is final.
 template <class S>
-uint32_t Intake<S>::earlySlot(const char* what, size_t row, int64_t vertex) {
+uint32_t Intake<S>::earlySlot(const char* what, int64_t number, int64_t vertex) {
   if (vertex < 0 || static_cast<uint64_t>(vertex) >= declared_)
-    fail(Status::kBadData, "%s %zu: vertex %lld is not declared before it", what, row,
-         static_cast<long long>(vertex));
+    fail(Status::kBadData, "%s %lld: vertex %lld is not declared before it", what,
+         static_cast<long long>(number), static_cast<long long>(vertex));
   introduceUpTo(static_cast<uint64_t>(vertex));
   const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
   if (slot == kNoSlot)
     fail(Status::kBadData,
-         "%s %zu: vertex %lld was finalized in a batch before: it is no part of a cell, or comes "
+         "%s %lld: vertex %lld was finalized in a batch before: it is no part of a cell, or comes "
          "later than with the batch in which the first of its vertices gets its last use",
-         what, row, static_cast<long long>(vertex));
+         what, static_cast<long long>(number), static_cast<long long>(vertex));
   return slot;
 }
 
@@ -69,18 +69,34 @@ uint32_t Intake<S>::earlySlot(const char* what, size_t row, int64_t vertex) {
 template <class S>
 void Intake<S>::takeFaces() {
   for (size_t row = 0; row < batch_.face_count; ++row, ++faces_read_) {
+    const int64_t number =
+        batch_.face_origins ? batch_.face_origins[row] : static_cast<int64_t>(faces_read_);
     uint32_t slots[3];
     for (size_t j = 0; j < 3; ++j) {
-      slots[j] = earlySlot("labelled face", faces_read_, batch_.faces[3 * row + j]);
+      slots[j] = earlySlot("labelled face", number, batch_.faces[3 * row + j]);
       core_.window.mesh.flagVertex(slots[j], kInterface);
       if (batch_.face_locks && batch_.face_locks[row]) lock(slots[j]);
     }
-    if (!core_.window.faces.expect(slots[0], slots[1], slots[2], batch_.face_labels[row]))
-      fail(Status::kBadData, "labelled face %zu comes twice: vertices %lld, %lld and %lld",
-           faces_read_, static_cast<long long>(batch_.faces[3 * row]),
-           static_cast<long long>(batch_.faces[3 * row + 1]),
-           static_cast<long long>(batch_.faces[3 * row + 2]));
+    if (const int64_t* before = core_.window.faces.expect(slots[0], slots[1], slots[2],
+                                                          batch_.face_labels[row], number))
+      fail(Status::kBadData, "labelled faces %lld and %lld have the same vertices",
+           static_cast<long long>(std::min(*before, number)),
+           static_cast<long long>(std::max(*before, number)));
   }
+}
+
+static void refuse(const LabelledFaces::Strange& faces, const char* what) {
+  if (faces.count == 0) return;
+  const auto first = static_cast<long long>(faces.first);
+  if (faces.count == 1) fail(Status::kBadData, "labelled face %lld %s", first, what);
+  fail(Status::kBadData, "labelled face %lld %s, the first of %zu such faces", first, what,
+       faces.count);
+}
+
+template <class S>
+void Intake<S>::checkFaces() const {
+  refuse(core_.window.faces.ofNoCell(), "is the face of no cell");
+  refuse(core_.window.faces.again(), "came before");
 }
 
 // note: locked ends are enough: an edge stays as it is while neither is merged or moved.
@@ -88,7 +104,8 @@ template <class S>
 void Intake<S>::takeLocks() {
   for (size_t row = 0; row < batch_.edge_count; ++row, ++edges_read_)
     for (size_t j = 0; j < 2; ++j)
-      lock(earlySlot("locked edge", edges_read_, batch_.locked_edges[2 * row + j]));
+      lock(earlySlot("locked edge", static_cast<int64_t>(edges_read_),
+                     batch_.locked_edges[2 * row + j]));
 }
 
 template <class S>

@@ -20,6 +20,9 @@ class Intake {
 
   uint64_t cellsRead() const { return cells_read_; }
   uint64_t facesRead() const { return faces_read_; }
+  // Once all vertices are resolved: labelled faces of no cell, and those that came twice, are
+  // kBadData.
+  void checkFaces() const;
   // Vertices in the window that came with a batch before any cell that has them.
   size_t waiting() const { return static_cast<size_t>(core_.front.introduced() - core_.reached); }
   // The vertices finalized since the last clear, by slot.
@@ -31,7 +34,7 @@ class Intake {
   void takeFaces();
   void takeLocks();
   void lock(uint32_t slot);
-  uint32_t earlySlot(const char* what, size_t row, int64_t vertex);
+  uint32_t earlySlot(const char* what, int64_t number, int64_t vertex);
   void introduceUpTo(uint64_t vertex);
   void growVertices();
   void takeVertex(size_t row);

@@ -136,10 +136,7 @@ class WindowedEngine final : public Simplifier::Engine {
     checkCount("labelled faces", plan_.schema.face_count, intake_.facesRead());
     intake_.finalizeAll();
     resolveNew();
-    if (const size_t strange = core_.window.faces.ofNoCell())
-      fail(Status::kBadData, "%zu labelled faces are faces of no cell", strange);
-    if (const size_t again = core_.window.faces.again())
-      fail(Status::kBadData, "%zu labelled faces came twice", again);
+    intake_.checkFaces();
     Ledger now = ledger();
     decimate(budget_->lastGoal(now));
     if (now.written == 0) survey(now.read);

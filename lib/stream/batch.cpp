@@ -26,6 +26,7 @@ void Batch::clear(uint64_t first_vertex) {
   finalized_.clear();
   faces_.clear();
   face_labels_.clear();
+  face_origins_.clear();
 }
 
 size_t Batch::addVertices(size_t count) {
@@ -76,6 +77,7 @@ BatchView Batch::view() {
   v.face_count = face_labels_.size();
   v.faces = faces_.data();
   v.face_labels = face_labels_.data();
+  v.face_origins = face_origins_.empty() ? nullptr : face_origins_.data();
   return v;
 }
 

@@ -31,10 +31,12 @@ struct BatchView {
   size_t finalized_count = 0;
   const int64_t* finalized = nullptr;  // ranks, final after the batch's last cell
   size_t face_count = 0;
-  const int64_t* faces = nullptr;        // [face_count][3] labelled boundary faces of cells
-                                         // so far; their vertices may be final already
-  const int64_t* face_labels = nullptr;  // [face_count]
-  const uint8_t* face_locks = nullptr;   // [face_count], non-zero: its vertices are never moved
+  const int64_t* faces = nullptr;         // [face_count][3] labelled boundary faces of cells
+                                          // so far; their vertices may be final already
+  const int64_t* face_labels = nullptr;   // [face_count]
+  const int64_t* face_origins = nullptr;  // [face_count]: their numbers in the input, for
+                                          // messages; or null: as they come, from 0
+  const uint8_t* face_locks = nullptr;    // [face_count], non-zero: its vertices are never moved
   size_t edge_count = 0;
   const int64_t* locked_edges = nullptr;  // [edge_count][2], of cells so far: never moved
 };
@@ -52,6 +54,7 @@ class Batch {
   size_t addCells(size_t count);  // last_uses of the new cells are 0
   void addFinalized(int64_t vertex) { finalized_.push_back(vertex); }
   void addFace(const int64_t corners[3], int64_t label);
+  void addFaceOrigin(int64_t number) { face_origins_.push_back(number); }  // for all or for none
   void lock(size_t vertex_row);
   // For all vertices of the batch or for none.
   void addOrigin(int64_t origin) { origins_.push_back(origin); }
@@ -84,7 +87,7 @@ class Batch {
   std::vector<size_t> field_strides_, cell_strides_;
   Bytes positions_, locked_, last_uses_;
   std::vector<Bytes> fields_, cell_data_;
-  std::vector<int64_t> origins_, cells_, finalized_, faces_, face_labels_;
+  std::vector<int64_t> origins_, cells_, finalized_, faces_, face_labels_, face_origins_;
   std::vector<const void*> field_pointers_, cell_pointers_;
 };
 

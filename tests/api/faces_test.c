@@ -335,6 +335,61 @@ static void messages_count_as_the_caller_does(void) {
   free(corners);
 }
 
+/* The last of the labelled faces is another one; pulled or pushed, ids from 0 or from 1. */
+static void check_last_refused(const int64_t last[3], const char* text, int pushed, int first) {
+  const size_t bytes = 3 * (size_t)face_count * sizeof *faces;
+  int64_t* changed = malloc(bytes);
+  memcpy(changed, faces, bytes);
+  memcpy(changed + 3 * (face_count - 1), last, 3 * sizeof *last);
+  int64_t *cells = from_one(mesh->cells, 4 * mesh->cell_count),
+          *corners = from_one(changed, 3 * face_count);
+  const int64_t ends[2] = {edge[0] + first, edge[1] + first};
+  tetstream_batch batch = whole_mesh();
+  batch.faces = first ? corners : changed;
+  batch.locked_edges = ends;
+  if (first) batch.cells = cells;
+  tetstream_writer* writer = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  tetstream_options* options = options_of(0.3);
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_create(options, writer, &simplifier), TETSTREAM_OK);
+  const uint32_t from = first ? TETSTREAM_STREAM_FROM_ONE : 0;
+  tetstream_stream_info info = info_of_mesh(from);
+  if (pushed) {
+    info.flags |= TETSTREAM_STREAM_INDEXED;
+    batch.last_uses = NULL;
+    CHECK_EQUAL(tetstream_simplifier_begin(simplifier, &info), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_push(simplifier, &batch), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_finish(simplifier), TETSTREAM_BAD_DATA);
+  } else {
+    tetstream_reader* reader = NULL;
+    CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_run(simplifier, reader), TETSTREAM_BAD_DATA);
+    tetstream_reader_destroy(reader);
+  }
+  CHECK_SAYS(tetstream_simplifier_message(simplifier), text);
+  tetstream_simplifier_destroy(simplifier);
+  tetstream_writer_destroy(writer);
+  tetstream_options_destroy(options);
+  free(changed);
+  free(cells);
+  free(corners);
+}
+
+static void strange_faces_are_named_by_their_numbers(void) {
+  const int64_t stray[3] = {mesh->cells[0], mesh->cells[1], mesh->cells[4 * mesh->cell_count - 1]};
+  for (int pushed = 0; pushed < 2; ++pushed)
+    for (int first = 0; first < 2 - pushed; ++first) { /* pushed meshes count from 0 */
+      char text[80];
+      snprintf(text, sizeof text, "labelled faces %d and %d have the same vertices", 2 + first,
+               (int)face_count - 1 + first);
+      check_last_refused(faces + 3 * 2, text, pushed, first);
+      snprintf(text, sizeof text, "labelled face %d is the face of no cell",
+               (int)face_count - 1 + first);
+      check_last_refused(stray, text, pushed, first);
+    }
+}
+
 int main(void) {
   make_faces();
   RUN_CASE(labels_survive_in_meshes_in_memory);
@@ -344,6 +399,7 @@ int main(void) {
   RUN_CASE(faces_of_unknown_vertices_are_refused);
   RUN_CASE(ids_may_count_from_one);
   RUN_CASE(messages_count_as_the_caller_does);
+  RUN_CASE(strange_faces_are_named_by_their_numbers);
   free_faces();
   return check_end();
 }

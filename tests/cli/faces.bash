@@ -49,7 +49,9 @@ expect 0 simplify two.vtu out.vtu --ratio 1 --quiet
 expect 0 convert two.vtu two.sva
 contains "$err" "no labelled faces"
 sed 's/^0 1 2 0 1 2 3/0 1 4 0 1 2 3/' two.vtu >stray.vtu
-expect_error 2 "1 labelled faces are faces of no cell" simplify stray.vtu out.vtu --ratio 1 --quiet
+expect_error 2 "stray.vtu: labelled face 0 is the face of no cell" simplify stray.vtu out.vtu --ratio 1 --quiet
+sed 's/ 0 2 3 1 2 3 4 2 3 4</ 0 1 3 1 2 3 4 2 3 4</' two.vtu >twice.vtu
+expect_error 2 "labelled faces 1 and 2 have the same vertices" simplify twice.vtu out.vtu --ratio 1 --quiet
 [[ $(labels out.vtu) == "$wanted" ]] || fail "the output was touched"
 sed 's/^0 1 2 0 1 2 3/0 1 5 0 1 2 3/' two.vtu >broken.vtu
 expect_error 2 "cell 0 uses point 5, there are 5" simplify broken.vtu out.vtu --ratio 1 --quiet
