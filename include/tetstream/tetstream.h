@@ -490,7 +490,7 @@ typedef int32_t (*tetstream_progress_callback)(void *user, const tetstream_progr
  * handle is destroyed. */
 typedef struct tetstream_report {
   size_t struct_size;
-  int64_t cells_in, vertices_in, cells_out, vertices_out;
+  int64_t cells_in, vertices_in, cells_out, vertices_out; /* in: those that are left out, too */
   int64_t target_cells;      /* the larger one of ratio and cells; 0: only an error was given */
   int64_t window_cells;      /* cells that the window held at most */
   int64_t front_width, front_span, front_cells; /* of the input, as it was streamed */

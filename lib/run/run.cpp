@@ -133,6 +133,7 @@ struct SimplifyRun::State {
     copyStream(before ? *before : stream.source(), simplifier);
     close();
     report.unused_vertices += stream.unusedVertices();
+    report.vertices_in += stream.unusedVertices();
   }
   // Looks at the stream before it is simplified, where that is worth its time: at a mesh larger
   // than its window.

@@ -152,6 +152,7 @@ class Arrays(unittest.TestCase):
         points, field = numpy.append(points, [[9, 9, 9]], 0), numpy.append(field, 0)
         result = tetstream.simplify(points, cells, {"f": field}, ratio=0.5, vertex_map=True)
         self.assertEqual(result.report.unused_vertices, 1)
+        self.assertEqual(result.report.vertices_in, len(points))
         self.assertEqual(result.vertex_map.cells[-1], -1)
         self.assertTrue(numpy.isnan(result.vertex_map.prolong(result.points)[-1]).all())
 
