@@ -44,7 +44,7 @@ static void addPlaces(SimplexRows& from, const SurfaceSampling& s, Account& acco
 }
 
 DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
-                                 const SurfaceSampling& sampling, const SearchBudget& budget,
+                                 const SurfaceSampling& sampling, const DistanceBudget& budget,
                                  const std::function<void(double)>& share) {
   DistanceFigures figures;
   if (from.count() == 0) return figures;
@@ -56,7 +56,7 @@ DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
   addPlaces(from, sampling, budget.account, places);
   double samples = 0, squares = 0, sum = 0;
   places.search(
-      to, budget.bytes, budget.account,
+      to, {budget.account, budget.bytes, budget.tasks},
       [&](const NearestPoints::Found& found) {
         if (found.distance > figures.largest) {
           figures.largest = found.distance;

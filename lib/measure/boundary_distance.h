@@ -23,16 +23,17 @@ struct SurfaceSampling {
   Box part;
 };
 
-struct SearchBudget {
+struct DistanceBudget {
   Account& account;
   std::string temp_dir;
   size_t bytes;
+  const Tasks* tasks;
 };
 
 // From `from` to the nearest points of all of `to`; all zero where `from` has no triangles,
 // infinite where only `to` has none.
 DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
-                                 const SurfaceSampling& sampling, const SearchBudget& budget,
+                                 const SurfaceSampling& sampling, const DistanceBudget& budget,
                                  const std::function<void(double)>& share);
 
 }  // namespace tetstream

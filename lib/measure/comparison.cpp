@@ -172,7 +172,7 @@ bool Comparison::topologyKept() const {
          a.nonmanifold_vertices == b.nonmanifold_vertices;
 }
 
-void Comparison::measure(const Done& done) {
+void Comparison::measure(const Tasks* tasks, const Done& done) {
   MeshScan* scans[2] = {original_.get(), simplified_.get()};
   for (int i = 0; i < 2; ++i) {
     figures_[i].topology = scans[i]->topology();
@@ -187,8 +187,8 @@ void Comparison::measure(const Done& done) {
   face_labels_ = pairByLabel<FaceLabelComparison>(original_->faceLabels().labels(),
                                                   simplified_->faceLabels().labels());
   if (plan_.options.cut != "none") drawCut();
-  measureFields([&](double share) { done(kOutsideEnd * share); });
-  measureDistances([&](double share) { done(kOutsideEnd + (1 - kOutsideEnd) * share); });
+  measureFields(tasks, [&](double share) { done(kOutsideEnd * share); });
+  measureDistances(tasks, [&](double share) { done(kOutsideEnd + (1 - kOutsideEnd) * share); });
   original_.reset();
   simplified_.reset();
 }
@@ -208,13 +208,13 @@ void Comparison::findRange(FieldComparison& field) const {
   field.range = std::sqrt(square) * field.unit;
 }
 
-void Comparison::measureFields(const Done& done) {
+void Comparison::measureFields(const Tasks* tasks, const Done& done) {
   std::vector<ComparedField> compared;
   for (const FieldComparison& f : fields_)
     compared.push_back({f.first, f.components, f.range / f.unit, 1 / f.unit});
   FieldDifference difference(compared, values_,
                              {plan_.options.samples, plan_.seed, volume_compared_},
-                             {account_, plan_.temp_dir, memory_ / 2});
+                             {account_, plan_.temp_dir, memory_ / 2, tasks});
   constexpr double kShare = kFieldsEnd / kOutsideEnd;
   difference.measure(original_->cells(), simplified_->cells(),
                      [&](double share) { done(kShare * share); });
@@ -231,18 +231,19 @@ void Comparison::measureFields(const Done& done) {
     std::copy_n(larger.place, 3, field.largest_place);
     field.mean_square = volume > 0 ? (in.squares + out.squares) / volume : 0;
     field.mean_square_inside = volumes_.covered > 0 ? in.squares / volumes_.covered : 0;
-    for (int s = 0; s < ErrorHistogram::kSteps; ++s)
-      field.histogram.volume[s] = in.histogram.volume[s] + out.histogram.volume[s];
+    field.histogram.add(in.histogram);
+    field.histogram.add(out.histogram);
   }
 }
 
-void Comparison::measureDistances(const Done& done) {
+void Comparison::measureDistances(const Tasks* tasks, const Done& done) {
   MeshScan* scans[2] = {original_.get(), simplified_.get()};
   for (int i = 0; i < 2; ++i)
     distances_[i] = boundaryDistance(
         scans[i]->boundary(), scans[1 - i]->boundary(),
         {plan_.options.surfaceSamples(), plan_.seed, scans[i]->boundaryAreaInPart(), part_},
-        {account_, plan_.temp_dir, memory_ / 4}, [&](double share) { done((i + share) / 2); });
+        {account_, plan_.temp_dir, memory_ / 4, tasks},
+        [&](double share) { done((i + share) / 2); });
 }
 
 void Comparison::compareRegions() {

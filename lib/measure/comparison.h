@@ -82,7 +82,8 @@ class Comparison {
   // Throws kBadArgument where none of its cells is of the part that is asked for.
   void readOriginal(Source& source, const Done& done);
   void readSimplified(Source& source, const Done& done);  // then
-  void measure(const Done& done);                         // once both were read
+  // Once both were read. The figures are the same for any number of threads.
+  void measure(const Tasks* tasks, const Done& done);
 
   // Then:
   const MeshFigures& original() const { return figures_[0]; }
@@ -113,8 +114,8 @@ class Comparison {
   void matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void checkPart();
   void findRange(FieldComparison& field) const;
-  void measureFields(const Done& done);
-  void measureDistances(const Done& done);
+  void measureFields(const Tasks* tasks, const Done& done);
+  void measureDistances(const Tasks* tasks, const Done& done);
   void compareRegions();
   void drawCut();
 

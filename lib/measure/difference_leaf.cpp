@@ -15,7 +15,7 @@ namespace tetstream {
 constexpr double kCoveredWhole = 1e-9;
 // Common parts as small as this are rounding, too: corners of theirs are corners of others.
 constexpr double kTinyPart = 1e-10;
-constexpr size_t kTellEach = 4096;  // cells
+constexpr size_t kRowsOfPart = 512;
 
 MappedCells::MappedCells(const RowChunk& chunk, Account& account)
     : chunk_(chunk), maps_(account, chunk.count()), has_map_(account, chunk.count()) {
@@ -33,7 +33,6 @@ FieldDifference::Leaf::Leaf(FieldDifference& whole, SimplexRows& cells)
       uncovered_(whole.budget_.account),
       samples_(whole.budget_.account),
       found_(whole.budget_.account),
-      differences_(4 * shape_.values),
       values_(shape_.values) {
   if (rows_) return;
   copy_.resize(count_ * doubles_);
@@ -87,52 +86,81 @@ void FieldDifference::Leaf::integrate(const MappedCells& others) {
     covered_.resize(count_);
     std::fill_n(covered_.data(), count_, 0.0);
   }
-  for (size_t i = 0; i < count_; ++i) {
-    volume_ = volumeOf(i);
+  parts_.resize(kPiecesAtOnce);
+  inPieces(
+      whole_.budget_.tasks, count_, kRowsOfPart,
+      [&](size_t p, size_t begin, size_t end) { integrateCells(parts_[p], begin, end, others); },
+      [&](size_t parts) { addParts(parts); });
+}
+
+// What is smaller than the largest error so far is not looked for.
+void FieldDifference::Leaf::integrateCells(Part& part, size_t begin, size_t end,
+                                           const MappedCells& others) {
+  part.sums.assign(whole_.fields_.size(), {});
+  part.differences.resize(4 * shape_.values);
+  for (size_t f = 0; f < part.sums.size(); ++f) part.sums[f].largest = whole_.inside_[f].largest;
+  for (size_t i = begin; i < end; ++i) {
     const double* p = cell(i);
+    part.volume = volumeOf(i);
     others.forEachNear(shape_.boxOf(p), [&](const double* other, const CellMap& map) {
       double planes[4][4];
-      if (!map.planesOf(p, planes) || !overlap_.set(planes)) return;
-      covered_[i] += overlap_.volume;
-      integratePair(i, other, planes);
+      if (!map.planesOf(p, planes) || !part.overlap.set(planes)) return;
+      covered_[i] += part.overlap.volume;
+      integratePair(part, i, other, planes);
     });
-    if (i % kTellEach == 0) whole_.tell(0);
   }
+}
+
+void FieldDifference::Leaf::addParts(size_t count) {
+  for (size_t p = 0; p < count; ++p)
+    for (size_t f = 0; f < parts_[p].sums.size(); ++f) whole_.inside_[f].add(parts_[p].sums[f]);
+  whole_.tell(0);
+}
+
+// Work on rows that hang on nothing but themselves.
+template <class Work>
+void FieldDifference::Leaf::inParts(size_t count, Work work) {
+  inPieces(
+      whole_.budget_.tasks, count, kRowsOfPart,
+      [&](size_t, size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) work(i);
+      },
+      [&](size_t) { whole_.tell(0); });
 }
 
 // The difference is linear on the whole cell: its value at corner i is the cell's own less the
 // other one's, carried on beyond it by its barycentric coordinates.
-void FieldDifference::Leaf::integratePair(size_t i, const double* other,
+void FieldDifference::Leaf::integratePair(Part& part, size_t i, const double* other,
                                           const double planes[4][4]) {
   const double *u = shape_.value(cell(i), 0), *v = shape_.value(other, 0);
   const size_t n = shape_.values;
   for (size_t c = 0; c < n; ++c)
     for (size_t j = 0; j < 4; ++j)
-      differences_[4 * c + j] = u[n * j + c] - planes[0][j] * v[c] - planes[1][j] * v[n + c] -
-                                planes[2][j] * v[2 * n + c] - planes[3][j] * v[3 * n + c];
+      part.differences[4 * c + j] = u[n * j + c] - planes[0][j] * v[c] - planes[1][j] * v[n + c] -
+                                    planes[2][j] * v[2 * n + c] - planes[3][j] * v[3 * n + c];
   for (size_t f = 0; f < whole_.fields_.size(); ++f) {
     const ComparedField& field = whole_.fields_[f];
-    FieldSums& sums = whole_.inside_[f];
-    double* d = differences_.data() + 4 * field.first;
+    FieldSums& sums = part.sums[f];
+    double* d = part.differences.data() + 4 * field.first;
     for (size_t k = 0; k < 4 * field.components; ++k) d[k] *= field.per_unit;
     double squares = 0, norms[4] = {};
     for (size_t c = 0; c < field.components; ++c) {
-      squares += overlap_.integralOfSquare(d + 4 * c);
+      squares += part.overlap.integralOfSquare(d + 4 * c);
       for (size_t j = 0; j < 4; ++j) norms[j] += d[4 * c + j] * d[4 * c + j];
     }
-    sums.squares += volume_ * squares;
+    sums.squares += part.volume * squares;
     if (field.range > 0)
-      sums.histogram.add(std::sqrt(squares / overlap_.volume) / field.range,
-                         volume_ * overlap_.volume);
+      sums.histogram.add(std::sqrt(squares / part.overlap.volume) / field.range,
+                         part.volume * part.overlap.volume);
     if (*std::max_element(norms, norms + 4) > sums.largest * sums.largest &&
-        overlap_.volume > kTinyPart)
-      searchMaximum(i, f, d);
+        part.overlap.volume > kTinyPart)
+      searchMaximum(part, i, f, d);
   }
 }
 
-void FieldDifference::Leaf::searchMaximum(size_t i, size_t f, const double* d) {
-  for (int piece = 0; piece < overlap_.pieces; ++piece)
-    for (const auto& corner : overlap_.piece[piece]) {
+void FieldDifference::Leaf::searchMaximum(Part& part, size_t i, size_t f, const double* d) const {
+  for (int piece = 0; piece < part.overlap.pieces; ++piece)
+    for (const auto& corner : part.overlap.piece[piece]) {
       double square = 0;
       for (size_t c = 0; c < whole_.fields_[f].components; ++c) {
         const double* e = d + 4 * c;
@@ -142,7 +170,7 @@ void FieldDifference::Leaf::searchMaximum(size_t i, size_t f, const double* d) {
       }
       double place[3];
       placeAt(i, corner, place);
-      whole_.inside_[f].take(std::sqrt(square), place);
+      part.sums[f].take(std::sqrt(square), place);
     }
 }
 
@@ -168,24 +196,25 @@ void FieldDifference::Leaf::sumVolumes() {
 }
 
 void FieldDifference::Leaf::markCovered(const MappedCells& others) {
-  for (size_t n = 0; n < uncovered_count_; ++n) {
-    Uncovered& u = uncovered_[n];
-    double places[kTrials][3];
-    for (int t = 0; t < kTrials; ++t) {
-      double coordinates[4];
-      spread(u.cell, t, coordinates);
-      placeAt(u.cell, coordinates, places[t]);
-    }
-    others.forEachNear(shape_.boxOf(cell(u.cell)), [&](const double*, const CellMap& map) {
-      for (int t = 0; t < kTrials; ++t) {
-        if (u.seen >> t & 1) continue;
-        double at[4];
-        map.coordinates(places[t], at);
-        if (*std::min_element(at, at + 4) >= kInside) u.seen |= uint64_t{1} << t;
-      }
-    });
-    if (n % kTellEach == 0) whole_.tell(0);
+  inParts(uncovered_count_, [&](size_t n) { lookAt(uncovered_[n], others); });
+}
+
+// Which of its places are in one of the cells.
+void FieldDifference::Leaf::lookAt(Uncovered& u, const MappedCells& others) const {
+  double places[kTrials][3];
+  for (int t = 0; t < kTrials; ++t) {
+    double coordinates[4];
+    spread(u.cell, t, coordinates);
+    placeAt(u.cell, coordinates, places[t]);
   }
+  others.forEachNear(shape_.boxOf(cell(u.cell)), [&](const double*, const CellMap& map) {
+    for (int t = 0; t < kTrials; ++t) {
+      if (u.seen >> t & 1) continue;
+      double at[4];
+      map.coordinates(places[t], at);
+      if (*std::min_element(at, at + 4) >= kInside) u.seen |= uint64_t{1} << t;
+    }
+  });
 }
 
 // A volume that no place was found in is thin: the cell's corners that are outside stand for it,
@@ -251,26 +280,27 @@ void FieldDifference::Leaf::spreadSamples() {
 }
 
 void FieldDifference::Leaf::locateSamples(const MappedCells& others) {
-  for (size_t n = 0; n < sample_count_; ++n) {
-    Sample& sample = samples_[n];
-    double place[3];
-    placeAt(sample.cell, sample.coordinates, place);
-    Box box;
-    box.add(place);
-    others.forEachNear(box, [&](const double* other, const CellMap& map) {
-      double at[4];
-      map.coordinates(place, at);
-      const double depth = *std::min_element(at, at + 4);
-      if (!(depth >= kInside && depth > sample.depth)) return;
-      sample.depth = depth;
-      double* found = found_.data() + n * shape_.values;
-      for (size_t c = 0; c < shape_.values; ++c) {
-        found[c] = 0;
-        for (size_t j = 0; j < 4; ++j) found[c] += at[j] * shape_.value(other, j)[c];
-      }
-    });
-    if (n % kTellEach == 0) whole_.tell(0);
-  }
+  inParts(sample_count_, [&](size_t n) { locate(n, others); });
+}
+
+void FieldDifference::Leaf::locate(size_t n, const MappedCells& others) {
+  Sample& sample = samples_[n];
+  double place[3];
+  placeAt(sample.cell, sample.coordinates, place);
+  Box box;
+  box.add(place);
+  others.forEachNear(box, [&](const double* other, const CellMap& map) {
+    double at[4];
+    map.coordinates(place, at);
+    const double depth = *std::min_element(at, at + 4);
+    if (!(depth >= kInside && depth > sample.depth)) return;
+    sample.depth = depth;
+    double* found = found_.data() + n * shape_.values;
+    for (size_t c = 0; c < shape_.values; ++c) {
+      found[c] = 0;
+      for (size_t j = 0; j < 4; ++j) found[c] += at[j] * shape_.value(other, j)[c];
+    }
+  });
 }
 
 // Each stands for an equal part of the volume.

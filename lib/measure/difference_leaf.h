@@ -55,13 +55,27 @@ class FieldDifference::Leaf {
     double coordinates[4], depth;
   };
 
+  // What some of the cells add, and what it takes to find that.
+  struct Part {
+    std::vector<FieldSums> sums;
+    CellOverlap overlap;
+    std::vector<double> differences;
+    double volume = 0;  // of the cell in hand
+  };
+
   const double* cell(size_t i) const { return rows_ + i * doubles_; }
   double volumeOf(size_t i) const;
   void spread(size_t cell, int index, double coordinates[4]) const;
   void placeAt(size_t cell, const double coordinates[4], double place[3]) const;
   void valuesAt(size_t cell, const double coordinates[4], double* values) const;
-  void integratePair(size_t cell, const double* other, const double planes[4][4]);
-  void searchMaximum(size_t cell, size_t field, const double* differences);
+  void integrateCells(Part& part, size_t begin, size_t end, const MappedCells& others);
+  void integratePair(Part& part, size_t cell, const double* other, const double planes[4][4]);
+  void searchMaximum(Part& part, size_t cell, size_t field, const double* differences) const;
+  void addParts(size_t count);
+  void lookAt(Uncovered& cell, const MappedCells& others) const;
+  void locate(size_t sample, const MappedCells& others);
+  template <class Work>
+  void inParts(size_t count, Work work);
   bool keepPlaces(const Uncovered& cell, double volume);
 
   FieldDifference& whole_;
@@ -75,9 +89,8 @@ class FieldDifference::Leaf {
   Array<Sample> samples_;
   Array<double> found_;  // values at the samples
   size_t sample_count_ = 0;
-  CellOverlap overlap_;
-  std::vector<double> differences_, values_;
-  double volume_ = 0;  // of the cell in hand
+  std::vector<Part> parts_;
+  std::vector<double> values_;
 };
 
 }  // namespace tetstream

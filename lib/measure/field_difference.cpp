@@ -11,8 +11,12 @@ constexpr double kTinyError = 1e-300;
 
 void ErrorHistogram::add(double error, double more) {
   const double decades = std::log10(std::max(error, kTinyError) / kLowest);
-  const int step = static_cast<int>(std::floor(decades * kPerDecade));
-  volume[std::clamp(step, 0, kSteps - 1)] += more;
+  const double step = std::clamp(std::floor(decades * kPerDecade), 0.0, kSteps - 1.0);
+  volume[static_cast<int>(step)] += more;
+}
+
+void ErrorHistogram::add(const ErrorHistogram& other) {
+  for (int step = 0; step < kSteps; ++step) volume[step] += other.volume[step];
 }
 
 double ErrorHistogram::lowerEnd(int step) {
@@ -32,6 +36,12 @@ void FieldSums::take(double norm, const double at[3]) {
   if (!(norm > largest)) return;
   largest = norm;
   std::copy_n(at, 3, place);
+}
+
+void FieldSums::add(const FieldSums& other) {
+  squares += other.squares;
+  take(other.largest, other.place);
+  histogram.add(other.histogram);
 }
 
 FieldDifference::FieldDifference(const std::vector<ComparedField>& fields, size_t values,
@@ -185,7 +195,7 @@ void FieldDifference::addOutside(const double place[3], double volume, const dou
 void FieldDifference::measureOutside(SimplexRows& boundary,
                                      const std::function<void(double)>& share) {
   outside_places_.search(
-      boundary, budget_.bytes / 2, budget_.account,
+      boundary, {budget_.account, budget_.bytes / 2, budget_.tasks},
       [&](const NearestPoints::Found& found) {
         const double volume = found.carried[0];
         for (size_t f = 0; f < fields_.size(); ++f) {

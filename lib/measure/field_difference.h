@@ -1,5 +1,5 @@
 // measure: how far the fields of two meshes are from each other, over the cells of the first one.
-// Depends on row_chunk.h, nearest_points.h.
+// Depends on row_chunk.h, nearest_points.h, in_pieces.h.
 //
 // The part that an original and a simplified cell have in common is convex, and on it the
 // difference of the two piecewise linear fields is linear: its square is integrated exactly, and
@@ -32,6 +32,7 @@ struct ErrorHistogram {
   static constexpr double kLowest = 1e-10;
   double volume[kSteps] = {};
   void add(double error, double more);
+  void add(const ErrorHistogram& other);
   static double lowerEnd(int step);
 };
 
@@ -42,6 +43,7 @@ struct FieldSums {
   double place[3] = {0, 0, 0};
   ErrorHistogram histogram;
   void take(double norm, const double at[3]);
+  void add(const FieldSums& other);
 };
 
 struct VolumeSums {
@@ -57,6 +59,7 @@ class FieldDifference {
     Account& account;
     std::string temp_dir;
     size_t bytes;
+    const Tasks* tasks = nullptr;
   };
   // `samples` 0: exactly. Otherwise by about that many points, uniform by volume, of the original,
   // whose volume is told.

@@ -9,7 +9,7 @@
 namespace tetstream {
 
 constexpr SpoolShape kInSequence = {2, 64 << 10};
-constexpr uint64_t kPlacesBetweenWords = 4096;
+constexpr size_t kPlacesOfPiece = 64, kPlacesAtOnce = kPiecesAtOnce * kPlacesOfPiece;
 
 // A row: place, carried numbers, the squared distance so far, the values there.
 NearestPoints::NearestPoints(size_t carried, size_t values, const std::string& temp_dir)
@@ -53,25 +53,38 @@ NearestPoints::Found NearestPoints::foundIn(const double* row) const {
   return {row, row + 3, std::sqrt(row[3 + carried_]), row + 4 + carried_};
 }
 
-void NearestPoints::search(SimplexRows& surface, size_t bytes, Account& account, const Take& take,
+// Some places, from that one on, into `rows_`; returns how many.
+size_t NearestPoints::improveFrom(const RowChunk& chunk, uint64_t first, const Tasks* tasks) {
+  const auto some = static_cast<size_t>(std::min<uint64_t>(kPlacesAtOnce, count() - first));
+  for (size_t i = 0; i < some; ++i)
+    std::copy_n(static_cast<const double*>(places_->row(first + i)), doubles_,
+                rows_.data() + i * doubles_);
+  inPieces(
+      tasks, some, kPlacesOfPiece,
+      [&](size_t, size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) improve(chunk, rows_.data() + i * doubles_);
+      },
+      [](size_t) {});
+  return some;
+}
+
+void NearestPoints::search(SimplexRows& surface, const Budget& budget, const Take& take,
                            const std::function<void(double)>& share) {
   places_->finish();
+  rows_.resize(kPlacesAtOnce * doubles_);
   const auto work = static_cast<double>(std::max<uint64_t>(surface.count() * count(), 1));
   uint64_t searched = 0;  // triangles
-  forEachChunk(surface, bytes, 0, account, [&](const RowChunk& chunk) {
+  forEachChunk(surface, budget.bytes, 0, budget.account, [&](const RowChunk& chunk) {
     const bool is_last = searched + chunk.count() == surface.count();
     std::unique_ptr<RowSpool> next = is_last ? nullptr : spool();
-    for (uint64_t i = 0; i < count(); ++i) {
-      std::copy_n(static_cast<const double*>(places_->row(i)), doubles_, row_.data());
-      improve(chunk, row_.data());
-      if (is_last)
-        take(foundIn(row_.data()));
-      else
-        next->append(row_.data(), 1);
-      if (i % kPlacesBetweenWords == 0)
-        share((static_cast<double>(searched) * static_cast<double>(count()) +
-               static_cast<double>(chunk.count()) * static_cast<double>(i)) /
-              work);
+    for (uint64_t first = 0; first < count();) {
+      const size_t found = improveFrom(chunk, first, budget.tasks);
+      if (!is_last) next->append(rows_.data(), found);
+      for (size_t i = 0; is_last && i < found; ++i) take(foundIn(rows_.data() + i * doubles_));
+      first += found;
+      share((static_cast<double>(searched) * static_cast<double>(count()) +
+             static_cast<double>(chunk.count()) * static_cast<double>(first)) /
+            work);
     }
     if (is_last) return;
     next->finish();

@@ -66,7 +66,8 @@ std::unique_ptr<Comparison> compareInputs(Input& original, Input& simplified,
   readNamed(original, [&] { read(original, "read original", 0, kOriginalRead, true); });
   readNamed(simplified,
             [&] { read(simplified, "read simplified", kOriginalRead, kBothRead, false); });
-  comparison->measure(part("compare", kBothRead, 1));
+  const Tasks tasks(plan.memory_bytes > 0 ? 1 : threadsOf(options), options.workers);
+  comparison->measure(&tasks, part("compare", kBothRead, 1));
   return comparison;
 }
 

@@ -176,6 +176,42 @@ static void errors_have_the_size_of_the_values_whatever_that_is(void) {
   mesh = original;
 }
 
+/* Against a mesh that is not the same anywhere, exactly and by points, in many pieces. */
+static void figures_are_the_same_for_any_number_of_threads(void) {
+  const int high = getenv("TETSTREAM_SLOW") ? 6 : 16;
+  hostile_mesh *original = mesh, *other = hostile_mesh_create(4, 5, high);
+  mesh = hostile_mesh_create(4, 5, high);
+  for (int64_t v = 0; v < other->vertex_count; ++v) {
+    other->density[v] += 0.1 * sin((double)v);
+    for (int k = 0; k < 3; ++k) other->positions[3 * v + k] *= 0.97;
+  }
+  const char* samples[] = {"0", "3000"};
+  for (int s = 0; s < 2; ++s) {
+    double wanted[8];
+    for (int threads = 1; threads <= 5; threads += 2) {
+      tetstream_options* options = options_with("samples", samples[s]);
+      tetstream_comparison* comparison = NULL;
+      CHECK_EQUAL(tetstream_options_set_int64(options, TETSTREAM_OPTION_THREADS, threads),
+                  TETSTREAM_OK);
+      CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
+      CHECK_EQUAL(compare(comparison, other, HOSTILE_ODD, 0), TETSTREAM_OK);
+      const tetstream_comparison_info info = info_of(comparison);
+      const tetstream_field_comparison f = field_of(comparison, 0);
+      CHECK(info.outside_volume > 0 && info.rms_distance_back > 0 && f.rms != f.rms_inside);
+      const double found[8] = {
+          info.outside_volume, info.distance, info.rms_distance, info.rms_distance_back, f.cmse,
+          f.rms_inside,        f.largest,     f.largest_place[0]};
+      if (threads == 1) memcpy(wanted, found, sizeof found);
+      CHECK(memcmp(wanted, found, sizeof found) == 0);
+      tetstream_comparison_destroy(comparison);
+      tetstream_options_destroy(options);
+    }
+  }
+  hostile_mesh_destroy(other);
+  hostile_mesh_destroy(mesh);
+  mesh = original;
+}
+
 static void boundaries_are_sampled_at_as_many_points_as_asked(void) {
   hostile_mesh* lower = hostile_mesh_create(3, 4, layers - 1);
   tetstream_comparison* comparison = comparison_with("boundary-samples", "3000");
@@ -392,6 +428,7 @@ int main(void) {
   RUN_CASE(a_constant_shift_of_a_field_is_its_error);
   RUN_CASE(errors_have_the_size_of_the_values_whatever_that_is);
   RUN_CASE(what_is_cut_off_is_outside);
+  RUN_CASE(figures_are_the_same_for_any_number_of_threads);
   RUN_CASE(boundaries_are_sampled_at_as_many_points_as_asked);
   RUN_CASE(a_page_is_drawn_where_a_cut_was_asked_for);
   RUN_CASE(failures_of_a_reader_are_told_by_the_comparison);
