@@ -7,6 +7,7 @@
 #include "processor.h"
 #include "star_kernels.inl"
 #include "star_kernels_v3.h"
+#include "star_walks.inl"
 
 namespace tetstream {
 

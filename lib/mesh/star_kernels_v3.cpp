@@ -2,6 +2,7 @@
 #ifdef TETSTREAM_V3_KERNELS
 #include "star_kernels_v3.h"
 #include "star_kernels.inl"
+#include "star_walks.inl"
 
 namespace tetstream::v3 {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "random.h"
-#include "star_kernels.inl"
+#include "star_walks.inl"
 #include "test_mesh.h"
 
 namespace tetstream {
