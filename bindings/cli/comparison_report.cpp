@@ -90,6 +90,9 @@ std::string meshesText(const tetstream_mesh_figures& a, const tetstream_mesh_fig
 }
 
 std::string fieldLine(const tetstream_field_comparison& f, size_t width) {
+  if (std::isnan(f.range))
+    return textOf("  %-*s  has values that are not finite\n", static_cast<int>(width),
+                  oneLine(f.name).c_str());
   return textOf("  %-*s%12s%12s%10s%12s%12s%10s\n", static_cast<int>(width),
                 oneLine(f.name).c_str(), short3(f.rms_percent).c_str(),
                 short3(f.largest_percent).c_str(), short3(f.cpsnr).c_str(), short3(f.rms).c_str(),

@@ -855,7 +855,8 @@ typedef struct tetstream_mesh_figures {
 } tetstream_mesh_figures;
 
 /* The error of one nodal field that both meshes have. Of several components it is the norm of the
- * difference. Members may be added at the end. */
+ * difference. All are NaN of a field that has values that are not finite; where fields are named
+ * (tetstream_options_add_field) that is BAD_DATA. Members may be added at the end. */
 typedef struct tetstream_field_comparison {
   size_t struct_size;
   const char *name;           /* lives as long as the comparison */

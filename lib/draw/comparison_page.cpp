@@ -70,7 +70,7 @@ class ComparisonPage {
       : canvas_(canvas),
         comparison_(comparison),
         cut_(*comparison.cut()),
-        field_(comparison.fields().empty() ? nullptr : &comparison.fields().front()),
+        field_(comparison.firstField()),
         layout_(layoutOf(cut_.plane)),
         range_(field_ ? field_->range : 1),
         values_(fieldScale(cut_)),

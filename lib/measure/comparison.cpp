@@ -105,6 +105,7 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   plans[1].mesh = "the simplified mesh";
   matchFields(original, simplified, plans);
   matchRegions(original, simplified, plans);
+  plans[0].are_finite = plans[1].are_finite = !plan.fields.empty();  // those that were named
   plans[0].drops_ids = plan.regions == "auto";
   plans[0].part = plans[1].part = part_;
   const auto scan = [&](int which, size_t share) {
@@ -182,7 +183,7 @@ void Comparison::measure(const Tasks* tasks, const Done& done) {
   box_ = original_->box();
   cells_compared_ = original_->cells().count();
   volume_compared_ = original_->volumeKept();
-  for (FieldComparison& field : fields_) findRange(field);
+  findRanges();
   compareRegions();
   face_labels_ = pairByLabel<FaceLabelComparison>(original_->faceLabels().labels(),
                                                   simplified_->faceLabels().labels());
@@ -198,6 +199,25 @@ static double unitOf(double width) {
   return width > 0 ? std::ldexp(1, std::clamp(std::ilogb(width), -1022, 1022)) : 1;
 }
 
+void Comparison::findRanges() {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (size_t f = 0; f < fields_.size(); ++f) {
+    FieldComparison& field = fields_[f];
+    field.is_finite = original_->isFinite(f) && simplified_->isFinite(f);
+    if (field.is_finite)
+      findRange(field);
+    else
+      field.range = field.largest = field.largest_inside = field.mean_square =
+          field.mean_square_inside = kNone;
+  }
+}
+
+const FieldComparison* Comparison::firstField() const {
+  const auto first = std::find_if(fields_.begin(), fields_.end(),
+                                  [](const FieldComparison& f) { return f.is_finite; });
+  return first == fields_.end() ? nullptr : &*first;
+}
+
 void Comparison::findRange(FieldComparison& field) const {
   std::vector<double> widths;
   for (size_t c = field.first; c < field.first + field.components; ++c)
@@ -210,8 +230,12 @@ void Comparison::findRange(FieldComparison& field) const {
 
 void Comparison::measureFields(const Tasks* tasks, const Done& done) {
   std::vector<ComparedField> compared;
-  for (const FieldComparison& f : fields_)
+  std::vector<FieldComparison*> found;
+  for (FieldComparison& f : fields_) {
+    if (!f.is_finite) continue;
     compared.push_back({f.first, f.components, f.range / f.unit, 1 / f.unit});
+    found.push_back(&f);
+  }
   FieldDifference difference(compared, values_,
                              {plan_.options.samples, plan_.seed, volume_compared_},
                              {account_, plan_.temp_dir, memory_ / 2, tasks});
@@ -222,9 +246,9 @@ void Comparison::measureFields(const Tasks* tasks, const Done& done) {
                             [&](double share) { done(kShare + (1 - kShare) * share); });
   volumes_ = difference.volumes();
   const double volume = volumes_.covered + volumes_.outside;
-  for (size_t f = 0; f < fields_.size(); ++f) {
+  for (size_t f = 0; f < found.size(); ++f) {
     const FieldSums &in = difference.inside(f), &out = difference.outside(f);
-    FieldComparison& field = fields_[f];
+    FieldComparison& field = *found[f];
     const FieldSums& larger = out.largest > in.largest ? out : in;
     field.largest_inside = in.largest * field.unit;
     field.largest = larger.largest * field.unit;
@@ -271,15 +295,15 @@ void Comparison::drawCut() {
   if (cut.is_whole) seen.add(cutBoxOf(simplified_->cells(), cut.plane));
   showBox(seen, cut.plane);
   CutImage::Shown shown = {0, 0, nullptr};
-  if (!fields_.empty()) {
-    const FieldComparison& field = fields_.front();
+  if (const FieldComparison* const first = firstField()) {
+    const FieldComparison& field = *first;
     cut.field = field.name;
     cut.components = field.components;
     for (size_t c = 0; c < field.components; ++c) {
-      const double low = original_->lowest()[c];
+      const double low = original_->lowest()[field.first + c];
       cut.zero.push_back(field.components == 1 && std::isfinite(low) ? low : 0);
     }
-    shown = {0, field.components, cut.zero.data()};
+    shown = {field.first, field.components, cut.zero.data()};
   }
   const double wide = cut.plane.high[0] - cut.plane.low[0];
   const double tall = cut.plane.high[1] - cut.plane.low[1];

@@ -34,7 +34,8 @@ constexpr size_t kDefaultCompareMemory = size_t{512} << 20;
 struct FieldComparison {
   std::string name;
   size_t first = 0, components = 1;
-  double range = 0;  // norm of the original's ranges of the components
+  bool is_finite = true;  // else it is not compared, and the figures below are no numbers
+  double range = 0;       // norm of the original's ranges of the components
   double largest = 0, largest_place[3] = {0, 0, 0};
   double largest_inside = 0;  // where the original is inside the simplified mesh
   double unit = 1;            // a power of two near the range, in which errors are squared
@@ -95,6 +96,7 @@ class Comparison {
   double diagonal() const;
   bool topologyKept() const;
   const std::vector<FieldComparison>& fields() const { return fields_; }
+  const FieldComparison* firstField() const;  // that was compared; null if none was
   const VolumeSums& volumes() const { return volumes_; }
   const DistanceFigures& toSimplified() const { return distances_[0]; }
   const DistanceFigures& toOriginal() const { return distances_[1]; }
@@ -113,6 +115,7 @@ class Comparison {
   void matchFields(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void checkPart();
+  void findRanges();
   void findRange(FieldComparison& field) const;
   void measureFields(const Tasks* tasks, const Done& done);
   void measureDistances(const Tasks* tasks, const Done& done);

@@ -31,6 +31,7 @@ MeshScan::MeshScan(const Schema& schema, const ScanPlan& plan, const Budgets& bu
       cell_link_(account),
       cells_({4, values_}, budgets.cells),
       boundary_({3, values_}, budgets.boundary),
+      is_finite_(plan.fields.size(), true),
       low_(values_, std::numeric_limits<double>::infinity()),
       high_(values_, -std::numeric_limits<double>::infinity()),
       row_(4 * stride_),
@@ -103,8 +104,10 @@ void MeshScan::takeVertices(const BatchView& batch) {
     for (size_t f = 0; f < columns_.size(); ++f) {
       const size_t components = columns_[f].size() / batch.vertex_count;
       const double* const values = columns_[f].data() + v * components;
-      if (!allFinite(values, components))
+      const bool is_finite = allFinite(values, components);
+      if (!is_finite && plan_.are_finite)
         failNotFinite(rowText(id), schema_.fields[plan_.fields[f]]);
+      is_finite_[f] = is_finite_[f] && is_finite;
       to = std::copy_n(values, components, to);
     }
   }

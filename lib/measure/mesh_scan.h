@@ -25,6 +25,7 @@ using Done = std::function<void(double)>;
 struct ScanPlan {
   std::string mesh;                 // "the original", for messages
   std::vector<size_t> fields;       // columns whose values are kept, all components
+  bool are_finite = true;           // a value that is not is kBadData
   std::vector<size_t> cell_arrays;  // integer columns that may label regions
   bool drops_ids = false;           // those that number the cells
   Box part = partBoxOf("");         // cells are kept whose centres lie in it
@@ -46,6 +47,8 @@ class MeshScan {
   const TopologyFigures& topology() { return faces_.figures(); }
   ShapeFigures shapes() const { return shapes_.figures(); }
   RegionParts& regions(size_t array) { return *regions_[array]; }
+  // Of a column that is kept: whether all values were.
+  bool isFinite(size_t field) const { return is_finite_[field]; }
   // Of each component that is kept, over the vertices that cells use.
   const std::vector<double>& lowest() const { return low_; }
   const std::vector<double>& highest() const { return high_; }
@@ -90,6 +93,7 @@ class MeshScan {
   Box box_;
   double volume_kept_ = 0, boundary_area_ = 0, area_in_part_ = 0;
   FaceLabels face_labels_;
+  std::vector<bool> is_finite_;  // of the columns that are kept
   std::vector<double> low_, high_, row_, positions_;
   std::vector<std::vector<double>> columns_;  // of one batch
   std::vector<std::vector<int64_t>> labels_;  // of one batch

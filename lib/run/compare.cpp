@@ -22,8 +22,11 @@ ComparePlan comparePlanOf(const RunOptions& options) {
   return plan;
 }
 
-static std::vector<bool> comparedFields(const Comparison& comparison, const Schema& schema) {
+// Of those that were named; of others that are not finite it is told.
+static std::vector<bool> finiteFields(const Comparison& comparison, const ComparePlan& plan,
+                                      const Schema& schema) {
   std::vector<bool> compared(schema.fields.size());
+  if (plan.fields.empty()) return compared;
   for (const FieldComparison& field : comparison.fields())
     compared[static_cast<size_t>(findColumn(schema.fields, field.name))] = true;
   return compared;
@@ -56,7 +59,7 @@ std::unique_ptr<Comparison> compareInputs(Input& original, Input& simplified,
       tell(std::max(o.fraction, 0.0));
     })
                                                : ProgressFunction();
-    Ordering stream(input, order, ordering, comparedFields(*comparison, input.schema()));
+    Ordering stream(input, order, ordering, finiteFields(*comparison, plan, input.schema()));
     const Done done = part(phase, ordered, end);
     if (first)
       comparison->readOriginal(stream.source(), done);

@@ -176,6 +176,35 @@ static void errors_have_the_size_of_the_values_whatever_that_is(void) {
   mesh = original;
 }
 
+/* Of either mesh; the other field is compared. */
+static void fields_that_are_not_finite_are_told_unless_they_are_named(void) {
+  for (int of_original = 0; of_original < 2; ++of_original)
+    for (int named = 0; named < 2; ++named) {
+      hostile_mesh *original = mesh, *other = hostile_mesh_create(3, 4, layers);
+      mesh = hostile_mesh_create(3, 4, layers);
+      (of_original ? mesh : other)->density[7] = NAN;
+      for (int64_t v = 0; v < 3 * other->vertex_count; ++v) other->velocity[v] += 0.5f;
+      tetstream_options* options = options_with("cut", "auto");
+      if (named) CHECK_EQUAL(tetstream_options_add_field(options, "density", 1), TETSTREAM_OK);
+      tetstream_comparison* comparison = NULL;
+      CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
+      CHECK_EQUAL(compare(comparison, other, HOSTILE_ODD, 0),
+                  named ? TETSTREAM_BAD_DATA : TETSTREAM_OK);
+      if (!named) {
+        const tetstream_field_comparison density = field_of(comparison, 0);
+        const tetstream_field_comparison velocity = field_of(comparison, 1);
+        CHECK(isnan(density.range) && isnan(density.rms) && isnan(density.largest_percent));
+        CHECK(fabs(velocity.rms - sqrt(0.75)) < 1e-6);
+        CHECK(fabs(velocity.largest - sqrt(0.75)) < 1e-6);
+      }
+      tetstream_comparison_destroy(comparison);
+      tetstream_options_destroy(options);
+      hostile_mesh_destroy(other);
+      hostile_mesh_destroy(mesh);
+      mesh = original;
+    }
+}
+
 /* Against a mesh that is not the same anywhere, exactly and by points, in many pieces. */
 static void figures_are_the_same_for_any_number_of_threads(void) {
   const int high = getenv("TETSTREAM_SLOW") ? 6 : 16;
@@ -428,6 +457,7 @@ int main(void) {
   RUN_CASE(a_constant_shift_of_a_field_is_its_error);
   RUN_CASE(errors_have_the_size_of_the_values_whatever_that_is);
   RUN_CASE(what_is_cut_off_is_outside);
+  RUN_CASE(fields_that_are_not_finite_are_told_unless_they_are_named);
   RUN_CASE(figures_are_the_same_for_any_number_of_threads);
   RUN_CASE(boundaries_are_sampled_at_as_many_points_as_asked);
   RUN_CASE(a_page_is_drawn_where_a_cut_was_asked_for);
