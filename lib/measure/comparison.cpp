@@ -194,8 +194,9 @@ void Comparison::measure(const Tasks* tasks, const Done& done) {
   simplified_.reset();
 }
 
-// Of the largest power of two for which its inverse is a number, too, at most.
+// A power of two whose inverse is a number, too, and near the width, which may be infinite.
 static double unitOf(double width) {
+  if (std::isinf(width)) return std::ldexp(1, 1022);
   return width > 0 ? std::ldexp(1, std::clamp(std::ilogb(width), -1022, 1022)) : 1;
 }
 
@@ -220,12 +221,18 @@ const FieldComparison* Comparison::firstField() const {
 
 void Comparison::findRange(FieldComparison& field) const {
   std::vector<double> widths;
-  for (size_t c = field.first; c < field.first + field.components; ++c)
-    widths.push_back(std::max(original_->highest()[c] - original_->lowest()[c], 0.0));
-  field.unit = unitOf(*std::max_element(widths.begin(), widths.end()));
+  double span = 0;  // of the values of both meshes
+  for (size_t c = field.first; c < field.first + field.components; ++c) {
+    const double low = original_->lowest()[c], high = original_->highest()[c];
+    widths.push_back(std::max(high - low, 0.0));
+    span = std::max(
+        span, std::max(high, simplified_->highest()[c]) - std::min(low, simplified_->lowest()[c]));
+  }
+  field.unit = unitOf(span);
+  const double of_range = unitOf(*std::max_element(widths.begin(), widths.end()));
   double square = 0;
-  for (const double width : widths) square += (width / field.unit) * (width / field.unit);
-  field.range = std::sqrt(square) * field.unit;
+  for (const double width : widths) square += (width / of_range) * (width / of_range);
+  field.range = std::sqrt(square) * of_range;
 }
 
 void Comparison::measureFields(const Tasks* tasks, const Done& done) {

@@ -38,7 +38,7 @@ struct FieldComparison {
   double range = 0;       // norm of the original's ranges of the components
   double largest = 0, largest_place[3] = {0, 0, 0};
   double largest_inside = 0;  // where the original is inside the simplified mesh
-  double unit = 1;            // a power of two near the range, in which errors are squared
+  double unit = 1;            // a power of two near the largest difference of both meshes' values
   double mean_square = 0;     // over the original's volume, in squares of it
   double mean_square_inside = 0;
   double cmse() const;

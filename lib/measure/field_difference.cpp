@@ -11,8 +11,8 @@ constexpr double kTinyError = 1e-300;
 
 void ErrorHistogram::add(double error, double more) {
   const double decades = std::log10(std::max(error, kTinyError) / kLowest);
-  const double step = std::clamp(std::floor(decades * kPerDecade), 0.0, kSteps - 1.0);
-  volume[static_cast<int>(step)] += more;
+  const double step = std::floor(decades * kPerDecade), last = kSteps - 1;
+  volume[step < last ? static_cast<int>(std::max(step, 0.0)) : kSteps - 1] += more;  // NaN: largest
 }
 
 void ErrorHistogram::add(const ErrorHistogram& other) {

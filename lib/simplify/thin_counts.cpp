@@ -6,6 +6,11 @@
 
 namespace tetstream {
 
+// In degrees: cells that are as good as flat. With no such limit, none thinner than those that are
+// there already, bluntfin has 1.07 times the error and 1.6 times as many cells below a degree:
+// fewer of them can go.
+constexpr double kFlattest = kLeastFloor / 10;
+
 template <class Mesh>
 void ThinCounts<Mesh>::start() {
   const size_t cells = mesh_.cellEnd();
@@ -75,10 +80,12 @@ double ThinCounts<Mesh>::thinnest(const Star& star, const S* centre) const {
 }
 
 template <class Mesh>
-bool ThinCounts<Mesh>::makesThinner(uint32_t u, uint32_t v, const Stars& stars,
-                                    const S* place) const {
+bool ThinCounts<Mesh>::flattens(uint32_t u, uint32_t v, const Stars& stars, const S* place) const {
+  static const double least = thinnessOfAngle(kFlattest);
+  const double after = std::max(thinnest(stars.u, place), thinnest(stars.v, place));
+  if (after <= least) return false;
   const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
-  return std::max(thinnest(stars.u, place), thinnest(stars.v, place)) >
+  return after >
          std::max({thinnest(stars.u, at_u), thinnest(stars.ring, at_u), thinnest(stars.v, at_v)});
 }
 

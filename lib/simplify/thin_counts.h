@@ -30,8 +30,9 @@ class ThinCounts {
   size_t count(uint32_t u, uint32_t v, const Stars& stars, Angle angle) {
     return countIn(stars.u, u, angle) + countIn(stars.ring, u, angle) + countIn(stars.v, v, angle);
   }
-  // Whether the thinnest of them would be thinner with both ends at `place`.
-  bool makesThinner(uint32_t u, uint32_t v, const Stars& stars, const S* place) const;
+  // Whether with both ends at `place` there would be a cell as good as flat, thinner than all that
+  // are there.
+  bool flattens(uint32_t u, uint32_t v, const Stars& stars, const S* place) const;
   // The cells of both stars but the ring have other corners now.
   void merged(const Stars& stars) {
     if (size_ == 0) return;

@@ -49,6 +49,7 @@ void BatchCopy::placeAll(BatchView& b, bool copies) {
   place(b.finalized, b.finalized_count, sizeof *b.finalized);
   place(b.faces, b.face_count, 3 * sizeof *b.faces);
   place(b.face_labels, b.face_count, sizeof *b.face_labels);
+  place(b.face_origins, b.face_count, sizeof *b.face_origins);
   place(b.face_locks, b.face_count, sizeof *b.face_locks);
   place(b.locked_edges, b.edge_count, 2 * sizeof *b.locked_edges);
 }

@@ -176,6 +176,32 @@ static void errors_have_the_size_of_the_values_whatever_that_is(void) {
   mesh = original;
 }
 
+/* The values of one mesh are beyond all that the other's range lets expect, or that one's has none.
+ */
+static void errors_may_be_far_larger_than_the_range(void) {
+  const double scales[][2] = {{1, 1e160}, {1e-199, 1e200}, {1e-310, 1}, {0, 1e300}, {0, 1e-300}};
+  hostile_mesh* original = mesh;
+  for (size_t i = 0; i < sizeof scales / sizeof *scales; ++i)
+    for (int by_points = 0; by_points < 2; ++by_points) {
+      hostile_mesh* other = hostile_mesh_create(3, 4, layers);
+      mesh = hostile_mesh_create(3, 4, layers);
+      for (int64_t v = 0; v < mesh->vertex_count; ++v) {
+        other->density[v] = v == 5 ? scales[i][1] : 0;
+        mesh->density[v] *= scales[i][0];
+      }
+      tetstream_comparison* comparison = comparison_with("samples", by_points ? "1000" : "0");
+      CHECK_EQUAL(compare(comparison, other, HOSTILE_ODD, 0), TETSTREAM_OK);
+      const tetstream_field_comparison field = field_of(comparison, 0);
+      CHECK(field.rms > 0 && field.rms < field.largest && field.largest <= 2 * scales[i][1]);
+      CHECK(by_points || field.largest >= 0.5 * scales[i][1]);
+      CHECK((field.range > 0) == (scales[i][0] > 0));
+      tetstream_comparison_destroy(comparison);
+      hostile_mesh_destroy(other);
+      hostile_mesh_destroy(mesh);
+      mesh = original;
+    }
+}
+
 /* Of either mesh; the other field is compared. */
 static void fields_that_are_not_finite_are_told_unless_they_are_named(void) {
   for (int of_original = 0; of_original < 2; ++of_original)
@@ -457,6 +483,7 @@ int main(void) {
   RUN_CASE(a_constant_shift_of_a_field_is_its_error);
   RUN_CASE(errors_have_the_size_of_the_values_whatever_that_is);
   RUN_CASE(what_is_cut_off_is_outside);
+  RUN_CASE(errors_may_be_far_larger_than_the_range);
   RUN_CASE(fields_that_are_not_finite_are_told_unless_they_are_named);
   RUN_CASE(figures_are_the_same_for_any_number_of_threads);
   RUN_CASE(boundaries_are_sampled_at_as_many_points_as_asked);

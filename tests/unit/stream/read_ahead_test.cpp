@@ -7,6 +7,7 @@
 #include <atomic>
 #include <thread>
 
+#include "batch_copy.h"
 #include "batch_ring.h"
 #include "bytes.h"
 #include "shapes.h"
@@ -200,6 +201,34 @@ TEST(ReadAhead, HoldsFewLargeBatches) {
   EXPECT_TRUE(ring.full());
   ring.dropFirst();
   EXPECT_FALSE(ring.full());
+}
+
+// Each array of a copy is one of its own, whatever becomes of what it was made from.
+TEST(BatchCopy, KeepsWhatBelongsToFaces) {
+  Schema schema;
+  Batch batch(schema);
+  batch.clear(0);
+  for (int64_t f = 0; f < 3; ++f) {
+    const int64_t corners[3] = {f, f + 1, f + 2};
+    batch.addFace(corners, 10 + f);
+    batch.addFaceOrigin(70 + f);
+  }
+  Account account;
+  BatchCopy copy(schema, account);
+  copy.take(batch.view());
+  const BatchView kept = copy.view();
+  batch.clear(0);
+  for (int64_t f = 0; f < 3; ++f) {
+    const int64_t none[3] = {-1, -1, -1};
+    batch.addFace(none, -1);
+    batch.addFaceOrigin(-1);
+  }
+  ASSERT_EQ(kept.face_count, 3u);
+  for (size_t f = 0; f < 3; ++f) {
+    EXPECT_EQ(kept.faces[3 * f + 2], static_cast<int64_t>(f) + 2);
+    EXPECT_EQ(kept.face_labels[f], static_cast<int64_t>(f) + 10);
+    EXPECT_EQ(kept.face_origins[f], static_cast<int64_t>(f) + 70);
+  }
 }
 
 }  // namespace
