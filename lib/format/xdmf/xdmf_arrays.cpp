@@ -202,14 +202,32 @@ MeshArray XdmfArrays::ofSlab(const XdmfItem& item, MeshArray array) {
 
 #ifdef TETSTREAM_WITH_HDF5
 
+namespace {
+
+struct DatasetName {
+  std::string file, path;  // from the root, without its slash; empty: it is missing
+};
+
+// FILE:/PATH, or FILE:PATH as libxdmf and FEniCS's checkpoints have it. The last colon counts:
+// names of files have some more often (times of day) than names of datasets.
+DatasetName splitReference(const std::string& reference) {
+  size_t colon = reference.rfind(":/");
+  if (colon == std::string::npos) colon = reference.rfind(':');
+  if (colon == std::string::npos) return {};
+  const size_t path = reference[colon + 1] == '/' ? colon + 2 : colon + 1;
+  return {reference.substr(0, colon), reference.substr(path)};
+}
+
+}  // namespace
+
 MeshArray XdmfArrays::ofHdf5(const XdmfItem& item, MeshArray array) {
   const std::string reference = textOfItem(item);
-  const size_t colon = reference.rfind(":/");
-  if (colon == std::string::npos || colon == 0)
+  const DatasetName dataset = splitReference(reference);
+  if (dataset.file.empty() || dataset.path.empty())
     failItem(item, Status::kBadData,
              "\"" + cutMeshName(reference) + "\" names no dataset, as FILE:/PATH does");
-  const std::string name = pathBeside(bytes_->name(), reference.substr(0, colon));
-  const std::string path = reference.substr(colon + 2);
+  const std::string name = pathBeside(bytes_->name(), dataset.file);
+  const std::string path = dataset.path;
   std::shared_ptr<Hdf5File>& file = files_[name];
   if (!file) file = openHdf5(openFile(name));
   const Hdf5Turn turn;

@@ -1,6 +1,6 @@
-// Reads XDMF 2 and 3 as FEniCS and meshio write it: grids in XML, values in its text, in HDF5 or in
-// raw files. Of a collection over time one step is read; grids of a spatial collection are pieces
-// whose shared points are one each.
+// Reads XDMF 2 and 3 as FEniCS, meshio and VTK write it: grids in XML, values in its text, in HDF5
+// or in raw files. Of a collection over time one step is read; grids of a spatial collection are
+// pieces whose shared points are one each.
 #include <algorithm>
 #include <cstdlib>
 

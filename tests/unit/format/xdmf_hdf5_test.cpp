@@ -47,6 +47,15 @@ TEST_F(XdmfHdf5, IsReadWhereItLies) {
   }
 }
 
+// As ParaView and FEniCS's checkpoints name datasets: from the root, but without its slash.
+TEST_F(XdmfHdf5, PathsWithoutASlashLeadFromTheRoot) {
+  std::string bare = text("topology", "2");
+  for (size_t at; (at = bare.find(":/Mesh")) != std::string::npos;) bare.replace(at, 6, ":Mesh");
+  const VtuMesh mesh = readAs("xdmf", bare);
+  EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 1, 2, 3, 4}));
+  EXPECT_EQ(valuesAs<double>(mesh.positions)[3], 1);
+}
+
 // The middle rows of a larger dataset.
 TEST_F(XdmfHdf5, SlabsAreCutOutOfIt) {
   std::string slab = text("topology", "1");
@@ -65,6 +74,13 @@ TEST_F(XdmfHdf5, SaysWhatIsNotThere) {
   EXPECT_NE(failureAs("xdmf", text("none", "2")).find("there is no dataset"), std::string::npos);
   EXPECT_NE(failureAs("xdmf", text("topology", "3")).find("has not the 12 numbers"),
             std::string::npos);
+  for (const std::string& name :
+       {path_, path_ + ":", path_ + ":/", std::string(":Mesh/topology")}) {
+    std::string wrong = text("topology", "2");
+    const std::string right = path_ + ":/Mesh/topology";
+    wrong.replace(wrong.find(right), right.size(), name);
+    EXPECT_NE(failureAs("xdmf", wrong).find("names no dataset"), std::string::npos) << name;
+  }
   std::remove(path_.c_str());
   EXPECT_TRUE(failureAs("xdmf", text("topology", "2")).starts_with("TETSTREAM_IO"));
 }
