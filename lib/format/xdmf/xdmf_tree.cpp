@@ -112,9 +112,10 @@ class XdmfTree final : XmlFeed {
       return kGeometry;
     }
     if (std::strcmp(name, "Attribute") == 0) {
+      // libxdmf writes all words that it knows, with nothing in those that do not apply.
       grid.attributes.push_back({wordOf(attributes, "Name", ""),
                                  wordOf(attributes, "Center", "Node"),
-                                 find(attributes, "ItemType") != nullptr,
+                                 !wordOf(attributes, "ItemType", "").empty(),
                                  {}});
       items_ = &grid.attributes.back().items;
       return kAttribute;

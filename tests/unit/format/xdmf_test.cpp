@@ -54,6 +54,27 @@ TEST(Xdmf, OneGridIsReadWithItsValues) {
   }
 }
 
+// As ParaView writes arrays: with empty words, which say that it is no function.
+TEST(Xdmf, EmptyWordsMakeNoFunction) {
+  const auto withWords = [](std::string text, const std::string& words) {
+    return text.insert(text.find(" AttributeType"), words);
+  };
+  const std::string none = " ElementCell=\"\" ElementDegree=\"0\" ElementFamily=\"\" ItemType=\"\"";
+  const std::string some =
+      " ElementCell=\"tetrahedron\" ElementDegree=\"1\" ElementFamily=\"CG\" "
+      "ItemType=\"FiniteElementFunction\"";
+  const VtuMesh mesh = readAs(
+      "xdmf",
+      file(uniform("m", kXdmfCells + kXdmfPoints + withWords(attribute("p", "1 2 3 4 5"), none) +
+                            withWords(attribute("rho", "7 8", "Cell", "2"), none) +
+                            withWords(attribute("f", "1 2 3 4 5"), some))));
+  ASSERT_EQ(mesh.schema.fields.size(), 1u);
+  EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{1, 2, 3, 4, 5}));
+  ASSERT_EQ(mesh.cell_data.size(), 1u);
+  EXPECT_EQ(valuesAs<float>(mesh.cell_data[0]), (std::vector<float>{7, 8}));
+  EXPECT_TRUE(hasNote(mesh, "array \"f\" is left out: it is no list of values, but a function"));
+}
+
 // As FEniCS writes functions: the mesh once, then grids that include it.
 TEST(Xdmf, StepsIncludeTheirMeshAndFunctionsOnItJoin) {
   const std::string include =
