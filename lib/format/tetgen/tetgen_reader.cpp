@@ -11,9 +11,21 @@ namespace tetstream {
 namespace {
 
 constexpr int64_t kMostAttributes = 512;
+constexpr size_t kMostFaceBytes = 512;  // of a face's line that are looked at: at most ten numbers
 
 std::unique_ptr<ByteSource> openBeside(const std::string& path, const char* extension) {
   return unwrapped(openFile(withExtension(path, extension)));
+}
+
+// Numbers of the next line that is no comment, which stays the next one.
+size_t numbersOfNextLine(FileScan& file) {
+  file.peekWord();
+  const std::string_view text = file.peekBytes(kMostFaceBytes);
+  const std::string_view line = text.substr(0, text.find_first_of("\n#"));
+  size_t numbers = 0;
+  for (size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != line.npos; ++numbers)
+    at = std::min(line.find_first_of(" \t\r", at), line.size());
+  return numbers;
 }
 
 class TetgenReader {
@@ -101,24 +113,29 @@ class TetgenReader {
     }
   }
 
-  // Faces, whether there are markers.
+  // Faces, whether there are markers; rows of the face's number, its nodes, the marker and perhaps
+  // the cells on both sides. Those of second order have six nodes, which nothing says but the
+  // length of the rows: of others it is 5 or 7. The cells do not tell: faces may be of first order
+  // beside them.
   void readFaces(std::unique_ptr<ByteSource> bytes) {
     FileScan file(std::move(bytes), '#', threads_);
     const auto count = static_cast<uint64_t>(file.integer("the number of faces", 0, INT64_MAX));
     file.checkClaim(count, 8, "faces");
     const bool markers = file.integer("whether there are markers", 0, 1) != 0;
     if (!markers) return intake_.leaveOut("faces without markers", count);
-    file.expectRows(count, {{{false, 5}}, nullptr, true});
+    const size_t nodes = numbersOfNextLine(file) < 1 + 6 + 1 ? 3 : 6;
+    const CellKind kind = {CellShape::kTriangle, static_cast<int>(nodes)};
+    file.expectRows(count, {{{false, 2 + nodes}}, nullptr, true});
     for (uint64_t i = 0; i < count; ++i) {
       file.integer("the number of a face");
-      int64_t corners[3];
-      readCorners(file, 3, corners);
+      int64_t corners[6];
+      readCorners(file, nodes, corners);
       const int64_t label = file.integer("the marker of a face");
       file.passLine();  // the cells on both sides
       if (label == 0)
         intake_.leaveOut("faces whose marker is 0");
       else
-        intake_.addFace({CellShape::kTriangle, 3}, corners, label);
+        intake_.addFace(kind, corners, label);
     }
   }
 

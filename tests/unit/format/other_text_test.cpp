@@ -1,6 +1,7 @@
 // SU2's and TetGen's meshes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -125,6 +126,32 @@ TEST_F(Tetgen, ReadsPointsCellsAndFacesFromZeroOrOne) {
       EXPECT_TRUE(anyNote(notes, "1 faces whose marker is 0"));
     }
   }
+}
+
+// As tetgen -o2 writes them, and with -nn, by which cells follow the marker; three nodes are those
+// of a face of first order, however many cells have.
+TEST_F(Tetgen, ReadsMarkersBehindTheNodesOfFacesOfSecondOrder) {
+  std::string nodes = "10 3 0 0\n";
+  for (const char* point :
+       {"0 0 0", "2 0 0", "0 2 0", "0 0 2", "1 0 0", "1 1 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1"})
+    nodes += std::to_string(std::count(nodes.begin(), nodes.end(), '\n')) + " " + point + "\n";
+  put(".node", nodes);
+  put(".ele", "1 10 0\n1 1 2 3 4 9 10 8 6 7 5\n");
+  for (const char* rows :
+       {"  1  1 2 3 6 7 5  14\n 2 2 3 4 10 9 6 0\n",
+        "\n# faces\n1 1 2 3 6 7 5 14 1 -1\n2 2 3 4 10 "
+        "9 6 0 1 -1 # the last\n",
+        "1 1 2 3 14\r\n2 2 3 4 0\r\n", "1\t1 2 3 14 1 -1 # of\n2 2 3 4 0 1 -1\n"}) {
+    put(".face", std::string("2 1\n") + rows);
+    std::vector<std::string> notes;
+    Input input = open(".ele", &notes);
+    EXPECT_EQ(readAll(input).cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}})) << rows;
+    EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 14}})) << rows;
+    EXPECT_TRUE(anyNote(notes, "1 faces whose marker is 0")) << rows;
+  }
+  put(".face", "1 1\n1 1 2 3 6 7 11 14\n");
+  EXPECT_NE(problem().find("m.face: line 2: a corner of a cell is 11"), std::string::npos)
+      << problem();
 }
 
 TEST_F(Tetgen, SaysWhatIsWrongAndWhere) {
