@@ -80,14 +80,16 @@ Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
       times[static_cast<size_t>(chooseStep(mesh, times.size(), options, [&](uint64_t step) {
         return times[static_cast<size_t>(step)];
       }))];
+  ReadOptions of_file = options;
+  of_file.step = kLastStep;  // of those within a file: the one that was asked for is of the files
   const auto pool = std::make_shared<FilePool>();
   for (const StepFile& file : files) {
     if (file.time != time) continue;
     const std::string path = pathBeside(bytes->name(), file.name);
     if (file.name.ends_with(".pvtu"))
-      addPvtuPieces(mesh, *pool, *openFile(path), options.threads);
+      addPvtuPieces(mesh, *pool, *openFile(path), of_file);
     else
-      addVtuPieces(mesh, pool->add(path), options.threads);
+      addVtuPieces(mesh, pool->add(path), of_file);
   }
   mesh.name = bytes->name();
   Input input;

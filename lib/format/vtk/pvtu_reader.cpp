@@ -50,9 +50,9 @@ class PieceNames final : XmlFeed {
 }  // namespace
 
 void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes,
-                   const TextThreads& threads) {
+                   const ReadOptions& options) {
   for (const std::string& name : PieceNames(bytes).run())
-    addVtuPieces(mesh, pool.add(pathBeside(bytes.name(), name)), threads);
+    addVtuPieces(mesh, pool.add(pathBeside(bytes.name(), name)), options);
 }
 
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
@@ -60,7 +60,7 @@ Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   const auto pool = std::make_shared<FilePool>();
   MeshPieces mesh;
   mesh.join = true;
-  addPvtuPieces(mesh, *pool, *bytes, options.threads);
+  addPvtuPieces(mesh, *pool, *bytes, options);
   mesh.name = bytes->name();
   if (mesh.pieces.empty()) fail(Status::kBadData, "%s: there is no <Piece>", mesh.name.c_str());
   Input input;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +46,12 @@ struct VtuFile {
   void addNote(const std::string& text) { MeshPieces::addNoteTo(notes, text); }
 };
 
+// Of time steps at these times, at least one, which is to be read, from 0.
+using ChooseVtuStep = std::function<uint64_t(const std::vector<double>& times)>;
+
 // Reads the header, in pieces, of a seekable source. Inline values are passed over; counts, and
-// that the values are all there, are not checked against anything yet.
-VtuFile parseVtuHeader(ByteSource& bytes);
+// that the values are all there, are not checked against anything yet. Of files with time steps,
+// pieces and arrays are those of the one that was chosen.
+VtuFile parseVtuHeader(ByteSource& bytes, const ChooseVtuStep& choose);
 
 }  // namespace tetstream

@@ -1,5 +1,6 @@
 #include "vtu_pieces.h"
 
+#include "time_steps.h"
 #include "vtu_run.h"
 #include "vtu_side_by_side.h"
 
@@ -25,10 +26,13 @@ std::optional<MeshArray> arrayOf(const std::shared_ptr<OpenVtu>& vtu,
 
 }  // namespace
 
-void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const TextThreads& threads) {
-  VtuFile parsed = parseVtuHeader(*bytes);
+void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   mesh.name = bytes->name();
-  parsed.helpers = {threads, std::this_thread::get_id()};
+  VtuFile parsed = parseVtuHeader(*bytes, [&](const std::vector<double>& times) {
+    return chooseStep(mesh, times.size(), options,
+                      [&](uint64_t step) { return times[static_cast<size_t>(step)]; });
+  });
+  parsed.helpers = {options.threads, std::this_thread::get_id()};
   if (parsed.compressor && parsed.helpers.areHere()) bytes = openShared(std::move(bytes));
   const auto vtu = std::make_shared<OpenVtu>(OpenVtu{std::move(bytes), std::move(parsed)});
   for (const std::string& note : vtu->file.notes) mesh.addNote(note);

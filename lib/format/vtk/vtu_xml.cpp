@@ -1,5 +1,7 @@
 // The XML part of .vtu files, up to the start tag of AppendedData, after which the file need not be
 // XML any more. Elements that are not known are passed over with everything in them.
+#include <algorithm>
+#include <charconv>
 #include <cstring>
 
 #include "status.h"
@@ -30,11 +32,12 @@ bool parseType(const char* text, ValueType* type) {
 
 class HeaderParser final : XmlFeed {
  public:
-  explicit HeaderParser(ByteSource& bytes) : XmlFeed(bytes) {}
+  HeaderParser(ByteSource& bytes, const ChooseVtuStep& choose) : XmlFeed(bytes), choose_(choose) {}
 
   VtuFile run() {
     feed();
     if (file_.pieces.empty()) failAt(lastEvent(), "there is no <Piece>");
+    if (pieces_are_steps_) keepPiecesOfStep();
     if (stopped()) placeAppended();
     for (VtuPiece& piece : file_.pieces) finishPiece(piece);
     return std::move(file_);
@@ -98,7 +101,12 @@ class HeaderParser final : XmlFeed {
   }
 
   bool enterPart(const char* name, Attributes attributes) {
-    if (std::strcmp(name, "UnstructuredGrid") == 0) return true;
+    if (std::strcmp(name, "UnstructuredGrid") == 0) {
+      const char* times = find(attributes, "TimeValues");
+      if (times && times_.empty()) times_ = numbersOf<double>("TimeValues", times);
+      if (!times_.empty()) step_ = choose_(times_);
+      return true;
+    }
     if (std::strcmp(name, "AppendedData") != 0) return false;
     const char* encoding = find(attributes, "encoding");
     raw_ = encoding && std::strcmp(encoding, "raw") == 0;
@@ -107,6 +115,21 @@ class HeaderParser final : XmlFeed {
     appended_begin_ = tagEnd();
     stop();
     return true;
+  }
+
+  // Of an attribute, between blanks.
+  template <class Number>
+  std::vector<Number> numbersOf(const char* attribute, const char* text) const {
+    std::vector<Number> numbers;
+    const char* const end = text + std::strlen(text);
+    while ((text = std::find_if(text, end, [](char c) { return c != ' '; })) != end) {
+      const char* const word_end = std::find(text, end, ' ');
+      const std::from_chars_result r = std::from_chars(text, word_end, numbers.emplace_back());
+      if (r.ec != std::errc() || r.ptr != word_end)
+        failHere(std::string(attribute) + " has a word that is no number");
+      text = word_end;
+    }
+    return numbers;
   }
 
   uint64_t count(Attributes attributes, const char* name) const {
@@ -140,7 +163,39 @@ class HeaderParser final : XmlFeed {
     return section_ != Section::kOther;
   }
 
+  static const char* formatOf(Attributes attributes) {
+    const char* format = find(attributes, "format");
+    return format ? format : find(attributes, "offset") ? "appended" : "ascii";
+  }
+
+  // VTK appends the arrays of all steps to one piece, each with its own step or a list of them;
+  // those without are of all. Values that are not appended it writes as pieces for one step after
+  // the other, in which all arrays claim step 0.
+  bool isOfStep(Attributes attributes) {
+    const char* steps = times_.empty() ? nullptr : find(attributes, "TimeStep");
+    if (!steps) return true;
+    if (std::strcmp(formatOf(attributes), "appended") != 0) {
+      pieces_are_steps_ = true;
+      return true;
+    }
+    const std::vector<uint64_t> all = numbersOf<uint64_t>("TimeStep", steps);
+    return std::find(all.begin(), all.end(), step_) != all.end();
+  }
+
+  void keepPiecesOfStep() {
+    std::vector<VtuPiece>& pieces = file_.pieces;
+    if (pieces.size() % times_.size() != 0)
+      failAt(lastEvent(),
+             std::to_string(pieces.size()) + " pieces are of " + std::to_string(times_.size()) +
+                 " time steps, nobody knows which of which: their values are not appended",
+             Status::kUnsupported);
+    const auto count = static_cast<std::ptrdiff_t>(pieces.size() / times_.size());
+    const auto first = pieces.begin() + static_cast<std::ptrdiff_t>(step_) * count;
+    pieces = {std::make_move_iterator(first), std::make_move_iterator(first + count)};
+  }
+
   bool enterArray(const char* element, Attributes attributes) {
+    if (!isOfStep(attributes)) return true;
     const char* name = find(attributes, "Name");
     const char* type = find(attributes, "type");
     const bool data = section_ == Section::kPointData || section_ == Section::kCellData;
@@ -199,8 +254,7 @@ class HeaderParser final : XmlFeed {
 
   void setFormat(VtuArray& array, Attributes attributes) const {
     const char* offset = find(attributes, "offset");
-    const char* format = find(attributes, "format");
-    if (!format) format = offset ? "appended" : "ascii";
+    const char* format = formatOf(attributes);
     array.begin = tagEnd();
     if (std::strcmp(format, "ascii") == 0) {
       array.format = VtuFormat::kAscii;
@@ -284,7 +338,11 @@ class HeaderParser final : XmlFeed {
     array.begin += appended_begin_;
   }
 
+  const ChooseVtuStep& choose_;
   VtuFile file_;
+  std::vector<double> times_;  // of steps; empty: there are none
+  uint64_t step_ = 0;          // that is read
+  bool pieces_are_steps_ = false;
   std::string compressor_;
   int depth_ = 0, skip_from_ = 0;
   bool skipping_ = false, raw_ = false;
@@ -296,8 +354,8 @@ class HeaderParser final : XmlFeed {
 
 }  // namespace
 
-VtuFile parseVtuHeader(ByteSource& bytes) {
-  return HeaderParser(bytes).run();
+VtuFile parseVtuHeader(ByteSource& bytes, const ChooseVtuStep& choose) {
+  return HeaderParser(bytes, choose).run();
 }
 
 }  // namespace tetstream
