@@ -58,7 +58,10 @@ void readBlocks(MshMesh& mesh, uint64_t count) {
     const auto tags = static_cast<size_t>(head[2]);
     const size_t width = 1 + tags + static_cast<size_t>(kind.nodes);
     count -= static_cast<uint64_t>(head[1]);
-    if (mesh.placeElements({kind, static_cast<uint64_t>(head[1]), kMshInt, tags, 0, 0})) continue;
+    // note: blocks of one are Gmsh's, where one element may be there for several groups.
+    if (head[1] > 1 &&
+        mesh.placeElements({kind, static_cast<uint64_t>(head[1]), kMshInt, tags, 0, 0}))
+      continue;
     rows.resize(kElementsAtOnce * width);
     for (auto left = static_cast<size_t>(head[1]); left > 0;) {
       const size_t n = std::min(left, kElementsAtOnce);

@@ -1,5 +1,7 @@
 #include "msh_mesh.h"
 
+#include <algorithm>
+
 #include "status.h"
 
 namespace tetstream {
@@ -38,6 +40,14 @@ void MshMesh::checkTag(int64_t tag) const {
   if (tag < 0 || tag > kMostTag) file.failBad(std::to_string(tag) + " is no tag");
 }
 
+// In version 2, an element of an entity that is in several groups is there once for each, one right
+// after the other, with a number of its own. Those of a negative group are the other way round.
+bool MshMesh::isLastInAnotherGroup(CellShape shape, const int64_t* corners, int64_t group,
+                                   int64_t entity) const {
+  return shape == last_.shape && entity == last_.entity && group != last_.group &&
+         std::is_permutation(corners, corners + cornersOf(shape), last_.corners);
+}
+
 void MshMesh::addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity) {
   if (face_labels == FaceLabels::kUndecided)
     face_labels = group != 0 ? FaceLabels::kGroups : FaceLabels::kEntities;
@@ -50,14 +60,22 @@ void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t 
                       int64_t entity) {
   const int dimension = dimensionOf(kind.shape);
   if (dimension < 2) return intake->leaveOut(dimension == 0 ? "points" : "lines");
-  int64_t corners[8];
+  int64_t corners[kMostCorners];
   for (int k = 0; k < cornersOf(kind.shape); ++k)
     if (!points->find(nodes[k], &corners[k])) file.failBad(notThere(tag, nodes[k]));
+  if (isLastInAnotherGroup(kind.shape, corners, group, entity)) {
+    intake->leaveOut("elements that are there once more, in another physical group,");
+    if (dimension == 3) cells.add(tag, last_.first, last_.count);
+    return;
+  }
+  last_ = {kind.shape, {}, group, entity, 0, 0};
+  std::copy(corners, corners + cornersOf(kind.shape), last_.corners);
   if (dimension == 2) return addFace(kind, corners, group, entity);
   const int64_t both[] = {group, entity};
   const int64_t* labels = hints.physical.empty() ? both + 1 : both;
-  const auto first = static_cast<int64_t>(intake->cellCount());
-  cells.add(tag, first, static_cast<int64_t>(intake->addCell(kind, corners, labels, tag)));
+  last_.first = static_cast<int64_t>(intake->cellCount());
+  last_.count = static_cast<int64_t>(intake->addCell(kind, corners, labels, tag));
+  cells.add(tag, last_.first, last_.count);
 }
 
 }  // namespace tetstream

@@ -72,11 +72,21 @@ struct MshMesh {
     size_t width;
     uint64_t first;  // rank of the first cell
   };
+  // The last cell or face, for those that are the same in another group.
+  struct LastElement {
+    CellShape shape = CellShape::kPoint;  // none yet
+    int64_t corners[kMostCorners] = {};
+    int64_t group = 0, entity = 0;
+    int64_t first = 0, count = 0;  // ranks of its cells
+  };
+  bool isLastInAnotherGroup(CellShape shape, const int64_t* corners, int64_t group,
+                            int64_t entity) const;
   void addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity);
   void addTags(TagTable& table, const RowsPlace& rows, size_t width, uint64_t first);
   void placeLabels(const Elements& elements, const RowsPlace& rows);
   void addPlacedTags();  // which only data ask for
 
+  LastElement last_;
   std::vector<PlacedElements> placed_;
 };
 

@@ -78,6 +78,52 @@ TEST(Msh, TellsTheNamesOfGroupsAndWhatIsLeftOut) {
   EXPECT_TRUE(anyNote(notes, "1 physical groups of entities that are in another one"));
 }
 
+// As Gmsh writes version 2: an element is there for each group that its entity is in, with a number
+// of its own; faces of a negative group are the other way round.
+TEST(Msh, ReadsElementsOfSeveralGroupsOnce) {
+  const std::string before(kSparse2, std::strstr(kSparse2, "$Elements"));
+  const std::string text =
+      before +
+      "$Elements\n8\n10 2 2 9 1 70 3 900000000000\n11 2 2 -8 1 3 70 900000000000\n"
+      "20 4 2 4 1 70 3 900000000000 4\n21 4 2 5 1 70 3 900000000000 4\n"
+      "22 4 2 6 1 70 3 900000000000 4\n30 4 2 4 1 3 900000000000 4 5\n"
+      "31 4 2 5 1 3 900000000000 4 5\n40 2 2 9 1 3 4 5\n$EndElements\n"
+      "$ElementData\n1\n\"E\"\n1\n0\n3\n0\n1\n5\n20 2\n21 2\n22 2\n30 3\n31 3\n$EndElementData\n";
+  std::vector<std::string> notes;
+  Input input = openText(openMsh, text, {}, &notes);
+  const SvMesh m = readAll(input);
+  EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+  EXPECT_EQ(m.cell_data[0], (std::vector<double>{4, 4}));
+  EXPECT_EQ(m.cell_data[2], (std::vector<double>{2, 3}));
+  EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 9}, {1, 3, 4, 9}}));
+  EXPECT_TRUE(
+      anyNote(notes, "4 elements that are there once more, in another physical group, are"));
+}
+
+// Binary: in blocks of one.
+TEST(Msh, ReadsElementsOfSeveralGroupsOnceInBinary) {
+  Bytes file = bytesOf("$MeshFormat\n2.2 1 8\n");
+  const auto put = [&](const auto& numbers) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(numbers.data());
+    file.insert(file.end(), bytes, bytes + numbers.size() * sizeof numbers[0]);
+  };
+  const auto say = [&](const std::string& text) {
+    file.insert(file.end(), text.begin(), text.end());
+  };
+  put(std::vector<int32_t>{1});
+  say("\n$EndMeshFormat\n$Nodes\n4\n");
+  for (int32_t node = 1; node <= 4; ++node) {
+    put(std::vector<int32_t>{node});
+    put(std::vector<double>{node == 2 ? 1.0 : 0, node == 3 ? 1.0 : 0, node == 4 ? 1.0 : 0});
+  }
+  say("\n$EndNodes\n$Elements\n2\n");
+  put(std::vector<int32_t>{4, 1, 2, 7, 10, 1, 1, 2, 3, 4, 4, 1, 2, 8, 11, 1, 1, 2, 3, 4});
+  say("\n$EndElements\n");
+  const SvMesh m = readBytes(openMsh, file);
+  EXPECT_EQ(m.cells.size(), 1u);
+  EXPECT_EQ(m.cell_data[0], (std::vector<double>{10}));
+}
+
 TEST(Msh, GivesBackWhatItHasWrittenInAllFourWays) {
   const SvMesh m = indexedMesh(richSchema(), 300);
   for (bool binary : {false, true})
