@@ -73,7 +73,7 @@ StarShape Collapser<Mesh>::shapeFrom(const S* place, const StarCell* cells, size
 }
 
 // Whether the share of thin cells in the two stars would not grow, so that in the end it is no
-// larger than in the input. Nor does one of those below the floor become as good as flat.
+// larger than in the input.
 template <class Mesh>
 bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after) {
   if (after == 0) return true;
@@ -90,10 +90,7 @@ bool Collapser<Mesh>::thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angl
 template <class Mesh>
 Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, const StarShape& after) {
   const bool is_priced = isPriced(most_price);
-  const size_t thin = is_priced ? after.inner : after.thin;
-  if (!thinsOut(u, v, Thin::kFloor, thin) ||
-      (thin > 0 && thin_counts_.flattens(u, v, stars_, merged_.data())))
-    return Outcome::kThin;
+  if (!thinsOut(u, v, Thin::kFloor, is_priced ? after.inner : after.thin)) return Outcome::kThin;
   if (!is_priced) return Outcome::kDone;
   if (core_.isFlat()) {
     const size_t flat = thin_counts_.count(u, v, stars_, Thin::kLastDear);

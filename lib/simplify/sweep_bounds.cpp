@@ -19,10 +19,10 @@ constexpr double kLargestStride = 16;
 constexpr double kGuardedStep = 2;
 // Where no more cells are left their mean error tells nothing.
 constexpr int64_t kFewCells = 1000;
-// A goal is in reach that is so near, or where most edges that are left are refused for their error
-// alone. Of others, most of whose edges are not legal, what costs more than it is worth took 18 %
-// of the cells at most: it would be spent for nothing.
-constexpr double kNear = 1.25, kMost = 0.5;
+// A goal that is farther than so many times it, with fewer edges than this share refused for their
+// error alone, is out of reach: what is left is not legal, and the few edges that are would be
+// spent for nothing.
+constexpr double kNear = 1.25, kFewAsLarge = 0.15;
 // Both with high effort: the smaller they are, the more nearly edges are taken in the order of
 // their errors, and the more often quadrics are made anew.
 constexpr double kCarefulStep = 2;
@@ -132,7 +132,7 @@ double SweepBounds<S>::limit() const {
 template <class S>
 bool SweepBounds<S>::isInReach(const Goal& goal, const Refused& refused) const {
   return static_cast<double>(core_.window.liveCells()) <= kNear * static_cast<double>(goal.cells) ||
-         static_cast<double>(refused.as_large) > kMost * static_cast<double>(refused.all);
+         static_cast<double>(refused.as_large) > kFewAsLarge * static_cast<double>(refused.all);
 }
 
 template <class S>

@@ -29,7 +29,7 @@ class SweepBounds {
   // The largest error that is worth to be made for the goal, in normalised units: few edges that
   // are legal must not make up for many that are not. What is left below it is tried by all means
   // before it is widened, towards a goal that is in reach, of few cells in the end without a limit;
-  // so many edges were refused then.
+  // so many edges were refused by then.
   struct Refused {
     int64_t as_large, all;
   };

@@ -6,11 +6,6 @@
 
 namespace tetstream {
 
-// In degrees: cells that are as good as flat. With no such limit, none thinner than those that are
-// there already, bluntfin has 1.07 times the error and 1.6 times as many cells below a degree:
-// fewer of them can go.
-constexpr double kFlattest = kLeastFloor / 10;
-
 template <class Mesh>
 void ThinCounts<Mesh>::start() {
   const size_t cells = mesh_.cellEnd();
@@ -65,28 +60,6 @@ size_t ThinCounts<Mesh>::countIn(const Star& star, uint32_t centre, Angle angle)
     count = 0;
   }
   return count > 0 ? thin + measure(unknown, count, angle) : thin;
-}
-
-// The thinness (thinness.h) of the thinnest of a star's cells, seen from there.
-template <class Mesh>
-double ThinCounts<Mesh>::thinnest(const Star& star, const S* centre) const {
-  double largest = 0, p[4][3];
-  std::copy_n(centre, 3, p[0]);
-  for (const StarCell& s : star) {
-    for (int k = 0; k < 3; ++k) std::copy_n(mesh_.values(s.t[k]), 3, p[k + 1]);
-    largest = std::max(largest, thinness(p));
-  }
-  return largest;
-}
-
-template <class Mesh>
-bool ThinCounts<Mesh>::flattens(uint32_t u, uint32_t v, const Stars& stars, const S* place) const {
-  static const double least = thinnessOfAngle(kFlattest);
-  const double after = std::max(thinnest(stars.u, place), thinnest(stars.v, place));
-  if (after <= least) return false;
-  const S *at_u = mesh_.values(u), *at_v = mesh_.values(v);
-  return after >
-         std::max({thinnest(stars.u, at_u), thinnest(stars.ring, at_u), thinnest(stars.v, at_v)});
 }
 
 template class ThinCounts<Window<float>>;

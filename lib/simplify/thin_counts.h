@@ -30,9 +30,6 @@ class ThinCounts {
   size_t count(uint32_t u, uint32_t v, const Stars& stars, Angle angle) {
     return countIn(stars.u, u, angle) + countIn(stars.ring, u, angle) + countIn(stars.v, v, angle);
   }
-  // Whether with both ends at `place` there would be a cell as good as flat, thinner than all that
-  // are there.
-  bool flattens(uint32_t u, uint32_t v, const Stars& stars, const S* place) const;
   // The cells of both stars but the ring have other corners now.
   void merged(const Stars& stars) {
     if (size_ == 0) return;
@@ -45,7 +42,6 @@ class ThinCounts {
   static constexpr unsigned kAngles = 3;
   static constexpr uint8_t kKnown = 1 << kAngles;  // a bit for each angle, and this one
 
-  double thinnest(const Star& star, const S* centre) const;
   size_t countIn(const Star& star, uint32_t centre, Angle angle);
   size_t measureIn(const Star& star, uint32_t centre, Angle angle) const;
   size_t measure(const uint32_t* cells, size_t count, Angle angle);
