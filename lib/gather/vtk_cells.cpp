@@ -6,7 +6,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr int kVtkPixel = 8, kVtkVoxel = 11;
+constexpr int kVtkPixel = 8, kVtkVoxel = 11, kVtkWedge = 13;
 constexpr CellKind kNoKind = {CellShape::kPoint, 0};
 
 using Shape = CellShape;
@@ -28,7 +28,7 @@ constexpr VtkCell kVtkCells[] = {
     {kVtkTetra, "a tetrahedron", VtkCell::kKnown, {Shape::kTetra, 4}},
     {kVtkVoxel, "a voxel", VtkCell::kKnown, {Shape::kHexa, 8}},
     {12, "a hexahedron", VtkCell::kKnown, {Shape::kHexa, 8}},
-    {13, "a wedge", VtkCell::kKnown, {Shape::kPrism, 6}},
+    {kVtkWedge, "a wedge", VtkCell::kKnown, {Shape::kPrism, 6}},
     {14, "a pyramid", VtkCell::kKnown, {Shape::kPyramid, 5}},
     {15, "a pentagonal prism", VtkCell::kOther, kNoKind},
     {16, "a hexagonal prism", VtkCell::kOther, kNoKind},
@@ -85,6 +85,9 @@ bool hasRowCorners(int64_t type) {
 void orderVtkCorners(int64_t type, int64_t* corners) {
   if (hasRowCorners(type)) std::swap(corners[2], corners[3]);
   if (type == kVtkVoxel) std::swap(corners[6], corners[7]);
+  if (type != kVtkWedge) return;
+  std::swap(corners[1], corners[2]);
+  std::swap(corners[4], corners[5]);
 }
 
 }  // namespace tetstream

@@ -22,7 +22,8 @@ struct VtkCell {
 
 const VtkCell& vtkCell(int64_t type);
 
-// Pixels and voxels, whose corners go in rows; they are made to go round as in other cells.
+// Pixels and voxels, whose corners go in rows. They are made to go round as in other cells, and so
+// are linear wedges, whose first face goes round the other way, seen from within.
 bool hasRowCorners(int64_t type);
 void orderVtkCorners(int64_t type, int64_t* corners);
 

@@ -138,6 +138,7 @@ class Su2Reader {
     file_.integers(corners, static_cast<size_t>(kind->nodes), "a point of an element", 0,
                    INT64_MAX / 2);
     for (int k = 0; k < kind->nodes; ++k) corners[k] = corner(corners[k]);
+    orderVtkCorners(type, corners);
     return *kind;
   }
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "status.h"
+#include "vector3.h"
 #include "vtu_encode.h"
 #include "vtu_read.h"
 
@@ -107,6 +108,29 @@ TEST(MixedCells, AreSplitIfAskedForAndTheirPartsHaveTheirData) {
                       "read, unless other cells are to be "
                       "split into them (option split"),
             std::string::npos);
+}
+
+// VTK's linear wedges, unlike hexahedra and pyramids, have their first face turned outwards.
+TEST(MixedCells, OfAnyShapeBecomeTetrahedraOfPositiveVolume) {
+  ReadOptions options;
+  options.split = true;
+  const VtuMesh mesh = readVtu(makeVtu({shapesPiece()}, {}), 1000, options);
+  const auto labels = valuesAs<int32_t>(mesh.cell_data[0]);
+  const std::vector<double> places = shapesPiece().points_element[0].reals;
+  double volumes[2] = {0, 0};  // of the voxel and the wedge
+  for (size_t c = 0; c < labels.size(); ++c) {
+    if (labels[c] != 100 && labels[c] != 103) continue;
+    double e[3][3];
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t i = 0; i < 3; ++i)
+        e[k][i] = places[3 * static_cast<size_t>(mesh.cells[4 * c + k + 1]) + i] -
+                  places[3 * static_cast<size_t>(mesh.cells[4 * c]) + i];
+    const double volume = determinant(e[0], e[1], e[2]) / 6;
+    EXPECT_GT(volume, 0) << labels[c];
+    volumes[labels[c] == 103] += volume;
+  }
+  EXPECT_NEAR(volumes[0], 1, 1e-12);
+  EXPECT_NEAR(volumes[1], 0.5, 1e-12);
 }
 
 TEST(MixedCells, OfHigherOrderAreSplitByTheirCorners) {
