@@ -10,7 +10,7 @@ import sys
 # Names that several headers declare stand with each of them.
 NAMES = {
     "algorithm": """all_of any_of binary_search clamp copy copy_n count count_if equal fill fill_n find
-        find_if find_if_not lower_bound make_heap max max_element min min_element minmax
+        find_if find_if_not is_permutation lower_bound make_heap max max_element min min_element minmax
         minmax_element move_backward none_of nth_element partition_point pop_heap push_heap remove
         remove_if replace replace_if reverse search sort stable_sort unique upper_bound""",
     "array": "array",
@@ -32,7 +32,7 @@ NAMES = {
     "exception": "current_exception exception exception_ptr rethrow_exception",
     "functional": "function",
     "initializer_list": "initializer_list",
-    "iterator": "next prev size",
+    "iterator": "make_move_iterator next prev size",
     "limits": "numeric_limits",
     "list": "list",
     "map": "map",
