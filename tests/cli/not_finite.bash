@@ -37,8 +37,17 @@ for name in masked.sva as.tets; do
   expect_error 2 "$name: vertex 0: its velocity is not finite: name the fields" simplify "$name" out.tets --ratio 0.3
 done
 expect_error 2 "as.vtk: point 0: its velocity is not finite: name the fields" simplify as.vtk out.tets --ratio 0.3
-expect_error 2 "as.vtk: point 0: its velocity is not finite" compare as.vtk fluid.tets
-expect_error 2 "as.tets: the simplified mesh: vertex 0: its velocity is not finite" compare fluid.tets as.tets
+expect_error 2 "as.vtk: point 0: its velocity is not finite" compare as.vtk fluid.tets --field velocity
+expect_error 2 "as.tets: the simplified mesh: vertex 0: its velocity is not finite" compare fluid.tets as.tets --field velocity
+
+# Of those that nobody has named comparisons tell it, and compare the others.
+for pair in "as.vtk fluid.tets" "fluid.tets as.tets"; do
+  expect 0 compare $pair
+  contains "$out" "  velocity        has values that are not finite"
+  [[ $(grep -c '^  density .* 1\.[0-9]*$' <<<"$out") == 1 ]] || fail "density is not compared: $out"
+  expect 0 compare $pair --report json
+  [[ $(tr -d ' \n' <<<"$out") =~ '"name":"velocity","components":3,"range":null,"largest":null' ]] || fail "it is: $out"
+done
 
 # One that is carried makes no difference to the others, and its unknown part neither grows nor vanishes.
 expect 0 simplify whole.sva expected.tets --ratio 0.3 --field density
