@@ -57,6 +57,9 @@ uint32_t Intake<S>::earlySlot(const char* what, int64_t number, int64_t vertex) 
          static_cast<long long>(number), static_cast<long long>(vertex));
   introduceUpTo(static_cast<uint64_t>(vertex));
   const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
+  // Of a mesh that was put into an order the face comes while its cell is there.
+  if (slot == kNoSlot && batch_.face_origins)
+    fail(Status::kBadData, "%s %lld is the face of no cell", what, static_cast<long long>(number));
   if (slot == kNoSlot)
     fail(Status::kBadData,
          "%s %lld: vertex %lld was finalized in a batch before: it is no part of a cell, or comes "

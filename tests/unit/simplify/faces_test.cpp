@@ -129,6 +129,16 @@ TEST(SimplifierFaces, OfNoCellAreRefused) {
                             }),
                     "labelled face 0 is the face of no cell");
     }
+  // Of a mesh that was put into an order, when the vertices are gone: by the number in the input.
+  const int64_t gone[3] = {0, 1, 2}, origin = 40;
+  expectStrange(refusal(mesh, 64,
+                        [&](int number, BatchView& batch) {
+                          if (number != 10) return;
+                          batch.face_count = 1;
+                          batch.faces = gone;
+                          batch.face_labels = batch.face_origins = &origin;
+                        }),
+                "labelled face 40 is the face of no cell");
   const int64_t unknown[3] = {0, 1, static_cast<int64_t>(mesh.vertexCount())}, label = 7;
   expectStrange(refusal(mesh, mesh.cellCount(),
                         [&](int, BatchView& batch) {
