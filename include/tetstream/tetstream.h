@@ -30,8 +30,8 @@
  *   and a writer of different simplifiers. There is no global state. A simplifier starts threads of
  *   its own (option `threads`), which end with it, or uses the caller's
  *   (tetstream_options_set_pool): they simplify, and read and write some batches ahead and behind;
- *   so do readers of some formats of files, and comparisons, which compare. Callbacks are called on the caller's thread alone.
- *   There, too, pipes and all else that may wait for somebody are written, and read; in a run of a
+ *   so do readers of some formats of files, and comparisons. Callbacks are called on the caller's
+ *   thread alone. There, too, pipes and all else that may wait for somebody are written, and read; in a run of a
  *   simplifier with three threads of its own or more they are also read ahead by one in addition,
  *   which does nothing else. With the option `memory` or one thread there is no other.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
