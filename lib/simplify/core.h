@@ -201,6 +201,11 @@ struct Core {
     forPartsOf(window.mesh.cellEnd(), work);
   }
 
+  // Whether the window has room for the whole stream.
+  bool holdsAll() const {
+    const int64_t all = plan.schema.cell_count;
+    return all >= 0 && all <= report.window_cells;
+  }
   // Whether more than the price of their error is common among collapses; where the body is kept
   // some have it.
   bool hasPrices() const { return !dear.empty() || interfaces || exact_curves; }

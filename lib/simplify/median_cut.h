@@ -1,9 +1,9 @@
-// simplify: a list of ids cut in two across the longest side of their box, again and again. Depends
-// on nothing.
+// simplify: a list of ids cut in two, again and again. Depends on nothing.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -12,15 +12,28 @@
 
 namespace tetstream {
 
+// Which side is cut. Where most ids are in a thin layer, as what a stream has just brought, the
+// layer is cut across, though the box be longer the other way; else both are the same.
+enum class CutSide : uint8_t {
+  kLongest,   // of the box
+  kSparsest,  // along which those nearest to the cut lie farthest apart: few are beside it
+};
+
 // `share` of a piece, below 1, lies before its cut: 0.5 cuts at the median. A piece of `most` ids
-// or fewer is a leaf.
+// or fewer is a leaf. With `fills` there are as few leaves as can be, all of about one size, and
+// the share is that of the leaves.
 struct CutRule {
   double share;
   size_t most;
+  bool fills = false;
+  CutSide side = CutSide::kLongest;
 
   bool isLeaf(size_t count) const { return count <= most; }
   size_t before(size_t count) const {
-    return static_cast<size_t>(share * static_cast<double>(count));
+    if (!fills) return static_cast<size_t>(share * static_cast<double>(count));
+    const size_t leaves = (count - 1) / most + 1;
+    const auto first = static_cast<size_t>(std::lround(share * static_cast<double>(leaves)));
+    return count * std::clamp<size_t>(first, 1, leaves - 1) / leaves;
   }
   // How many leaves come of a piece of `count` ids.
   size_t leavesOf(size_t count) const {
@@ -53,7 +66,9 @@ class MedianCut {
   // The first of these cuts alone, of what is no leaf; returns where it is.
   size_t cutOnce(size_t begin, size_t end) {
     const size_t middle = begin + rule_.before(end - begin);
-    partition(begin, middle, end, longestSide(begin, end));
+    partition(begin, middle, end,
+              rule_.side == CutSide::kSparsest ? sparsestSide(begin, middle, end)
+                                               : longestSide(begin, end));
     return middle;
   }
 
@@ -100,6 +115,50 @@ class MedianCut {
     for (int a = 1; a < 3; ++a)
       if (high[a] - low[a] > high[longest] - low[longest]) longest = a;
     return {longest, low[longest], high[longest]};
+  }
+
+  Side sparsestSide(size_t begin, size_t middle, size_t end) const {
+    Number widest = 0;
+    int axis = -1;
+    for (int a = 0; a < 3; ++a) {
+      const Number width = widthAtCut(begin, middle, end, a);
+      if (!(width > widest)) continue;
+      widest = width;
+      axis = a;
+    }
+    if (axis < 0) return longestSide(begin, end);  // most places are equal
+    Side side{axis, at_(ids_[begin], axis), at_(ids_[begin], axis)};
+    for (size_t i = begin; i < end; ++i) {
+      const Number x = at_(ids_[i], axis);
+      side.low = std::min(side.low, x);
+      side.high = std::max(side.high, x);
+    }
+    return side;
+  }
+
+  // Half of what the fifth of all that is nearest to the cut takes up, since the difference of
+  // finite numbers may be none. As a sample tells, in an order that has nothing to do with how a
+  // lattice's points are numbered.
+  Number widthAtCut(size_t begin, size_t middle, size_t end, int axis) const {
+    constexpr size_t kSample = 256;
+    constexpr double kNear = 0.1, kGolden = 0.6180339887498949;
+    std::array<Number, kSample> sample;
+    const size_t taken = std::min(kSample, end - begin);
+    const auto count = static_cast<double>(end - begin), last = static_cast<double>(taken - 1);
+    for (size_t k = 0; k < taken; ++k) {
+      const double turns = kGolden * static_cast<double>(k);
+      const double place = (turns - std::floor(turns)) * count;
+      sample[k] = at_(ids_[begin + (taken < kSample ? k : static_cast<size_t>(place))], axis);
+    }
+    const double share = static_cast<double>(middle - begin) / count;
+    const auto first = sample.begin();
+    const auto low = first + static_cast<std::ptrdiff_t>(std::max(share - kNear, 0.0) * last);
+    const auto high =
+        first + static_cast<std::ptrdiff_t>(std::ceil(std::min(share + kNear, 1.0) * last));
+    const auto sample_end = first + static_cast<std::ptrdiff_t>(taken);
+    std::nth_element(first, low, sample_end);
+    std::nth_element(low, high, sample_end);
+    return *high / 2 - *low / 2;
   }
 
   // The first behind the cut, and the bin that it is in.

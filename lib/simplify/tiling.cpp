@@ -138,12 +138,17 @@ constexpr size_t kFewSlices = 4, kMostSlices = 8, kLeastPart = 4;
 // more seams than it has inside. Windows of more tiles have as many pieces, for as many threads,
 // but larger ones: of a sixth of a tile they cost 2 % more RMS error at 0.02, of a quarter 0.2 %.
 constexpr size_t kPieces = 8, kLeastPieces = 6, kLeastOfWide = 4;
+constexpr size_t kMostPieces = 64;  // more threads than that there are seldom
+
+// Windows of so many tiles have enough for all threads where these are as large as may be: seams
+// are fewer. Of fewer tiles some more are worth more to threads.
+constexpr size_t kManyTiles = 16;
 
 // The most vertices of one. `window`: all vertices of it.
 static size_t pieceOf(size_t vertices, size_t window, size_t tile) {
   const size_t tiles = window / tile;
   const size_t least = tile / (tiles > kPieces ? kLeastOfWide : kLeastPieces);
-  return std::clamp(vertices / std::max(tiles, kPieces) + 1, least, tile);
+  return std::clamp(vertices / std::clamp(tiles, kPieces, kMostPieces) + 1, least, tile);
 }
 
 // 0: none. `tile`: the most vertices of one.
@@ -180,7 +185,9 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   const size_t most = layout == TileLayout::kPieces
                           ? pieceOf(count, core_.window.mesh.vertexEnd(), largest)
                           : largest;
-  const CutRule rule{kShare[round % 3], most};
+  const bool fills = core_.window.mesh.vertexEnd() > kManyTiles * largest;
+  const CutRule rule{kShare[round % 3], most, fills,
+                     core_.holdsAll() ? CutSide::kLongest : CutSide::kSparsest};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), count, rule, at);
   const size_t slices = layout == TileLayout::kSlices ? slicesOf(count, largest) : 0;

@@ -55,9 +55,10 @@ class Tiling {
   }
 
   // Cuts the free vertices whose edges may have errors up to the bound, and their neighbours, in
-  // two along the longest side of their box, again and again, until a tile's cells and vertices fit
-  // the cache. `round` shifts the cuts: what lies on a seam of one round is inside a tile of
-  // another. Tiles come ordered by colour.
+  // two, again and again, until a tile's cells and vertices fit the cache: across the longest side
+  // of their box, or in a stream, where most lie in the layer that came last, where few lie beside
+  // the cut. `round` shifts the cuts: what lies on a seam of one round is inside a tile of another.
+  // Tiles come ordered by colour.
   void build(unsigned round, float bound, TileLayout layout = TileLayout::kWhole);
 
   // Of the vertices in tiles, those whose edges may have errors up to the bound.

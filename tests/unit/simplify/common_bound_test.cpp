@@ -243,6 +243,19 @@ TEST(CommonBound, ChangesItsUnitsWithTheQuadrics) {
   }
 }
 
+// With a front of a quarter of a million cells there is one pass on the way.
+TEST(CommonBound, ApproachesOnceWithAWideFront) {
+  CommonBound budget({0.02, 0, 0}, 500000000, {});
+  Ledger window = {4000000, 0, 1 << 18, 1500000, 800000};
+  budget.goalOf(window);
+  budget.learn(1e-3, window, window, 500);
+  const Goal wide = budget.goalOf(window);
+  EXPECT_EQ(wide.approaches, 1);
+  EXPECT_EQ(wide.step, 8);
+  --window.front;
+  EXPECT_EQ(budget.goalOf(window).approaches, 2);
+}
+
 // Every window of a stream that nobody knows is approached: in fewer passes than where a pilot
 // tells that a strong reduction is worth them, and from not far below.
 TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {

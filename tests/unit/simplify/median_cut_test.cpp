@@ -47,6 +47,60 @@ TEST(MedianCut, LeavesTheShareBeforeTheCut) {
   EXPECT_EQ(leaves, (std::vector<Ids>{{0, 1, 2}, {3, 4}, {5}, {6, 7, 8, 9}}));
 }
 
+// A layer across z holds most of the points, and a few lie far below: the box is longest along z,
+// but most would lie beside such a cut.
+TEST(MedianCut, CutsALayerAcross) {
+  Points points;
+  for (int i = 0; i < 100; ++i)
+    points.push_back({static_cast<float>(i / 10), static_cast<float>(i % 10 * 2), 0});
+  for (int i = 0; i < 20; ++i) points.push_back({5, 9, -10.0f * static_cast<float>(i)});
+  Ids ids(points.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  const auto spans = [&](const std::vector<Ids>& leaves, size_t axis) {  // of the layer in each
+    std::vector<float> wide;
+    for (const Ids& leaf : leaves) {
+      float low = 1e9f, high = -1e9f;
+      for (uint32_t id : leaf) {
+        if (id >= 100) continue;
+        low = std::min(low, points[id][axis]);
+        high = std::max(high, points[id][axis]);
+      }
+      wide.push_back(high - low);
+    }
+    return wide;
+  };
+  const auto longest = leavesOf(points, ids, {0.5, 60});
+  const auto sparsest = leavesOf(points, ids, {0.5, 60, false, CutSide::kSparsest});
+  ASSERT_EQ(longest.size(), 2u);
+  ASSERT_EQ(sparsest.size(), 2u);
+  EXPECT_EQ(spans(sparsest, 1), (std::vector<float>{8, 8}));   // 18 in all
+  EXPECT_EQ(spans(longest, 1), (std::vector<float>{18, 18}));  // along z
+}
+
+// Where the places beside a cut are all equal, of thousands of points, the box tells.
+TEST(MedianCut, CutsTheLongestSideOfEqualPlaces) {
+  Points points(3000);
+  for (size_t i = 0; i < 100; ++i) points[i][1] = -1 - static_cast<float>(i);
+  Ids ids(points.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  const CutRule rule{0.5, 2000, false, CutSide::kSparsest};
+  EXPECT_EQ(leavesOf(points, ids, rule), leavesOf(points, ids, {0.5, 2000}));
+}
+
+// As many as whole leaves hold: 10 in three leaves of 4 at most, of which the share is 1.08.
+TEST(MedianCut, FillsItsLeaves) {
+  const Ids ids = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  EXPECT_EQ(leavesOf(line(1, 10), ids, {0.36, 4, true}),
+            (std::vector<Ids>{{0, 1, 2}, {3, 4, 5}, {6, 7, 8, 9}}));
+  Random r(7);
+  for (int round = 0; round < 1000; ++round) {
+    const CutRule rule{r.below(2) == 0 ? 0.36 : 0.64, 1 + r.below(40), true};
+    const size_t count = rule.most + 1 + r.below(2000), before = rule.before(count);
+    ASSERT_TRUE(before > 0 && before < count);
+    EXPECT_EQ(rule.leavesOf(count), (count - 1) / rule.most + 1);
+  }
+}
+
 std::vector<Ids> slicesOf(const Points& points, size_t count, bool half_on) {
   Ids ids(points.size());
   std::iota(ids.begin(), ids.end(), 0u);
