@@ -144,6 +144,9 @@ constexpr size_t kMostPieces = 64;  // more threads than that there are seldom
 // are fewer. Of fewer tiles some more are worth more to threads.
 constexpr size_t kManyTiles = 16;
 
+// In a stream's window of so many tiles the layer that came last is thin beside them.
+constexpr size_t kLayerTiles = 4;
+
 // The most vertices of one. `window`: all vertices of it.
 static size_t pieceOf(size_t vertices, size_t window, size_t tile) {
   const size_t tiles = window / tile;
@@ -185,9 +188,10 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   const size_t most = layout == TileLayout::kPieces
                           ? pieceOf(count, core_.window.mesh.vertexEnd(), largest)
                           : largest;
-  const bool fills = core_.window.mesh.vertexEnd() > kManyTiles * largest;
-  const CutRule rule{kShare[round % 3], most, fills,
-                     core_.holdsAll() ? CutSide::kLongest : CutSide::kSparsest};
+  const size_t tiles = core_.window.mesh.vertexEnd() / largest;
+  const bool is_layer = !core_.holdsAll() && tiles >= kLayerTiles;
+  const CutRule rule{kShare[round % 3], most, tiles >= kManyTiles,
+                     is_layer ? CutSide::kSparsest : CutSide::kLongest};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), count, rule, at);
   const size_t slices = layout == TileLayout::kSlices ? slicesOf(count, largest) : 0;

@@ -194,6 +194,29 @@ TEST(Tiling, CutsElsewhereInEachRound) {
   EXPECT_LT(all, one / 4);
 }
 
+// Most vertices are in the layer that came last, the others far below. Cut across the longest side
+// of the box, as what is held whole, the layer would be in slabs, with more cells in several tiles.
+TEST(Tiling, OfAStreamCutsTheLayerThatCameLastAcross) {
+  SimplifyOptions options = inMode(Mode::kSweep);
+  options.tile_vertices = 300;
+  WholeWindow<float> w(fullGrid(24, 24, 8), options);
+  for (uint32_t v = 0; v < w.core.window.mesh.vertexEnd(); ++v) {
+    float& z = w.core.window.values(v)[2];
+    if (z < 3) z -= 40 * (3 - z);
+  }
+  Tiling<float> tiling(w.core, w.account);
+  const auto listed = [&](int64_t window_cells) {
+    w.core.report.window_cells = window_cells;
+    tiling.build(0, std::numeric_limits<float>::infinity());
+    expectTiling(w.core, tiling);
+    size_t cells = 0;
+    for (const TilePiece& tile : tiling.tiles()) cells += tile.cell_count;
+    return static_cast<double>(cells);
+  };
+  const int64_t all = w.core.report.window_cells;
+  EXPECT_LT(listed(all - 1), 0.85 * listed(all));
+}
+
 // As slices, every other of which is of one colour.
 TEST(Tiling, OfFewVerticesHasTilesThatLieApartWhereTheyAreToBeWorkedOnTogether) {
   WholeWindow<double> w(fullGrid(24, 8, 8));

@@ -22,12 +22,18 @@ inline Plan tracedPlan(Plan plan) {
   return plan;
 }
 
+// That the window holds all of it is known.
+inline TestMesh withCount(TestMesh mesh) {
+  mesh.schema.cell_count = static_cast<int64_t>(mesh.cellCount());
+  return mesh;
+}
+
 // The window of the paper's mode has links: cells can be merged in it without a patch.
 template <class S>
 struct WholeWindow {
   explicit WholeWindow(TestMesh the_mesh, const SimplifyOptions& the_options = inMode(Mode::kPaper),
                        const FaceLabels& labels = {})
-      : mesh(std::move(the_mesh)),
+      : mesh(withCount(std::move(the_mesh))),
         options(the_options),
         plan(tracedPlan(makePlan(mesh.schema, options))),
         core(plan, options, account, mesh.cellCount() + 1, mesh.vertexCount() + 1, 0),
@@ -35,6 +41,7 @@ struct WholeWindow {
         regions(core),
         metric(core),
         resolver(core, metric, account) {
+    core.report.window_cells = static_cast<int64_t>(mesh.cellCount());
     FacedStream stream(mesh, {}, labels);
     BatchView batch;
     while (stream.next(batch)) {
