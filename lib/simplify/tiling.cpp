@@ -147,9 +147,8 @@ constexpr size_t kManyTiles = 16;
 // In a stream's window of so many tiles the layer that came last is thin beside them.
 constexpr size_t kLayerTiles = 4;
 
-// The most vertices of one. `window`: all vertices of it.
-static size_t pieceOf(size_t vertices, size_t window, size_t tile) {
-  const size_t tiles = window / tile;
+// The most vertices of one. `tiles`: that the window has.
+static size_t pieceOf(size_t vertices, size_t tiles, size_t tile) {
   const size_t least = tile / (tiles > kPieces ? kLeastOfWide : kLeastPieces);
   return std::clamp(vertices / std::clamp(tiles, kPieces, kMostPieces) + 1, least, tile);
 }
@@ -185,10 +184,8 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
   const auto largest =
       static_cast<size_t>(tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan)));
-  const size_t most = layout == TileLayout::kPieces
-                          ? pieceOf(count, core_.window.mesh.vertexEnd(), largest)
-                          : largest;
   const size_t tiles = core_.window.mesh.vertexEnd() / largest;
+  const size_t most = layout == TileLayout::kPieces ? pieceOf(count, tiles, largest) : largest;
   const bool is_layer = !core_.holdsAll() && tiles >= kLayerTiles;
   const CutRule rule{kShare[round % 3], most, tiles >= kManyTiles,
                      is_layer ? CutSide::kSparsest : CutSide::kLongest};
