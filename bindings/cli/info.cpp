@@ -55,14 +55,38 @@ std::string frontText(const tetstream_front_info& front) {
          row("window", countText(front.window_cells) + " cells for a simplification");
 }
 
-std::string faceLabelsText(const FaceLabels& labels) {
+std::string faceNameText(const tetstream_stream_info& info, int64_t label) {
+  for (int64_t i = 0; i < info.label_name_count; ++i)
+    if (!info.label_names[i].cell_array && info.label_names[i].label == label)
+      return ", " + oneLine(info.label_names[i].name);
+  return "";
+}
+
+std::string faceLabelsText(const tetstream_stream_info& info, const FaceLabels& labels) {
   std::string text;
   for (size_t i = 0; i < std::min(kMostListed, labels.size()); ++i)
     text += row("face label", textOf("%lld, ", static_cast<long long>(labels[i].label)) +
-                                  countText(labels[i].faces) + " faces");
+                                  countText(labels[i].faces) + " faces" +
+                                  faceNameText(info, labels[i].label));
   if (labels.size() > kMostListed)
     text +=
         row("face label", textOf("and %zu more, which --json tells", labels.size() - kMostListed));
+  return text;
+}
+
+// Of the labels of one cell array.
+std::string labelNamesText(const tetstream_stream_info& info, const char* cell_array) {
+  std::string text;
+  size_t count = 0;
+  for (int64_t i = 0; i < info.label_name_count; ++i) {
+    const tetstream_label_name& name = info.label_names[i];
+    if (!name.cell_array || std::string_view(name.cell_array) != cell_array) continue;
+    if (++count <= kMostListed)
+      text += row("cell label",
+                  textOf("%lld, ", static_cast<long long>(name.label)) + oneLine(name.name));
+  }
+  if (count > kMostListed)
+    text += row("cell label", textOf("and %zu more, which --json tells", count - kMostListed));
   return text;
 }
 
@@ -82,9 +106,10 @@ std::string infoText(const tetstream_stream_info& info, const FaceLabels& labels
     first += field.components;
   }
   for (int32_t i = 0; i < info.cell_data_count; ++i)
-    text += row("cell array", columnText(info.cell_data[i]));
+    text += row("cell array", columnText(info.cell_data[i])) +
+            labelNamesText(info, info.cell_data[i].name);
   if (info.face_count > 0) text += row("faces", countText(info.face_count) + ", labelled");
-  return text + faceLabelsText(labels) + frontText(front);
+  return text + faceLabelsText(info, labels) + frontText(front);
 }
 
 void addColumn(JsonText& json, const tetstream_column& column) {
@@ -118,6 +143,23 @@ void addFields(JsonText& json, const tetstream_stream_info& info) {
   json.close(']');
 }
 
+void addLabelNames(JsonText& json, const tetstream_stream_info& info) {
+  json.key("label_names").open('[');
+  for (int64_t i = 0; i < info.label_name_count; ++i) {
+    const tetstream_label_name& name = info.label_names[i];
+    json.open('{');
+    json.key("cell_array");
+    if (name.cell_array)
+      json.value(std::string_view(name.cell_array));
+    else
+      json.null();
+    json.key("label").value(name.label);
+    json.key("name").value(std::string_view(name.name));
+    json.close('}');
+  }
+  json.close(']');
+}
+
 std::string infoJson(const Arguments& arguments, const tetstream_stream_info& info,
                      const FaceLabels& labels, const tetstream_front_info& front,
                      const std::vector<std::string>& notes) {
@@ -147,6 +189,7 @@ std::string infoJson(const Arguments& arguments, const tetstream_stream_info& in
     json.close('}');
   }
   json.close(']');
+  addLabelNames(json, info);
   addCount(json, "front_width", info.front_width);
   addCount(json, "front_span", info.front_span);
   addCount(json, "front_cells", info.front_cells);

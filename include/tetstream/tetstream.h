@@ -234,6 +234,16 @@ typedef struct tetstream_column {
                           fields are BAD_DATA */
 } tetstream_column;
 
+/* What a label means: the name of a region or of a part of the boundary, as files have them. Names
+ * change nothing in a run; they go with the labels, which are kept, to formats that hold them (.tets,
+ * .msh); of others a note of the writer tells them. */
+typedef struct tetstream_label_name {
+  const char *name;       /* 1 to 255 bytes, UTF-8 */
+  const char *cell_array; /* the cell array, of integers with one component, whose label it is; NULL:
+                             a label of faces */
+  int64_t label;
+} tetstream_label_name;
+
 #define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
                                       and ordered by the library before it is streamed */
 #define TETSTREAM_STREAM_INT32_CELLS 2 /* of tetstream_reader_open_mesh alone: `cells` of the batch
@@ -263,6 +273,9 @@ typedef struct tetstream_stream_info {
                             not known */
   const double *box_max;
   int64_t face_count;    /* labelled faces; with the option `memory` their place is kept free */
+  int64_t label_name_count;
+  const tetstream_label_name *label_names; /* in any order, of a label one at most; may be NULL if
+                                              there are none. Since 0.1 */
 } tetstream_stream_info;
 
 /* Events, some thousands at a time: the batch's vertices, then its cells in order, each with the

@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "compressed_bytes.h"
+#include "label_names.h"
 #include "rounding_source.h"
 
 namespace tetstream {
@@ -121,6 +122,13 @@ void Output::start(const std::string& temp_dir) {
     sink_ = std::make_unique<CallbackSink>(callbacks_);
   }
   state_ = State::kRunning;
+}
+
+void Output::begin(const Schema& schema) {
+  if (format_ && !format_->holds.label_names && !schema.label_names.empty())
+    addNote(textOf(".%s has no names of labels; they are left out: %s", format_->name,
+                   shownLabelNames(schema.label_names).c_str()));
+  sink().begin(schema);
 }
 
 Sink& Output::sink() {

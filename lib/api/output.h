@@ -46,7 +46,7 @@ class Output final : public Sink {
   bool mustRound(const Schema& schema);
 
   void start(const std::string& temp_dir);
-  void begin(const Schema& schema) override { sink().begin(schema); }
+  void begin(const Schema& schema) override;
   void put(const BatchView& batch) override { sink().put(batch); }
   void finish() override { sink().finish(); }
   bool staysWithCaller() const override { return stays_with_caller_; }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "label_names.h"
+
 namespace tetstream {
 
 static_assert(static_cast<int32_t>(ScalarType::kFloat32) == TETSTREAM_TYPE_FLOAT32);
@@ -12,6 +14,7 @@ static_assert(static_cast<int32_t>(ScalarType::kInt64) == TETSTREAM_TYPE_INT64);
 
 // More columns than this are a struct that was not filled in.
 static constexpr int32_t kMaxColumns = 65535;
+static constexpr int64_t kMaxLabelNames = 1 << 24;
 
 void failStruct(const char* argument, size_t size, size_t needed) {
   fail(Status::kBadArgument, "%s: its struct_size is %zu, at least %zu is needed", argument, size,
@@ -19,6 +22,11 @@ void failStruct(const char* argument, size_t size, size_t needed) {
 }
 
 // ------------------------------------------------------------------------------------- schemas
+
+// note: lengths of names are bounded, one without an end is not followed to it.
+static std::string boundedName(const char* name) {
+  return {name, strnlen(name, kMostNameBytes + 1)};
+}
 
 static std::vector<Column> columnsOf(const tetstream_column* columns, int32_t count,
                                      const char* kind) {
@@ -28,11 +36,28 @@ static std::vector<Column> columnsOf(const tetstream_column* columns, int32_t co
   std::vector<Column> out;
   for (int32_t i = 0; i < count; ++i) {
     if (!columns[i].name) fail(Status::kBadArgument, "info: %s %d: its name is NULL", kind, i);
-    // note: the length is bounded, a name without an end is not followed to one.
-    const size_t length = strnlen(columns[i].name, 256);
-    out.push_back({std::string(columns[i].name, length), columns[i].components,
+    out.push_back({boundedName(columns[i].name), columns[i].components,
                    static_cast<ScalarType>(columns[i].type)});
   }
+  return out;
+}
+
+static std::vector<LabelName> labelNamesOf(const tetstream_stream_info& info) {
+  const int64_t count = info.label_name_count;
+  if (count < 0 || count > kMaxLabelNames)
+    fail(Status::kBadArgument, "info: %lld is no possible number of names of labels",
+         static_cast<long long>(count));
+  if (count > 0 && !info.label_names)
+    fail(Status::kBadArgument, "info: the names of labels are NULL");
+  std::vector<LabelName> out;
+  for (int64_t i = 0; i < count; ++i) {
+    const tetstream_label_name& name = info.label_names[i];
+    if (!name.name)
+      fail(Status::kBadArgument, "info: name %lld of labels is NULL", static_cast<long long>(i));
+    out.push_back(
+        {name.cell_array ? boundedName(name.cell_array) : "", name.label, boundedName(name.name)});
+  }
+  sortLabelNames(out);
   return out;
 }
 
@@ -66,6 +91,7 @@ Schema schemaOf(const tetstream_stream_info& info) {
   schema.position_type = static_cast<ScalarType>(info.position_type);
   schema.fields = columnsOf(info.fields, info.field_count, "field");
   schema.cell_data = columnsOf(info.cell_data, info.cell_data_count, "cell array");
+  schema.label_names = labelNamesOf(info);
   checkSchema(schema);
   schema.vertex_count = knownOrMinusOne(info.vertex_count);
   schema.cell_count = knownOrMinusOne(info.cell_count);
@@ -85,10 +111,20 @@ static std::vector<tetstream_column> publicColumns(const std::vector<Column>& co
   return out;
 }
 
+static std::vector<tetstream_label_name> publicLabelNames(const std::vector<LabelName>& names) {
+  std::vector<tetstream_label_name> out;
+  out.reserve(names.size());
+  for (const LabelName& name : names)
+    out.push_back(
+        {name.name.c_str(), name.array.empty() ? nullptr : name.array.c_str(), name.label});
+  return out;
+}
+
 PublicSchema::PublicSchema(const Schema& schema, bool indexed)
     : schema_(schema),
       fields_(publicColumns(schema_.fields)),
-      cell_data_(publicColumns(schema_.cell_data)) {
+      cell_data_(publicColumns(schema_.cell_data)),
+      label_names_(publicLabelNames(schema_.label_names)) {
   info_.struct_size = sizeof info_;
   info_.position_type = static_cast<int32_t>(schema_.position_type);
   info_.flags = indexed ? TETSTREAM_STREAM_INDEXED : 0;
@@ -104,6 +140,8 @@ PublicSchema::PublicSchema(const Schema& schema, bool indexed)
   info_.box_min = schema_.hasBox() ? schema_.box_min.data() : nullptr;
   info_.box_max = schema_.hasBox() ? schema_.box_max.data() : nullptr;
   info_.face_count = schema_.face_count;
+  info_.label_name_count = static_cast<int64_t>(label_names_.size());
+  info_.label_names = label_names_.empty() ? nullptr : label_names_.data();
 }
 
 // ------------------------------------------------------------------------------------- batches

@@ -78,6 +78,7 @@ class PublicSchema {
  private:
   Schema schema_;
   std::vector<tetstream_column> fields_, cell_data_;
+  std::vector<tetstream_label_name> label_names_;
   tetstream_stream_info info_ = {};
 };
 

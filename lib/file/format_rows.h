@@ -36,11 +36,12 @@ struct WriteOptions {
   bool post_order = false;      // .sva, .svb
 };
 
-// What a format can hold, so that values are rounded before and not after they were checked.
+// What a format can hold. Values are rounded before, and not after, they were checked.
 struct Capabilities {
   bool float64;              // else positions and fields are rounded to float32
   int max_field_components;  // of all fields together; -1: any number
   bool cell_data;
+  bool label_names = false;
 };
 
 struct Format {

@@ -13,6 +13,7 @@ void MeshCollector::begin(const Schema& schema) {
   mesh_ = std::make_unique<MeshSpool>(schema.position_type, options_.temp_dir);
   for (const Column& c : schema.fields) mesh_->addField(c);
   for (const Column& c : schema.cell_data) mesh_->addCellData(c);
+  mesh_->nameLabels(schema.label_names);
 }
 
 void MeshCollector::put(const BatchView& batch) {

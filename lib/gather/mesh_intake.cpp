@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "label_names.h"
 #include "memory.h"
 #include "rows_at_once.h"
 #include "status.h"
@@ -120,6 +121,11 @@ void MeshIntake::note(const std::string& text) {
   if (options_.note) options_.note(name_ + ": " + text);
 }
 
+void MeshIntake::nameLabels(std::vector<LabelName> names) {
+  settleLabelNames(names);
+  mesh_->nameLabels(std::move(names));
+}
+
 // ------------------------------------------------------------------------------ points and cells
 
 void MeshIntake::addPoint(const double position[3]) {
@@ -186,6 +192,11 @@ void MeshIntake::addFace(CellKind kind, const int64_t* corners, int64_t label) {
   for (int c = 0; c < cornersOf(kind.shape); ++c)
     largest_corner_ = std::max(largest_corner_, corners[c]);
   for (size_t i = 0; i < count; ++i) mesh_->appendFace(made[i], label);
+}
+
+void MeshIntake::leaveOutFaces(const std::string& things) {
+  if (mesh_->faceCount() > 0) leaveOut(things, mesh_->faceCount());
+  mesh_->forgetFaces();
 }
 
 // ------------------------------------------------------------------------------------------ data

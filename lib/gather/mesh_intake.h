@@ -48,6 +48,13 @@ class MeshIntake {
   }
   void addFace(CellKind kind, const int64_t* corners, int64_t label);
 
+  // Of labels of the columns above, by their names, and of faces; those of labels that nobody has
+  // in the file may be among them. Once, before the end.
+  void nameLabels(std::vector<LabelName> names);
+
+  // Of those that came, each of which is told of as one of these things.
+  void leaveOutFaces(const std::string& things);
+
   // Told once each, at the end, with how many there were.
   void leaveOut(const std::string& things, uint64_t count = 1) { left_out_[things] += count; }
   void note(const std::string& text);

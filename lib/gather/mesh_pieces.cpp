@@ -27,11 +27,4 @@ void MeshPieces::add(MeshPiece piece) {
   pieces.push_back(std::move(piece));
 }
 
-std::string cutMeshName(const std::string& text) {
-  if (text.size() <= kMaxMeshNameBytes) return text;
-  size_t size = kMaxMeshNameBytes;
-  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
-  return text.substr(0, size);
-}
-
 }  // namespace tetstream

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "schema.h"
 #include "side_faces.h"
 #include "values.h"
 
@@ -43,6 +44,7 @@ struct MeshPieces {
   bool join = false;       // points that pieces share are to be one each
   std::string global_ids;  // the points' array that tells which those are, if the file names one
   std::vector<MeshPiece> pieces;
+  std::vector<LabelName> label_names;        // in any order, of one label maybe several
   std::shared_ptr<SideFaces> faces;          // that are no cells, of the first piece; may be null
   uint64_t point_count = 0, cell_count = 0;  // of all pieces
   std::vector<std::string> notes;            // what was left out, each once
@@ -56,9 +58,5 @@ struct MeshPieces {
 // that comparing names takes short.
 constexpr uint64_t kMaxMeshCount = uint64_t{1} << 56;  // times 9 components of 8 bytes: < 2^63
 constexpr size_t kMaxMeshPieces = 1 << 16;
-constexpr size_t kMaxMeshNameBytes = 255;  // as in checkSchema
-
-// The text, cut to kMaxMeshNameBytes, but not in the middle of a UTF-8 character.
-std::string cutMeshName(const std::string& text);
 
 }  // namespace tetstream

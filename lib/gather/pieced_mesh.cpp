@@ -5,6 +5,7 @@
 #include "face_label_column.h"
 #include "interleaved_cells.h"
 #include "joined_points.h"
+#include "label_names.h"
 #include "mixed_cells.h"
 #include "piece_column.h"
 #include "status.h"
@@ -111,6 +112,8 @@ class PiecedMesh final : public IndexedSource {
     if (mixed_ && mixed_->count(MixedCells::kTriangles) > 0) labelFaces();
     mixed_faces_ = static_cast<uint64_t>(schema_.face_count);
     if (mesh_.faces) schema_.face_count += static_cast<int64_t>(mesh_.faces->count());
+    schema_.label_names = std::move(mesh_.label_names);
+    settleLabelNames(schema_.label_names);
     checkSchema(schema_);
     checkCells();
     if (options_.note)

@@ -28,21 +28,18 @@ Regions<S>::Regions(Core<S>& core) : core_(core) {
   }
 }
 
-// Ids: more than half of the rows differ from all others. Some thousand cells tell.
-constexpr uint32_t kSampledCells = 4096;
-
 template <class S>
 bool Regions<S>::looksLikeIds(int offset, int components) const {
   std::vector<std::vector<int64_t>> rows;
   const uint32_t cells = core_.window.mesh.cellEnd();
-  const uint32_t step = cells / kSampledCells + 1;
+  const uint32_t step = cells / uint32_t{kRowsThatTell} + 1;
   for (uint32_t c = 0; c < cells; c += step) {
     const int64_t* row = core_.window.cellPicks(c) + offset;
     rows.emplace_back(row, row + components);
   }
   std::sort(rows.begin(), rows.end());
   const auto end = std::unique(rows.begin(), rows.end());
-  return static_cast<size_t>(end - rows.begin()) > std::max<size_t>(rows.size() / 2, 16);
+  return areIds(static_cast<size_t>(end - rows.begin()), rows.size());
 }
 
 template <class S>

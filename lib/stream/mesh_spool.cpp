@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "label_names.h"
 #include "status.h"
 
 namespace tetstream {
@@ -69,6 +70,7 @@ void MeshSpool::removeField(size_t column) {
 }
 
 void MeshSpool::removeCellData(size_t column) {
+  removeLabelNames(schema_.label_names, schema_.cell_data[column].name);
   removeAt(schema_.cell_data, cell_data_, column);
 }
 

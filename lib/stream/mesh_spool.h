@@ -22,6 +22,8 @@ class MeshSpool : public IndexedSource {
 
   size_t addField(const Column& column);
   size_t addCellData(const Column& column);
+  // Settled, of what columns there are. Those of a column that is removed go with it.
+  void nameLabels(std::vector<LabelName> names) { schema_.label_names = std::move(names); }
   // With their rows.
   void removeField(size_t column);
   void removeCellData(size_t column);
@@ -49,7 +51,8 @@ class MeshSpool : public IndexedSource {
     cell_data_[column]->place(count, std::move(rows));
   }
   void appendFace(const int64_t corners[3], int64_t label);
-  void lock(uint64_t point);  // of those that came
+  void forgetFaces() { faces_ = openFaces(); }  // that came
+  void lock(uint64_t point);                    // of those that came
   uint64_t pointCount() const { return positions_.rows(); }
   uint64_t cellCount() const { return cells_.rows() + wide_cells_.rows() + placed_cells_.rows(); }
   uint64_t faceCount() const { return faces_->rows(); }

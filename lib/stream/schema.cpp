@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "label_names.h"
 #include "status.h"
 
 namespace tetstream {
@@ -13,12 +14,19 @@ size_t Schema::fieldComponents() const {
   return sum;
 }
 
+std::string cutName(const std::string& text) {
+  if (text.size() <= kMostNameBytes) return text;
+  size_t size = kMostNameBytes;
+  while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
+  return text.substr(0, size);
+}
+
 static void checkColumns(const std::vector<Column>& columns, const char* kind) {
   for (size_t i = 0; i < columns.size(); ++i) {
     const Column& c = columns[i];
-    if (c.name.empty() || c.name.size() > 255)
-      fail(Status::kBadArgument, "%s %zu: a name has 1 to 255 bytes, this one %zu", kind, i,
-           c.name.size());
+    if (c.name.empty() || c.name.size() > kMostNameBytes)
+      fail(Status::kBadArgument, "%s %zu: a name has 1 to %zu bytes, this one %zu", kind, i,
+           kMostNameBytes, c.name.size());
     if (c.components < 1 || c.components > kMaxComponents)
       fail(Status::kBadArgument, "%s \"%s\": %d components, 1 to %d are possible", kind,
            c.name.c_str(), c.components, kMaxComponents);
@@ -35,6 +43,7 @@ void checkSchema(const Schema& schema) {
     fail(Status::kBadArgument, "positions must be float32 or float64");
   checkColumns(schema.fields, "field");
   checkColumns(schema.cell_data, "cell array");
+  checkLabelNames(schema);
 }
 
 void failNotFinite(const std::string& row, const Column& field) {

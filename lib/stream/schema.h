@@ -11,6 +11,11 @@ namespace tetstream {
 
 constexpr int kMaxComponents = 9;  // of one column: a scalar, a vector, ... a 3x3 tensor
 
+constexpr size_t kMostNameBytes = 255;  // of an array's or a label's name
+
+// The text, cut to so many, but not in the middle of a UTF-8 character.
+std::string cutName(const std::string& text);
+
 // A named array: a field (one row per vertex) or cell data (one row per cell). Float fields are
 // interpolated, float cell data averaged by volume; integers are picked, never averaged.
 struct Column {
@@ -20,10 +25,20 @@ struct Column {
   size_t bytesPerRow() const { return static_cast<size_t>(components) * sizeOf(type); }
 };
 
+// What a label means to people: a region or a part of the boundary. Labels are what counts; names
+// go with them from file to file.
+struct LabelName {
+  std::string array;  // of integers, one to a cell, whose label it is; empty: labelled faces'
+  int64_t label = 0;
+  std::string name;
+  bool operator==(const LabelName&) const = default;
+};
+
 struct Schema {
   ScalarType position_type = ScalarType::kFloat32;  // a float type
   std::vector<Column> fields;
   std::vector<Column> cell_data;
+  std::vector<LabelName> label_names;  // of some labels; sorted, see label_names.h
 
   // What is known beforehand; -1 or empty where it is not.
   int64_t vertex_count = -1;
@@ -42,7 +57,8 @@ struct Schema {
 };
 
 // Throws kBadArgument, naming the column: names empty, repeated or longer than 255 bytes,
-// components outside 1..9, unknown types, positions that are not floats.
+// components outside 1..9, unknown types, positions that are not floats; the same of labels' names,
+// and those of no such array and of a label that has one.
 void checkSchema(const Schema& schema);
 
 // Of "point 7": one of its values of a measured field is not finite.
@@ -53,5 +69,10 @@ int findColumn(const std::vector<Column>& columns, const std::string& name);
 // Whether a cell array of this name tells which process had a cell, or whose copy it is, as
 // parallel programs write it: where such parts meet is nothing of the domain's.
 bool namesPartition(const std::string& name);
+// Whether integers are ids and no labels, by some rows of them, of which so many are different.
+constexpr bool areIds(size_t different, size_t rows) {
+  return different > (rows / 2 > 16 ? rows / 2 : 16);
+}
+constexpr uint64_t kRowsThatTell = 4096;  // as a rule, spread over all
 
 }  // namespace tetstream

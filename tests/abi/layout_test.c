@@ -20,7 +20,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_column, name, 0);
   MEMBER(tetstream_column, components, 8);
   MEMBER(tetstream_column, type, 12);
-  CHECK_EQUAL(sizeof(tetstream_stream_info), 104);
+  CHECK_EQUAL(sizeof(tetstream_stream_info), 120);
   MEMBER(tetstream_stream_info, struct_size, 0);
   MEMBER(tetstream_stream_info, position_type, 8);
   MEMBER(tetstream_stream_info, flags, 12);
@@ -36,6 +36,12 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_stream_info, box_min, 80);
   MEMBER(tetstream_stream_info, box_max, 88);
   MEMBER(tetstream_stream_info, face_count, 96);
+  MEMBER(tetstream_stream_info, label_name_count, 104);
+  MEMBER(tetstream_stream_info, label_names, 112);
+  CHECK_EQUAL(sizeof(tetstream_label_name), 24);
+  MEMBER(tetstream_label_name, name, 0);
+  MEMBER(tetstream_label_name, cell_array, 8);
+  MEMBER(tetstream_label_name, label, 16);
   CHECK_EQUAL(sizeof(tetstream_batch), 136);
   MEMBER(tetstream_batch, struct_size, 0);
   MEMBER(tetstream_batch, vertex_count, 8);

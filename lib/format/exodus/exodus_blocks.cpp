@@ -59,7 +59,7 @@ void checkShape(NetcdfFile& file, ExodusBlock& block, bool split, bool faces) {
     why = kOnlyTetrahedra;
   if (why)
     fail(Status::kUnsupported, "%s: %s has elements \"%s\" of %llu nodes; %s", file.name().c_str(),
-         nameOf(block).c_str(), cutMeshName(block.element).c_str(),
+         nameOf(block).c_str(), cutName(block.element).c_str(),
          static_cast<unsigned long long>(block.nodes), why);
   if (known && dimensionOf(cell.kind.shape) == 2 && !faces) block.vtk_type = kVtkLower;
 }
@@ -72,7 +72,7 @@ CellKind ExodusBlock::kind() const {
 
 std::string nameOf(const ExodusBlock& block) {
   std::string text = textOf("element block %lld", static_cast<long long>(block.id));
-  if (!block.name.empty()) text += " (\"" + cutMeshName(block.name) + "\")";
+  if (!block.name.empty()) text += " (\"" + cutName(block.name) + "\")";
   return text;
 }
 

@@ -17,6 +17,7 @@ namespace tetstream {
 
 namespace {
 
+constexpr const char* kBlockId = "block_id";
 constexpr size_t kMaxVariables = 1 << 12;
 
 std::string numbered(const char* name, size_t number) {
@@ -80,7 +81,7 @@ class Exodus {
                                                           uint64_t first, uint64_t held,
                                                           uint64_t needed) {
     if (held != needed || file_->need(variable).count() < first + held)
-      failFile(Status::kBadData, "\"" + cutMeshName(variable) + "\" has not the " +
+      failFile(Status::kBadData, "\"" + cutName(variable) + "\" has not the " +
                                      std::to_string(needed) + " values that are needed");
     return [file = file_, variable, first, held](uint64_t) {
       return file->open(variable, first, held);
@@ -114,12 +115,14 @@ class Exodus {
     else
       takeTypes();
     MeshArray ids{
-        "block_id", ValueType::kInt32, 1, perBlock([](const ExodusBlock& block) {
+        kBlockId, ValueType::kInt32, 1, perBlock([](const ExodusBlock& block) {
           return ValuesPart{block.elements, [id = block.id] { return openSequence(id, 0); }};
         })};
     for (const ExodusBlock& block : blocks_)
       if (block.id != static_cast<int32_t>(block.id)) ids.type = ValueType::kInt64;
     piece_.cell_data.push_back(std::move(ids));
+    for (const ExodusBlock& block : blocks_)
+      mesh_.label_names.push_back({kBlockId, block.id, block.name});
   }
 
   std::function<std::unique_ptr<Values>(uint64_t)> nodesOfCells() const {
@@ -206,7 +209,7 @@ class Exodus {
   }
 
   static std::string shown(const std::string& name, size_t i) {
-    return name.empty() ? numbered("variable", i + 1) : cutMeshName(name);
+    return name.empty() ? numbered("variable", i + 1) : cutName(name);
   }
 
   // ---------------------------------------------------------------------------------- side sets
@@ -218,10 +221,8 @@ class Exodus {
     uint64_t strange = 0;
     for (size_t i = 0; i < ids.size(); ++i) {
       strange += takeSideSet(i, ids[i]);
-      const std::string name = i < names.size() ? names[i] : "";
-      mesh_.addNote(textOf("side set %lld labels faces%s%s%s", static_cast<long long>(ids[i]),
-                           name.empty() ? "" : ", \"", cutMeshName(name).c_str(),
-                           name.empty() ? "" : "\""));
+      if (i < names.size()) mesh_.label_names.push_back({"", ids[i], names[i]});
+      mesh_.addNote(textOf("side set %lld labels faces", static_cast<long long>(ids[i])));
     }
     nodes_.reset();
     const uint64_t again = mesh_.faces->finish();
@@ -304,10 +305,6 @@ class Exodus {
   // ------------------------------------------------------------------------------------ the rest
 
   void tellOfTheRest() {
-    for (const ExodusBlock& block : blocks_)
-      if (!block.name.empty())
-        mesh_.addNote(textOf("block_id %lld \"%s\"", static_cast<long long>(block.id),
-                             cutMeshName(block.name).c_str()));
     const struct {
       const char *variable, *things;
     } left_out[] = {{"ns_prop1", "node sets"},

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "label_column.h"
+
 namespace tetstream {
 
 namespace {
@@ -52,21 +54,13 @@ bool MshLabels::isUsable(size_t column, int64_t least) {
 
 void MshLabels::chooseColumns() {
   const std::vector<Column>& columns = mesh_.schema().cell_data;
-  const auto named = [&](const char* name) {
-    const int found = findColumn(columns, name);
-    return found >= 0 && isIntegerColumn(columns[static_cast<size_t>(found)]) ? found : -1;
-  };
-  const int entity = named(kMshEntity);
-  if (entity >= 0 && isUsable(static_cast<size_t>(entity), 1))
+  const int entity = findColumn(columns, kMshEntity);
+  if (entity >= 0 && isIntegerColumn(columns[static_cast<size_t>(entity)]) &&
+      isUsable(static_cast<size_t>(entity), 1))
     entity_column_ = static_cast<size_t>(entity);
-  const int group = named(kMshPhysical);
-  if (group >= 0) {
-    if (isUsable(static_cast<size_t>(group), 0)) group_column_ = static_cast<size_t>(group);
-    return;
-  }
-  for (size_t i = 0; i < columns.size() && !group_column_; ++i)
-    if (isIntegerColumn(columns[i]) && static_cast<int>(i) != entity && isUsable(i, 0))
-      group_column_ = i;
+  group_column_ = labelColumn(mesh_, kMshPhysical, [&](size_t column) {
+    return static_cast<int>(column) != entity && isUsable(column, 0);
+  });
 }
 
 // A tag is the entity's, or the group's, where that is free; else one above all of them. Cells

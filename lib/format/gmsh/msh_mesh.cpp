@@ -49,10 +49,13 @@ bool MshMesh::isLastInAnotherGroup(CellShape shape, const int64_t* corners, int6
 }
 
 void MshMesh::addFace(CellKind kind, const int64_t* corners, int64_t group, int64_t entity) {
-  if (face_labels == FaceLabels::kUndecided)
-    face_labels = group != 0 ? FaceLabels::kGroups : FaceLabels::kEntities;
+  constexpr const char* kWithoutLabel = "triangles without a label";
+  if (group != 0 && face_labels == FaceLabels::kEntities) {
+    intake->leaveOutFaces(kWithoutLabel);
+    face_labels = FaceLabels::kGroups;
+  }
   const int64_t label = face_labels == FaceLabels::kGroups ? group : entity;
-  if (label == 0) return intake->leaveOut("triangles without a label");
+  if (label == 0) return intake->leaveOut(kWithoutLabel);
   intake->addFace(kind, corners, label);
 }
 

@@ -38,8 +38,8 @@ struct MshMesh {
   std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
   std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
   uint64_t further_groups = 0;                           // that entities are in beside their first
-  // What labels faces: physical groups, unless the first face has none.
-  enum class FaceLabels { kUndecided, kGroups, kEntities } face_labels = FaceLabels::kUndecided;
+  // What labels faces: physical groups, if there is a face of one; others have no label then.
+  enum class FaceLabels { kEntities, kGroups } face_labels = FaceLabels::kEntities;
 
   void checkTag(int64_t tag) const;  // of a node or an element
   // A cell or a face, by its nodes' tags.

@@ -26,7 +26,7 @@ class MshReader {
       readSection(name.substr(1));
     }
     if (!mesh_.intake) file_.failBad("there is no section $Nodes");
-    noteGroups();
+    nameGroups();
     return mesh_.intake->finish();
   }
 
@@ -112,26 +112,27 @@ class MshReader {
     }
   }
 
-  // The numbers of groups are kept, their names have no place.
-  void noteGroups() {
+  // Names of volumes' and surfaces' groups, where those label cells and faces.
+  void nameGroups() {
     if (mesh_.further_groups > 0)
       mesh_.intake->leaveOut("physical groups of entities that are in another one");
-    std::string text;
-    size_t shown = 0;
+    std::vector<LabelName> names;
+    uint64_t left_out = 0;
     for (const auto& [key, name] : mesh_.names) {
-      if (key.first < 2) continue;
-      if (++shown > kShownNames) continue;
-      text += std::string(text.empty() ? "" : ", ") + (key.first == 3 ? "cells " : "faces ") +
-              std::to_string(key.second) + " " + quoted(name);
+      const bool of_cells = key.first == 3 && !mesh_.hints.physical.empty();
+      const bool of_faces = key.first == 2 && mesh_.face_labels == MshMesh::FaceLabels::kGroups;
+      if (of_cells || of_faces)
+        names.push_back({of_cells ? mesh_.hints.physical : "", key.second, name});
+      else
+        ++left_out;
     }
-    if (shown > kShownNames) text += " and " + std::to_string(shown - kShownNames) + " more";
-    if (shown > 0)
-      mesh_.intake->note("the physical groups' numbers are kept, their names are not: " + text);
+    if (left_out > 0)
+      mesh_.intake->leaveOut("names of physical groups that label no cells or faces", left_out);
+    mesh_.intake->nameLabels(std::move(names));
   }
 
   const ReadOptions& options() const { return mesh_.options; }
 
-  static constexpr size_t kShownNames = 20;
   FileScan file_;
   MshMesh mesh_;
   MshData data_;

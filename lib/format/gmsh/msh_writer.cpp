@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "label_names.h"
 #include "mesh_collector.h"
 #include "msh_kinds.h"
 #include "msh_labels.h"
@@ -33,6 +34,7 @@ class MshWriter final : public MeshCollector {
     checkSizes();
     noteLosses();
     writeHead();
+    writeNames();
     if (options().newest) {
       writeEntities();
       writeNodes4();
@@ -128,6 +130,36 @@ class MshWriter final : public MeshCollector {
     for (const Column& c : schema.fields) hint("field", c);
     for (const Column& c : schema.cell_data) hint("cells", c);
     out_->text(text + "$EndComments\n");
+  }
+
+  // The group that a name is of: its dimension and its tag, 0 for none.
+  std::pair<int, int64_t> groupOf(const LabelName& name) const {
+    if (name.array.empty()) return {2, MshLabels::isFaceLabel(name.label) ? name.label : 0};
+    const auto& column = labels_->groups();
+    const bool is_group = column && mesh_->schema().cell_data[*column].name == name.array;
+    return {3, is_group && name.label > 0 && name.label <= INT32_MAX ? name.label : 0};
+  }
+
+  void writeNames() {
+    std::string rows;
+    size_t count = 0;
+    std::vector<LabelName> left_out;
+    for (const LabelName& name : mesh_->schema().label_names) {
+      const auto [dimension, group] = groupOf(name);
+      if (group == 0) {
+        left_out.push_back(name);
+        continue;
+      }
+      ++count;
+      rows += std::to_string(dimension) + " " + std::to_string(group) + " \"" + plain(name.name) +
+              "\"\n";
+    }
+    if (!left_out.empty())
+      note("names of labels that are no physical groups are left out: " +
+           shownLabelNames(left_out));
+    if (count == 0) return;
+    section("PhysicalNames");
+    out_->text(std::to_string(count) + "\n" + rows + "$EndPhysicalNames\n");
   }
 
   // ------------------------------------------------------------------------------------ nodes

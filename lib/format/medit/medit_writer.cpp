@@ -1,7 +1,9 @@
 // Writes MEDIT's meshes, text (.mesh, version 2) or binary (.meshb, versions 1 to 4 as the numbers
 // need), and fields as solutions in a file beside.
+#include <algorithm>
 #include <limits>
 
+#include "label_column.h"
 #include "medit_keywords.h"
 #include "medit_sol.h"
 #include "mesh_collector.h"
@@ -92,8 +94,8 @@ class MeditWriter final : public MeshCollector {
 
   void write(MeshSpool& mesh) override {
     mesh_ = &mesh;
-    cell_reference_ = referenceOf(mesh.schema().cell_data);
-    point_reference_ = referenceOf(mesh.schema().fields);
+    cell_reference_ = cellReference(mesh);
+    point_reference_ = pointReference(mesh.schema().fields);
     version_ = versionOf(mesh);
     MeditOut out(bytes(), binary_, version_);
     writeVertices(out);
@@ -105,15 +107,18 @@ class MeditWriter final : public MeshCollector {
   }
 
  private:
-  // The column of integers that becomes the references: that of the name, or else, of cells, the
-  // first.
-  static int referenceOf(const std::vector<Column>& columns) {
+  // The column of integers that becomes the references of points: that of the name, or the first.
+  static int pointReference(const std::vector<Column>& fields) {
     const auto fits = [](const Column& c) { return c.components == 1 && !isFloat(c.type); };
-    const int named = findColumn(columns, kMeditReference);
-    if (named >= 0) return fits(columns[static_cast<size_t>(named)]) ? named : -1;
-    for (size_t i = 0; i < columns.size(); ++i)
-      if (fits(columns[i])) return static_cast<int>(i);
-    return -1;
+    const int named = findColumn(fields, kMeditReference);
+    if (named >= 0) return fits(fields[static_cast<size_t>(named)]) ? named : -1;
+    const auto first = std::find_if(fields.begin(), fields.end(), fits);
+    return first == fields.end() ? -1 : static_cast<int>(first - fields.begin());
+  }
+
+  static int cellReference(MeshSpool& mesh) {
+    const auto found = labelColumn(mesh, kMeditReference, [](size_t) { return true; });
+    return found ? static_cast<int>(*found) : -1;
   }
 
   // Text has no sizes: its version says float64. Binary has the smallest that holds everything.

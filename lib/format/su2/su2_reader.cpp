@@ -1,5 +1,5 @@
 // Reads SU2's meshes: text of NAME= sections. Points are numbered from 0 in their order; markers
-// label faces, zones label cells.
+// label faces, from 1 in their order, and name the labels; zones label cells.
 #include <algorithm>
 #include <map>
 
@@ -38,7 +38,7 @@ class Su2Reader {
       readSection(takeName(std::move(name)));
     }
     if (!any_points_) file_.failBad("there is no section NPOIN=");
-    noteMarkers();
+    nameMarkers();
     return intake_.finish();
   }
 
@@ -212,14 +212,10 @@ class Su2Reader {
       file_.line();
   }
 
-  void noteMarkers() {
-    if (markers_.empty()) return;
-    std::map<int64_t, std::string> by_label;
-    for (const auto& [name, label] : markers_) by_label[label] = name;
-    std::string text;
-    for (const auto& [label, name] : by_label)
-      text += std::string(text.empty() ? "" : ", ") + std::to_string(label) + " " + name;
-    intake_.note("markers have become labels of faces: " + text);
+  void nameMarkers() {
+    std::vector<LabelName> names;
+    for (const auto& [name, label] : markers_) names.push_back({"", label, name});
+    intake_.nameLabels(std::move(names));
   }
 
   FileScan file_;

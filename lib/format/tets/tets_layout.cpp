@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "checksum.h"
+#include "label_names.h"
 #include "status.h"
 
 namespace tetstream::tets {
@@ -68,6 +69,35 @@ static void appendRecord(std::vector<unsigned char>& out, const Column& column) 
   out.resize(end, 0);
 }
 
+static uint32_t recordBytes(const LabelName& name) {
+  return static_cast<uint32_t>((sizeof(LabelNameRecord) + name.name.size() + 7) & ~size_t{7});
+}
+
+static void appendRecord(std::vector<unsigned char>& out, const Schema& schema,
+                         const LabelName& name) {
+  LabelNameRecord record = {};
+  record.record_bytes = recordBytes(name);
+  record.name_bytes = static_cast<uint32_t>(name.name.size());
+  record.array = name.array.empty() ? -1 : findColumn(schema.cell_data, name.array);
+  record.label = name.label;
+  const size_t end = out.size() + record.record_bytes;
+  append(out, &record, sizeof record);
+  append(out, name.name.data(), name.name.size());
+  out.resize(end, 0);
+}
+
+size_t labelNamesThatFit(const Schema& schema) {
+  Schema without = schema;
+  without.label_names.clear();
+  size_t room = kMaxHeaderBytes - encodeHeader(without).size(), count = 0;
+  for (const LabelName& name : schema.label_names) {
+    if (recordBytes(name) > room) break;
+    room -= recordBytes(name);
+    ++count;
+  }
+  return count;
+}
+
 std::vector<unsigned char> encodeHeader(const Schema& schema) {
   std::vector<unsigned char> section(sizeof(SectionHead));
   HeaderStart start = {};
@@ -87,6 +117,7 @@ std::vector<unsigned char> encodeHeader(const Schema& schema) {
   own.position_type = static_cast<uint32_t>(schema.position_type);
   own.fields = static_cast<uint32_t>(schema.fields.size());
   own.cell_arrays = static_cast<uint32_t>(schema.cell_data.size());
+  own.label_names = static_cast<uint32_t>(schema.label_names.size());
   own.box_offset = static_cast<uint32_t>(section.size() - sizeof(SectionHead));
   // The room is there without a box, too: it is filled in when the stream has ended.
   if (start.box_known) {
@@ -95,6 +126,7 @@ std::vector<unsigned char> encodeHeader(const Schema& schema) {
   } else {
     section.resize(section.size() + 2 * sizeof(double) * schema.boxSize(), 0);
   }
+  for (const LabelName& name : schema.label_names) appendRecord(section, schema, name);
   SectionHead head = makeHead(kHeader, kMustUnderstand);
   head.value = kVersion;
   head.set(own);
@@ -129,18 +161,41 @@ class HeaderReader {
            name_.c_str(), begin + sizeof(SectionHead));
     Column column;
     column.name.resize(record.name_bytes);
-    take(column.name.data(), record.name_bytes);
-    if (column.name.find('\0') != std::string::npos)
-      fail(Status::kBadData, "%s: header: the name described at byte %zu contains a zero byte",
-           name_.c_str(), begin + sizeof(SectionHead));
+    takeName(column.name, begin);
     column.type = static_cast<ScalarType>(record.type);
     column.components =
         record.components <= kMaxComponents ? static_cast<int>(record.components) : 0;
     seek(begin + record.record_bytes);
     return column;
   }
+  LabelName labelName(const std::vector<Column>& cell_data) {
+    LabelNameRecord record;
+    const size_t begin = at_;
+    take(&record, sizeof record);
+    if (record.record_bytes % 8 != 0 || record.record_bytes < sizeof record ||
+        record.name_bytes > record.record_bytes - sizeof record ||
+        record.name_bytes > kMostNameBytes || record.array < -1 ||
+        record.array >= static_cast<int64_t>(cell_data.size()))
+      fail(Status::kBadData,
+           "%s: header: the name of a label described at byte %zu has impossible sizes",
+           name_.c_str(), begin + sizeof(SectionHead));
+    LabelName name;
+    if (record.array >= 0) name.array = cell_data[static_cast<size_t>(record.array)].name;
+    name.label = record.label;
+    name.name.resize(record.name_bytes);
+    takeName(name.name, begin);
+    seek(begin + record.record_bytes);
+    return name;
+  }
 
  private:
+  // Of its size, of the record at `begin`.
+  void takeName(std::string& name, size_t begin) {
+    take(name.data(), name.size());
+    if (name.find('\0') != std::string::npos)
+      fail(Status::kBadData, "%s: header: the name described at byte %zu contains a zero byte",
+           name_.c_str(), begin + sizeof(SectionHead));
+  }
   [[noreturn]] void tooShort() const {
     fail(Status::kBadData, "%s: the header is too short for what it describes", name_.c_str());
   }
@@ -168,6 +223,15 @@ static void checkHeader(const HeaderOwn& own, const std::string& name) {
          name.c_str(), own.fields, own.cell_arrays, kMaxColumns);
 }
 
+// Throws kBadData for what no schema may be.
+static void checkDecoded(const Schema& schema, const std::string& name) {
+  try {
+    checkSchema(schema);
+  } catch (const Error& error) {
+    fail(Status::kBadData, "%s: header: %s", name.c_str(), error.text().c_str());
+  }
+}
+
 Schema decodeHeader(const SectionHead& head, const unsigned char* body, size_t size,
                     const std::string& name) {
   const HeaderOwn own = head.get<HeaderOwn>();
@@ -179,11 +243,7 @@ Schema decodeHeader(const SectionHead& head, const unsigned char* body, size_t s
   schema.position_type = static_cast<ScalarType>(own.position_type);
   for (uint32_t i = 0; i < own.fields; ++i) schema.fields.push_back(in.column());
   for (uint32_t i = 0; i < own.cell_arrays; ++i) schema.cell_data.push_back(in.column());
-  try {
-    checkSchema(schema);
-  } catch (const Error& error) {
-    fail(Status::kBadData, "%s: header: %s", name.c_str(), error.text().c_str());
-  }
+  checkDecoded(schema, name);
   for (const int64_t known : {start.vertices, start.cells, start.front_width, start.front_span,
                               start.front_cells, start.faces})
     if (known < -1)
@@ -202,6 +262,10 @@ Schema decodeHeader(const SectionHead& head, const unsigned char* body, size_t s
     schema.box_min.assign(box.begin(), box.begin() + static_cast<ptrdiff_t>(schema.boxSize()));
     schema.box_max.assign(box.begin() + static_cast<ptrdiff_t>(schema.boxSize()), box.end());
   }
+  for (uint32_t i = 0; i < own.label_names; ++i)
+    schema.label_names.push_back(in.labelName(schema.cell_data));
+  sortLabelNames(schema.label_names);
+  checkDecoded(schema, name);
   return schema;
 }
 

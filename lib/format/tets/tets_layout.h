@@ -91,8 +91,8 @@ static_assert(sizeof(SectionHead) == kAlign);
 
 struct HeaderOwn {
   uint32_t byte_order, position_type, fields, cell_arrays;
-  uint32_t box_offset;  // in the body
-  uint32_t reserved;
+  uint32_t box_offset;   // in the body
+  uint32_t label_names;  // behind the box
 };
 struct ChunkOwn {
   uint64_t first_vertex;
@@ -120,7 +120,7 @@ const char* faultOf(const SectionHead& head);
 
 // ---------------------------------------------------------------------------------- the bodies
 
-struct HeaderStart {  // then one record per field, per cell array, then the box
+struct HeaderStart {  // then a record per field, per cell array, the box, a record per label name
   int64_t vertices, cells, front_width, front_span, front_cells;  // -1: not known
   uint32_t box_known, reserved32;
   int64_t faces;  // labelled; 0: none, or not known
@@ -131,6 +131,14 @@ static_assert(sizeof(HeaderStart) == 64);
 struct ColumnRecord {  // then the name, then zeros up to record_bytes
   uint32_t record_bytes, type, components, name_bytes;
 };
+
+struct LabelNameRecord {  // then the name, then zeros up to record_bytes
+  uint32_t record_bytes, name_bytes;
+  int32_t array;  // which cell array; -1: labelled faces
+  uint32_t reserved;
+  int64_t label;
+};
+static_assert(sizeof(LabelNameRecord) == 24);
 
 struct ChunkStart {  // then the box: minima, maxima; zeros up to 64; then the columns
   uint64_t first_cell, reserved;
@@ -149,6 +157,8 @@ struct Totals {  // then the box
 static_assert(sizeof(Totals) == 64);
 
 std::vector<unsigned char> encodeHeader(const Schema& schema);
+// Of the names of labels, in their order, those for which the header has room.
+size_t labelNamesThatFit(const Schema& schema);
 // Throws kUnsupported for a version from the future. To be asked before anything else of the
 // header.
 void checkVersion(const SectionHead& head, const std::string& name);

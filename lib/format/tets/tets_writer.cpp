@@ -40,13 +40,15 @@ class Writer final : public Sink {
   Writer(std::unique_ptr<ByteSink> bytes, const WriteOptions& options)
       : sink_(std::move(bytes)),
         // A pipe's reader waits for every byte, and nothing of it stays on a disk.
-        compress_(options.compress && sink_->seekable() && Codec::builtIn()) {}
+        compress_(options.compress && sink_->seekable() && Codec::builtIn()),
+        note_(options.note) {}
 
   void begin(const Schema& schema) override;
   void put(const BatchView& batch) override;
   void finish() override;
 
  private:
+  void trimLabelNames();
   uint64_t vertexCount() const { return chunk_first_vertex_ + chunk_->vertexCount(); }
   void checkBatch(const BatchView& batch) const;
   size_t cellsThatFit(const BatchView& batch, size_t first, const Limits& limits,
@@ -68,6 +70,7 @@ class Writer final : public Sink {
 
   std::unique_ptr<ByteSink> sink_;
   bool compress_;
+  std::function<void(const std::string&)> note_;
   Schema schema_;
   Limits limits_ = {};
   size_t vertex_bytes_ = 0, cell_bytes_ = 0;
@@ -94,6 +97,7 @@ void Writer::begin(const Schema& schema) {
         fail(Status::kUnsupported, "%s: the name \"%s\" goes on after a zero byte",
              sink_->name().c_str(), c.name.c_str());
   schema_ = schema;
+  trimLabelNames();
   vertex_bytes_ = 3 * sizeOf(schema.position_type) + 1;
   for (const Column& c : schema.fields) vertex_bytes_ += c.bytesPerRow();
   cell_bytes_ = 4 * sizeof(int64_t) + 1;
@@ -104,6 +108,16 @@ void Writer::begin(const Schema& schema) {
   stream_ = std::make_unique<Stream>(schema_.boxSize());
   chunk_->start(0, 0);
   write(encodeHeader(schema_));
+}
+
+void Writer::trimLabelNames() {
+  std::vector<LabelName>& names = schema_.label_names;
+  const size_t fit = labelNamesThatFit(schema_);
+  if (fit == names.size()) return;
+  if (note_)
+    note_(textOf("%s: there is room for %zu of the %zu names of labels; the others are left out",
+                 sink_->name().c_str(), fit, names.size()));
+  names.resize(fit);
 }
 
 void Writer::checkBatch(const BatchView& batch) const {

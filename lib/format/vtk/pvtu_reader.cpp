@@ -37,9 +37,9 @@ class PieceNames final : XmlFeed {
   void checkRoot(const char* name, Attributes attributes) const {
     const char* type = find(attributes, "type");
     if (std::strcmp(name, "VTKFile") != 0)
-      failHere("this is not a VTK XML file: it begins with <" + cutMeshName(name) + ">");
+      failHere("this is not a VTK XML file: it begins with <" + cutName(name) + ">");
     if (!type || std::strcmp(type, "PUnstructuredGrid") != 0)
-      failHere("the file holds \"" + cutMeshName(type ? type : "") + "\", no PUnstructuredGrid",
+      failHere("the file holds \"" + cutName(type ? type : "") + "\", no PUnstructuredGrid",
                Status::kUnsupported);
   }
 

@@ -78,7 +78,7 @@ std::string decoded(const std::string& word) {
 }
 
 std::string quotedWord(const std::string& word) {
-  return textOf("\"%s\"", cutMeshName(word).c_str());
+  return textOf("\"%s\"", cutName(word).c_str());
 }
 
 enum class Part { kNone, kPoints, kCells };
@@ -124,7 +124,7 @@ class VtkParser {
     // GCC 12 takes a comparison with a literal to read over the end of a short string.
     if (lower(kind) != std::string_view("unstructured_grid"))
       tetstream::fail(Status::kUnsupported, "%s: the file holds \"%s\", no UNSTRUCTURED_GRID",
-                      bytes_.name().c_str(), cutMeshName(kind).c_str());
+                      bytes_.name().c_str(), cutName(kind).c_str());
     scan_.line();
   }
 
@@ -291,7 +291,7 @@ class VtkParser {
   // Sets the name and the number of components; false if the array cannot be kept.
   bool describe(VtkArray& array, const std::string& word, uint64_t components) {
     const std::string name = decoded(word);
-    array.name = cutMeshName(name);
+    array.name = cutName(name);
     if (array.name.size() < name.size())
       note("array \"" + array.name + "\" has a longer name, cut to 255 bytes");
     array.components = static_cast<int>(components);
@@ -385,7 +385,7 @@ class VtkParser {
 
   void skipTable() {
     VtkArray table;
-    table.name = cutMeshName(scan_.word());
+    table.name = cutName(scan_.word());
     table.rows = number("the size of the table", kMaxMeshCount >> 8);
     table.components = 4;
     table.type = ValueType::kUInt8;

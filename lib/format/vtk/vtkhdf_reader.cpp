@@ -131,7 +131,7 @@ class VtkHdf {
   MeshArray makeArray(const std::string& name, const std::string& path, const Hdf5Shape& shape,
                       uint64_t first, uint64_t rows) {
     checkRows(path, shape, first, rows);
-    MeshArray array{cutMeshName(name), shape.type, static_cast<int>(shape.components), {}};
+    MeshArray array{cutName(name), shape.type, static_cast<int>(shape.components), {}};
     array.open = [file = file_, path, begin = first * shape.components,
                   held = rows * shape.components](uint64_t count) {
       if (count != held)
@@ -149,7 +149,7 @@ class VtkHdf {
     const std::string group = "VTKHDF/" + data;
     for (const std::string& name : file_->datasetsOf(group)) {
       const std::string path = textOf("%s/%s", group.c_str(), name.c_str());
-      const std::string shown = textOf("array \"%s\"", cutMeshName(name).c_str());
+      const std::string shown = textOf("array \"%s\"", cutName(name).c_str());
       const Hdf5Shape shape = file_->shapeOf(path);
       if (!shape.numbers) {
         mesh_.addNote(shown + " is left out: its values are no numbers");

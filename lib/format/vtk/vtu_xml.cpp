@@ -80,10 +80,10 @@ class HeaderParser final : XmlFeed {
 
   bool enterRoot(const char* name, Attributes attributes) {
     if (std::strcmp(name, "VTKFile") != 0)
-      failHere("this is not a VTK XML file: it begins with <" + cutMeshName(name) + ">");
+      failHere("this is not a VTK XML file: it begins with <" + cutName(name) + ">");
     const char* type = find(attributes, "type");
     if (!type || std::strcmp(type, "UnstructuredGrid") != 0)
-      failHere("the file holds \"" + cutMeshName(type ? type : "") + "\", no UnstructuredGrid",
+      failHere("the file holds \"" + cutName(type ? type : "") + "\", no UnstructuredGrid",
                Status::kUnsupported);
     if (const char* order = find(attributes, "byte_order")) {
       file_.big_endian = std::strcmp(order, "BigEndian") == 0;
@@ -95,8 +95,7 @@ class HeaderParser final : XmlFeed {
       if (file_.word_bytes == 4 && std::strcmp(header, "UInt32") != 0)
         failHere("header_type is neither UInt32 nor UInt64");
     }
-    if (const char* compressor = find(attributes, "compressor"))
-      compressor_ = cutMeshName(compressor);
+    if (const char* compressor = find(attributes, "compressor")) compressor_ = cutName(compressor);
     file_.compressor = findVtuCompressor(compressor_);
     return true;
   }
@@ -160,7 +159,7 @@ class HeaderParser final : XmlFeed {
     for (int i = 0; i < 4; ++i)
       if (std::strcmp(name, names[i]) == 0) section_ = static_cast<Section>(i + 1);
     const char* ids = section_ == Section::kPointData ? find(attributes, "GlobalIds") : nullptr;
-    if (ids) file_.global_ids = cutMeshName(ids);
+    if (ids) file_.global_ids = cutName(ids);
     return section_ != Section::kOther;
   }
 
@@ -210,8 +209,7 @@ class HeaderParser final : XmlFeed {
       if (data || std::strcmp(element, "DataArray") != 0)
         file_.addNote("array \"" + array.name + "\" is left out: its values are no numbers");
       else
-        failHere("an array of points or cells has the type \"" + cutMeshName(type ? type : "") +
-                 "\"");
+        failHere("an array of points or cells has the type \"" + cutName(type ? type : "") + "\"");
       return std::strcmp(element, "DataArray") == 0;
     }
     if (!setComponents(array, attributes, data)) return true;
@@ -223,11 +221,11 @@ class HeaderParser final : XmlFeed {
   // Arrays without a name are numbered over the data of their piece.
   std::string nameOf(const char* name) {
     const bool field = section_ == Section::kPointData;
-    if (!field && section_ != Section::kCellData) return name ? cutMeshName(name) : "";
+    if (!field && section_ != Section::kCellData) return name ? cutName(name) : "";
     if (name && *name) {
-      if (std::strlen(name) > kMaxMeshNameBytes)
-        file_.addNote("array \"" + cutMeshName(name) + "\" has a longer name, cut to 255 bytes");
-      return cutMeshName(name);
+      if (std::strlen(name) > kMostNameBytes)
+        file_.addNote("array \"" + cutName(name) + "\" has a longer name, cut to 255 bytes");
+      return cutName(name);
     }
     const VtuPiece& piece = file_.pieces.back();
     const size_t number = (field ? piece.point_data : piece.cell_data).size() + 1;

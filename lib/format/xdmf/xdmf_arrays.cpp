@@ -82,14 +82,14 @@ std::string XdmfArrays::placeOf(const XdmfItem& item) {
 }
 
 MeshArray XdmfArrays::arrayOf(const XdmfItem& item, const std::string& name, int components) {
-  MeshArray array{cutMeshName(name), ValueType::kFloat32, components, {}};
+  MeshArray array{cutName(name), ValueType::kFloat32, components, {}};
   if (item.sizes.empty()) failItem(item, Status::kBadData, "a DataItem has no Dimensions");
   if (item.is_slab) return ofSlab(item, std::move(array));
   if (sameWord(item.format, "XML")) return ofText(item, std::move(array));
   if (sameWord(item.format, "HDF")) return ofHdf5(item, std::move(array));
   if (sameWord(item.format, "Binary")) return ofRawFile(item, std::move(array));
   failItem(item, Status::kUnsupported,
-           "values in the format \"" + cutMeshName(item.format) + "\" are not read");
+           "values in the format \"" + cutName(item.format) + "\" are not read");
 }
 
 MeshArray XdmfArrays::ofText(const XdmfItem& item, MeshArray array) {
@@ -117,7 +117,7 @@ ValueType XdmfArrays::typeOfRaw(const XdmfItem& item) const {
     if (sameWord(item.kind, raw.kind) && (raw.precision == 0 || raw.precision == item.precision))
       return raw.type;
   failItem(item, Status::kUnsupported,
-           "values of the type \"" + cutMeshName(item.kind) + "\" of " +
+           "values of the type \"" + cutName(item.kind) + "\" of " +
                std::to_string(item.precision) + " bytes are not read");
 }
 
@@ -125,12 +125,12 @@ MeshArray XdmfArrays::ofRawFile(const XdmfItem& item, MeshArray array) {
   array.type = typeOfRaw(item);
   if (!sameWord(item.compression, "Raw"))
     failItem(item, Status::kUnsupported,
-             "values with the compression \"" + cutMeshName(item.compression) + "\" are not read");
+             "values with the compression \"" + cutName(item.compression) + "\" are not read");
   const bool big = sameWord(item.order, "Big");
   const bool native = sameWord(item.order, "Native");
   if (!big && !native && !sameWord(item.order, "Little"))
     failItem(item, Status::kUnsupported,
-             "values in the byte order \"" + cutMeshName(item.order) + "\" are not read");
+             "values in the byte order \"" + cutName(item.order) + "\" are not read");
   const std::string name = textOfItem(item);
   if (name.empty()) failItem(item, Status::kBadData, "the name of a file is missing");
   std::shared_ptr<ByteSource>& file = raw_files_[name];
@@ -138,7 +138,7 @@ MeshArray XdmfArrays::ofRawFile(const XdmfItem& item, MeshArray array) {
   const uint64_t held = item.count(), size = file->size();
   if (item.seek > size || held > (size - item.seek) / sizeOf(array.type))
     failItem(item, Status::kBadData,
-             "\"" + cutMeshName(name) + "\" has " + std::to_string(size) +
+             "\"" + cutName(name) + "\" has " + std::to_string(size) +
                  " bytes, fewer than the Dimensions and the Seek need");
   array.open = [file, held, type = array.type, seek = item.seek,
                 big = native ? std::endian::native == std::endian::big : big](uint64_t count) {
@@ -225,19 +225,19 @@ MeshArray XdmfArrays::ofHdf5(const XdmfItem& item, MeshArray array) {
   const DatasetName dataset = splitReference(reference);
   if (dataset.file.empty() || dataset.path.empty())
     failItem(item, Status::kBadData,
-             "\"" + cutMeshName(reference) + "\" names no dataset, as FILE:/PATH does");
+             "\"" + cutName(reference) + "\" names no dataset, as FILE:/PATH does");
   const std::string name = pathBeside(bytes_->name(), dataset.file);
   const std::string path = dataset.path;
   std::shared_ptr<Hdf5File>& file = files_[name];
   if (!file) file = openHdf5(openFile(name));
   const Hdf5Turn turn;
   if (!file->has(path))
-    failItem(item, Status::kBadData, "there is no dataset \"" + cutMeshName(reference) + "\"");
+    failItem(item, Status::kBadData, "there is no dataset \"" + cutName(reference) + "\"");
   const Hdf5Shape shape = file->shapeOf(path);
   const uint64_t held = shape.rows * shape.components;
   if (!shape.numbers || held != item.count())
     failItem(item, Status::kBadData,
-             "\"" + cutMeshName(reference) + "\" has not the " + std::to_string(item.count()) +
+             "\"" + cutName(reference) + "\" has not the " + std::to_string(item.count()) +
                  " numbers of the Dimensions");
   array.type = shape.type;
   array.open = [file, path, held](uint64_t count) {

@@ -50,7 +50,7 @@ class Xdmf {
   [[noreturn]] void failFile(Status status, const std::string& text) const {
     fail(status, "%s: %s", mesh_.name.c_str(), text.c_str());
   }
-  std::string nameOf(int grid) const { return "grid \"" + cutMeshName(at(grid).name) + "\""; }
+  std::string nameOf(int grid) const { return "grid \"" + cutName(at(grid).name) + "\""; }
 
   // ------------------------------------------------------------------------------- which grids
 
@@ -160,7 +160,7 @@ class Xdmf {
       failFile(Status::kBadData, nameOf(grid) + " has no topology or no geometry");
     if (vtkTypeOfXdmf(topology->type) < 0)
       failFile(Status::kUnsupported, nameOf(grid) + " has a topology of the type \"" +
-                                         cutMeshName(topology->type) + "\", which is not read");
+                                         cutName(topology->type) + "\", which is not read");
     MeshPiece piece;
     addPoints(*geometry, piece);
     addXdmfCells(*topology, arrays_, options_.temp_dir, piece);
@@ -175,7 +175,7 @@ class Xdmf {
       failFile(Status::kUnsupported, "a geometry of the type \"" + geometry.type +
                                          "\" has no third coordinate, and so no tetrahedra");
     if (!apart && (!sameWord(geometry.type, "XYZ") || count % 3 != 0))
-      failFile(Status::kUnsupported, "a geometry of the type \"" + cutMeshName(geometry.type) +
+      failFile(Status::kUnsupported, "a geometry of the type \"" + cutName(geometry.type) +
                                          "\" is not read, or it has not three coordinates a point");
     if (!apart) {
       piece.point_count = count / 3;
@@ -198,15 +198,15 @@ class Xdmf {
   void addAttributes(int grid, MeshPiece& piece) {
     for (const XdmfAttribute& attribute : at(grid).attributes) {
       const bool of_points = sameWord(attribute.center, "Node");
-      const std::string shown = textOf("array \"%s\"", cutMeshName(attribute.name).c_str());
+      const std::string shown = textOf("array \"%s\"", cutName(attribute.name).c_str());
       const uint64_t rows = of_points ? piece.point_count : piece.cell_count;
       auto& list = of_points ? piece.point_data : piece.cell_data;
       if (!of_points && !sameWord(attribute.center, "Cell")) {
-        mesh_.addNote(shown + " is left out: it is of " + cutMeshName(attribute.center));
+        mesh_.addNote(shown + " is left out: it is of " + cutName(attribute.center));
       } else if (attribute.is_function || attribute.items.size() != 1) {
         mesh_.addNote(shown + " is left out: it is no list of values, but a function");
       } else if (std::any_of(list.begin(), list.end(), [&](const MeshArray& other) {
-                   return other.name == cutMeshName(attribute.name);
+                   return other.name == cutName(attribute.name);
                  })) {
         mesh_.addNote(shown + " is left out: there is another one of its name");
       } else if (rows > 0) {

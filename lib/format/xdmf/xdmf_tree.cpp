@@ -55,7 +55,7 @@ class XdmfTree final : XmlFeed {
   Open kindOf(const char* name, Attributes attributes) {
     if (open_.empty()) {
       if (std::strcmp(name, "Xdmf") != 0)
-        failHere("this is no XDMF file: it begins with <" + cutMeshName(name) + ">");
+        failHere("this is no XDMF file: it begins with <" + cutName(name) + ">");
       return kRoot;
     }
     const Open in = open_.back();
@@ -87,8 +87,7 @@ class XdmfTree final : XmlFeed {
     else if (sameWord(type, "Tree"))
       grid.kind = XdmfGrid::kSpatial;
     else if (!sameWord(type, "Uniform"))
-      failHere("a grid of the type \"" + cutMeshName(type) + "\" is not read",
-               Status::kUnsupported);
+      failHere("a grid of the type \"" + cutName(type) + "\" is not read", Status::kUnsupported);
     grid.parent = grid_;
     grid_ = static_cast<int>(grids_.size());
     grids_.push_back(std::move(grid));
@@ -137,7 +136,7 @@ class XdmfTree final : XmlFeed {
     const std::string type = wordOf(attributes, "ItemType", old_slab ? "HyperSlab" : "Uniform");
     const bool is_slab = sameWord(type, "HyperSlab");
     if ((!is_slab && !sameWord(type, "Uniform")) || find(attributes, "Reference"))
-      failHere("a DataItem of the type \"" + cutMeshName(type) + "\" is not read, nor a reference",
+      failHere("a DataItem of the type \"" + cutName(type) + "\" is not read, nor a reference",
                Status::kUnsupported);
     if (++item_count_ > kMaxItems) failHere("there are too many arrays", Status::kUnsupported);
     XdmfItem item;
@@ -170,7 +169,7 @@ class XdmfTree final : XmlFeed {
       const std::from_chars_result r = std::from_chars(at, end, size);
       if (r.ec != std::errc() || size > kMaxMeshCount ||
           (size > 0 && count > 9 * kMaxMeshCount / size))
-        failHere("the Dimensions \"" + cutMeshName(text) + "\" are none");
+        failHere("the Dimensions \"" + cutName(text) + "\" are none");
       count *= size;
       item.sizes.push_back(size);
       at = r.ptr;

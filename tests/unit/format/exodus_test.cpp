@@ -36,8 +36,10 @@ TEST(Exodus, IsReadInEachLayout) {
         EXPECT_EQ(valuesAs<float>(mesh.cell_data[1]), (std::vector<float>{0, 0.75}));
         EXPECT_TRUE(hasNote(mesh, "of 3 time steps, 0 to 2, step 2 is read, at time 1"));
         EXPECT_TRUE(hasNote(mesh, "\"rho\" has no value at 1 elements"));
-        EXPECT_TRUE(hasNote(mesh, "block_id 30 \"rock\""));
-        EXPECT_TRUE(hasNote(mesh, "side set 7 labels faces, \"inlet\""));
+        EXPECT_EQ(mesh.schema.label_names,
+                  (std::vector<LabelName>{
+                      {"", 7, "inlet"}, {"block_id", 20, "sand"}, {"block_id", 30, "rock"}}));
+        EXPECT_TRUE(hasNote(mesh, "side set 7 labels faces"));
         EXPECT_TRUE(hasNote(mesh, "2 node sets are left out"));
       }
 }

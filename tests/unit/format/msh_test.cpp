@@ -67,15 +67,41 @@ TEST(Msh, ReadsTagsWithGapsGroupsFacesAndData) {
   }
 }
 
-TEST(Msh, TellsTheNamesOfGroupsAndWhatIsLeftOut) {
+TEST(Msh, ReadsTheNamesOfGroupsAndTellsWhatIsLeftOut) {
   std::vector<std::string> notes;
-  openText(openMsh, kSparse2, {}, &notes);
-  EXPECT_TRUE(anyNote(notes, "cells 4 \"steel\""));
-  EXPECT_TRUE(anyNote(notes, "faces 9 \"outer wall\""));
+  std::string text = kSparse2;
+  text.replace(text.find("2\n2 9"), 5, "3\n1 9 \"edge\"\n2 9");
+  const Input input = openText(openMsh, text, {}, &notes);
+  EXPECT_EQ(input.schema().label_names,
+            (std::vector<LabelName>{{"", 9, "outer wall"}, {"gmsh:physical", 4, "steel"}}));
+  EXPECT_TRUE(anyNote(notes, "1 names of physical groups that label no cells or faces are left"));
   EXPECT_TRUE(anyNote(notes, "1 points are left out"));
   notes.clear();
   openText(openMsh, kSparse4, {}, &notes);
   EXPECT_TRUE(anyNote(notes, "1 physical groups of entities that are in another one"));
+}
+
+// Physical groups label faces if one has any, wherever it comes; entities do where none has.
+TEST(Msh, LabelsFacesByGroupsIfThereAreAny) {
+  const std::string before(kSparse2, std::strstr(kSparse2, "$Elements"));
+  const auto facesWith = [&](const char* first, const char* second, const char* third,
+                             std::vector<std::string>* notes) {
+    Input input = openText(openMsh,
+                           before + "$Elements\n5\n10 2 2 " + first + " 70 3 4\n11 2 2 " + second +
+                               " 3 4 5\n12 2 2 " + third +
+                               " 70 3 900000000000\n20 4 2 4 1 70 3 900000000000 4\n"
+                               "30 4 2 4 1 3 900000000000 4 5\n$EndElements\n",
+                           {}, notes);
+    return facesOf(input);
+  };
+  std::vector<std::string> notes;
+  EXPECT_EQ(facesWith("0 6", "0 7", "9 8", &notes), (std::vector<TestFace>{{0, 1, 2, 9}}));
+  EXPECT_TRUE(anyNote(notes, "2 triangles without a label are left out"));
+  notes.clear();
+  EXPECT_EQ(facesWith("9 6", "0 7", "0 8", &notes), (std::vector<TestFace>{{0, 1, 3, 9}}));
+  EXPECT_TRUE(anyNote(notes, "2 triangles without a label are left out"));
+  EXPECT_EQ(facesWith("0 6", "0 7", "0 8", &notes),
+            (std::vector<TestFace>{{0, 1, 3, 6}, {1, 3, 4, 7}, {0, 1, 2, 8}}));
 }
 
 // As Gmsh writes version 2: an element is there for each group that its entity is in, with a number

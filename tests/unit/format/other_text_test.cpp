@@ -20,14 +20,14 @@ const char kSu2[] =
     "5 0 1 2\n";
 
 TEST(Su2, ReadsZonesAndMarkers) {
-  std::vector<std::string> notes;
-  Input input = openText(openSu2, kSu2, {}, &notes);
+  Input input = openText(openSu2, kSu2);
   const SvMesh m = readAll(input);
   EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {4, 5, 6, 7}}));
   EXPECT_EQ(m.positions[12], 5);
   EXPECT_EQ(m.cell_data[0], (std::vector<double>{1, 2}));
   EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 1}, {5, 6, 7, 2}, {4, 5, 6, 1}}));
-  EXPECT_TRUE(anyNote(notes, "1 wall, 2 inlet"));
+  EXPECT_EQ(input.schema().label_names,
+            (std::vector<LabelName>{{"", 1, "wall"}, {"", 2, "inlet"}}));
 }
 
 TEST(Su2, ReadsTextBehindAByteOrderMark) {
