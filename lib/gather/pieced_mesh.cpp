@@ -109,13 +109,13 @@ class PiecedMesh final : public IndexedSource {
     schema_.cell_count =
         static_cast<int64_t>(mixed_ ? mixed_->count(MixedCells::kTetrahedra) : mesh_.cell_count);
     schema_.face_count = 0;
+    checkCells();
     if (mixed_ && mixed_->count(MixedCells::kTriangles) > 0) labelFaces();
     mixed_faces_ = static_cast<uint64_t>(schema_.face_count);
     if (mesh_.faces) schema_.face_count += static_cast<int64_t>(mesh_.faces->count());
     schema_.label_names = std::move(mesh_.label_names);
     settleLabelNames(schema_.label_names);
     checkSchema(schema_);
-    checkCells();
     if (options_.note)
       for (const std::string& note : mesh_.notes) options_.note(mesh_.name + ": " + note);
   }
@@ -230,14 +230,26 @@ class PiecedMesh final : public IndexedSource {
           noteUnlike(mesh_, array.name);
   }
 
+  // The first ones of a cell array, that tell.
+  void readTriangleRows(size_t column, std::vector<int64_t>& rows) {
+    PieceColumnPlan plan = cell_data_[column].plan();
+    plan.type = ScalarType::kInt64;
+    PieceColumn wide(mesh_, std::move(plan));
+    rows.resize(static_cast<size_t>(
+        std::min<uint64_t>(kRowsThatTell, mixed_->count(MixedCells::kTriangles))));
+    mixed_->readRows(MixedCells::kTriangles, 0, rows.size(), sizeof rows[0], rows.data(),
+                     [&](uint64_t cell, size_t n, void* to) { wide.read(cell, n, to); });
+  }
+
   // By one cell array, which is nothing else if only faces have it.
   void labelFaces() {
     const auto faces = static_cast<long long>(mixed_->count(MixedCells::kTriangles));
-    const int by = faceLabelColumn(schema_.cell_data);
+    const int by = faceLabelColumn(
+        schema_.cell_data, [this](size_t column, auto& rows) { readTriangleRows(column, rows); });
     if (by < 0)
       return mesh_.addNote(
           textOf("%lld triangles are left out: there is no cell array of integers, one to "
-                 "a cell, that could label them as faces",
+                 "a cell, that could label them as faces, but for ids and ranks of processes",
                  faces));
     const auto place = static_cast<std::ptrdiff_t>(by);
     const std::string name = schema_.cell_data[static_cast<size_t>(by)].name;

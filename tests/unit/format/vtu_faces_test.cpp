@@ -50,6 +50,34 @@ TEST(VtuFaces, AreTrianglesLabelledByTheArrayOfRegions) {
     }
 }
 
+// As ParaView's and parallel programs' files have them beside labels, and before.
+TEST(VtuFaces, AreNotLabelledByIdsOrRanks) {
+  VtuTestPiece piece = twoCellPiece();
+  std::vector<int64_t> points = {0, 1, 2, 3, 1, 2, 3, 4}, ends = {4, 8}, types = {10, 10};
+  for (int i = 0; i < 40; ++i) {
+    points.insert(points.end(), {0, 1, 2});
+    ends.push_back(ends.back() + 3);
+    types.push_back(5);
+  }
+  piece.cells = types.size();
+  std::vector<int64_t> ids, ranks, labels;
+  for (int64_t i = 0; i < 42; ++i)
+    ids.push_back(100 + i), ranks.push_back(i % 2), labels.push_back(i % 3);
+  piece.cells_element = {{"Int64", "connectivity", 1, {}, points},
+                         {"Int64", "offsets", 1, {}, ends},
+                         {"UInt8", "types", 1, {}, types}};
+  piece.cell_data = {{"Int64", "vtkOriginalCellIds", 1, {}, ids},
+                     {"Int32", "mpi_rank", 1, {}, ranks},
+                     {"Int32", "wall", 1, {}, labels}};
+  VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  EXPECT_TRUE(hasNote(mesh, "by the cell array \"wall\""));
+  EXPECT_EQ(mesh.face_labels, std::vector<int64_t>(labels.begin() + 2, labels.end()));
+  piece.cell_data.pop_back();
+  mesh = readVtu(makeVtu({piece}, {}));
+  EXPECT_TRUE(hasNote(mesh, "40 triangles are left out"));
+  EXPECT_EQ(mesh.schema.face_count, 0);
+}
+
 TEST(VtuFaces, OfSeveralPiecesAreReadEndToEnd) {
   VtuTestPiece plain = twoCellPiece(), empty = twoCellPiece();
   plain.cell_data.insert(plain.cell_data.begin(), {"Float64", "heat", 1, {1, 2}, {}});
