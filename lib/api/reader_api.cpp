@@ -40,6 +40,10 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   std::shared_ptr<Waiting> waiting = bytes->waiting();
   const std::string name = bytes->name();
   reader.input = format.open(std::move(bytes), options);
+  if (options.step > 0 && !reader.input.has_steps)
+    fail(Status::kBadArgument,
+         "%s: there is no time step %lld (option step, --step): there are none to choose from",
+         name.c_str(), static_cast<long long>(options.step));
   reader.input.stays_with_caller = false;
   reader.input.waiting = std::move(waiting);
   reader.input.name = name;

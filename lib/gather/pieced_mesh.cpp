@@ -360,12 +360,14 @@ static int findGlobalIds(const Schema& schema, const std::string& named) {
   return usable(found) ? found : -1;
 }
 
-std::unique_ptr<IndexedSource> openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
+Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
   JoinPlan plan;
   if (mesh.join)
     for (const MeshPiece& piece : mesh.pieces)
       if (piece.point_count > 0) plan.first_points.push_back(piece.first_point);
   const std::string name = mesh.name, global_ids = mesh.global_ids;
+  Input input;
+  input.has_steps = mesh.has_steps;
   auto opened = std::make_unique<PiecedMesh>(std::move(mesh), options);
   plan.global_ids = findGlobalIds(opened->schema(), global_ids);
   plan.temp_dir = options.temp_dir;
@@ -375,8 +377,9 @@ std::unique_ptr<IndexedSource> openPiecedMesh(MeshPieces mesh, const ReadOptions
   if (plan.first_points.size() > 1) joined = std::make_shared<PointJoin>(*opened, plan);
   if (joined && !joined->changed()) joined.reset();
   opened->takeCells(joined.get());
-  if (!joined) return opened;
-  return joinPoints(std::move(opened), std::move(joined));
+  input.indexed = std::move(opened);
+  if (joined) input.indexed = joinPoints(std::move(input.indexed), std::move(joined));
+  return input;
 }
 
 }  // namespace tetstream

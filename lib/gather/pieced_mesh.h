@@ -10,6 +10,6 @@
 namespace tetstream {
 
 // Checks that every array holds what the counts need and tells the notes.
-std::unique_ptr<IndexedSource> openPiecedMesh(MeshPieces mesh, const ReadOptions& options);
+Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options);
 
 }  // namespace tetstream

@@ -19,6 +19,7 @@ int64_t parseStep(const std::string& text) {
 
 uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options,
                     const std::function<double(uint64_t)>& time) {
+  mesh.has_steps = true;
   const uint64_t step = options.step == kLastStep ? count - 1 : static_cast<uint64_t>(options.step);
   if (step >= count)
     fail(Status::kBadArgument,

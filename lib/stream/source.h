@@ -88,7 +88,8 @@ struct Input {
   // Where reading may wait for somebody at the other end: no thread reads it that others wait for,
   // and it is ended when that has been read, so it is for a stream that is not read again.
   std::shared_ptr<Waiting> waiting = {};
-  std::string name = {};  // of the file that it is read from; empty: of none
+  std::string name = {};   // of the file that it is read from; empty: of none
+  bool has_steps = false;  // of time, of which one was chosen
   const Schema& schema() const { return stream ? stream->schema() : indexed->schema(); }
 };
 

@@ -116,6 +116,13 @@ expect 0 info steps.pvd
 contains "$err" "of 3 time steps, 0 to 2, step 2 is read, at time 0.5"
 expect_error 1 "there is no time step 3 (option step, --step): there are 0 to 2" \
   convert steps.pvd none.tets --step 3
+for file in step100.vtu step.tets step.msh; do
+  [[ $file == *.vtu ]] || expect 0 convert step100.vtu $file --quiet
+  expect_error 1 "$file: there is no time step 1 (option step, --step): there are none" \
+    info $file --step 1
+  expect 0 info $file --step first
+  expect 0 info $file --step 0
+done
 expect_error 1 '"next" is neither first nor last nor a number from 0' info steps.pvd --step next
 rm -f step*
 

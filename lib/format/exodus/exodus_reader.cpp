@@ -338,9 +338,7 @@ class Exodus {
 Input openExodus(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   MeshPieces mesh;
   Exodus(makeSeekable(std::move(bytes), options.temp_dir), options, mesh).read();
-  Input input;
-  input.indexed = openPiecedMesh(std::move(mesh), options);
-  return input;
+  return openPiecedMesh(std::move(mesh), options);
 }
 
 }  // namespace tetstream

@@ -92,9 +92,7 @@ Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
       addVtuPieces(mesh, pool->add(path), of_file);
   }
   mesh.name = bytes->name();
-  Input input;
-  input.indexed = openPiecedMesh(std::move(mesh), options);
-  return input;
+  return openPiecedMesh(std::move(mesh), options);
 }
 
 }  // namespace tetstream

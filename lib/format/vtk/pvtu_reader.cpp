@@ -63,9 +63,7 @@ Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   addPvtuPieces(mesh, *pool, *bytes, options);
   mesh.name = bytes->name();
   if (mesh.pieces.empty()) fail(Status::kBadData, "%s: there is no <Piece>", mesh.name.c_str());
-  Input input;
-  input.indexed = openPiecedMesh(std::move(mesh), options);
-  return input;
+  return openPiecedMesh(std::move(mesh), options);
 }
 
 }  // namespace tetstream

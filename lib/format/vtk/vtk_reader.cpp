@@ -115,9 +115,7 @@ Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   mesh.form = vtk->file.offsets ? CellForm::kOffsets : CellForm::kInterleaved;
   mesh.notes = vtk->file.notes;
   mesh.add(pieceOf(vtk));
-  Input input;
-  input.indexed = openPiecedMesh(std::move(mesh), options);
-  return input;
+  return openPiecedMesh(std::move(mesh), options);
 }
 
 }  // namespace tetstream

@@ -199,9 +199,7 @@ class VtkHdf {
 Input openVtkHdf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   MeshPieces mesh;
   VtkHdf(makeSeekable(std::move(bytes), options.temp_dir), options, mesh).read();
-  Input input;
-  input.indexed = openPiecedMesh(std::move(mesh), options);
-  return input;
+  return openPiecedMesh(std::move(mesh), options);
 }
 
 }  // namespace tetstream

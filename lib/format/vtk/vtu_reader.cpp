@@ -12,9 +12,7 @@ namespace tetstream {
 Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   MeshPieces mesh;
   addVtuPieces(mesh, makeSeekable(std::move(bytes), options.temp_dir), options);
-  Input input;
-  input.indexed = openPiecedMesh(std::move(mesh), options);
-  return input;
+  return openPiecedMesh(std::move(mesh), options);
 }
 
 }  // namespace tetstream

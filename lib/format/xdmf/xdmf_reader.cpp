@@ -293,9 +293,7 @@ Input openXdmf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   const std::shared_ptr<ByteSource> shared = makeSeekable(std::move(bytes), options.temp_dir);
   MeshPieces mesh;
   Xdmf(shared, options, mesh).read();
-  Input input;
-  input.indexed = openPiecedMesh(std::move(mesh), options);
-  return input;
+  return openPiecedMesh(std::move(mesh), options);
 }
 
 }  // namespace tetstream
