@@ -22,6 +22,10 @@ StreamInfo::StreamInfo(const tetstream_stream_info& info)
     const tetstream_column& c = info.cell_data[i];
     addCellData(c.name, c.components, c.type);
   }
+  for (int64_t i = 0; i < info.label_name_count; ++i) {
+    const tetstream_label_name& n = info.label_names[i];
+    addLabelName(n.cell_array, n.label, n.name);
+  }
   if (info.box_min) box_min_.assign(info.box_min, info.box_min + box);
   if (info.box_max) box_max_.assign(info.box_max, info.box_max + box);
 }
@@ -40,6 +44,13 @@ void StreamInfo::addCellData(const char* name, int32_t components, int32_t type)
   add(cell_data_, name, components, type);
 }
 
+void StreamInfo::addLabelName(const char* cell_array, int64_t label, const char* name) {
+  if (!name) failArgument("a label's name is none");
+  const bool is_of_cells = cell_array && *cell_array;
+  label_names_.push_back({names_.emplace_back(name).c_str(),
+                          is_of_cells ? names_.emplace_back(cell_array).c_str() : nullptr, label});
+}
+
 static const tetstream_column& columnAt(const std::vector<tetstream_column>& columns,
                                         int32_t index) {
   if (index < 0 || static_cast<size_t>(index) >= columns.size())
@@ -53,6 +64,17 @@ const tetstream_column& StreamInfo::field(int32_t index) const {
 
 const tetstream_column& StreamInfo::cellData(int32_t index) const {
   return columnAt(cell_data_, index);
+}
+
+const tetstream_label_name& StreamInfo::labelName(int64_t index) const {
+  if (index < 0 || index >= labelNameCount())
+    failArgument("there is no name of a label " + std::to_string(index));
+  return label_names_[static_cast<size_t>(index)];
+}
+
+const char* StreamInfo::labelNameCellArray(int64_t index) const {
+  const char* const cell_array = labelName(index).cell_array;
+  return cell_array ? cell_array : "";
 }
 
 ArrayView StreamInfo::view(const std::vector<double>& box) {
@@ -76,6 +98,8 @@ tetstream_stream_info StreamInfo::info() const {
   out.front_cells = front_cells;
   out.box_min = box_min_.empty() ? nullptr : box_min_.data();
   out.box_max = box_max_.empty() ? nullptr : box_max_.data();
+  out.label_name_count = labelNameCount();
+  out.label_names = label_names_.data();
   return out;
 }
 

@@ -22,6 +22,8 @@ class StreamInfo {
 
   void addField(const char* name, int32_t components, int32_t type);
   void addCellData(const char* name, int32_t components, int32_t type);
+  // Of a label of that cell array, or, where it is null or empty, of faces.
+  void addLabelName(const char* cell_array, int64_t label, const char* name);
   int32_t fieldCount() const { return static_cast<int32_t>(fields_.size()); }
   int32_t cellDataCount() const { return static_cast<int32_t>(cell_data_.size()); }
   const char* fieldName(int32_t index) const { return field(index).name; }
@@ -30,6 +32,10 @@ class StreamInfo {
   const char* cellDataName(int32_t index) const { return cellData(index).name; }
   int32_t cellDataComponents(int32_t index) const { return cellData(index).components; }
   int32_t cellDataType(int32_t index) const { return cellData(index).type; }
+  int64_t labelNameCount() const { return static_cast<int64_t>(label_names_.size()); }
+  const char* labelNameCellArray(int64_t index) const;  // "": faces
+  int64_t labelNameLabel(int64_t index) const { return labelName(index).label; }
+  const char* labelNameText(int64_t index) const { return labelName(index).name; }
   // x y z and each component of each field; no array where it is not known.
   ArrayView boxMin() const { return view(box_min_); }
   ArrayView boxMax() const { return view(box_max_); }
@@ -48,9 +54,11 @@ class StreamInfo {
   static ArrayView view(const std::vector<double>& box);
   void add(std::vector<tetstream_column>& columns, const char* name, int32_t components,
            int32_t type);
+  const tetstream_label_name& labelName(int64_t index) const;
 
   std::deque<std::string> names_;  // stay where they are
   std::vector<tetstream_column> fields_, cell_data_;
+  std::vector<tetstream_label_name> label_names_;
   std::vector<double> box_min_, box_max_;
 };
 

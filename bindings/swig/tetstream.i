@@ -35,6 +35,7 @@
 %rename("$ignore", regextarget=1, fullname=1, %$isfunction) "^tetstream_";
 %rename("$ignore", regextarget=1) "_callbacks$";
 %ignore tetstream_column;
+%ignore tetstream_label_name;
 %ignore tetstream_batch;
 %ignore tetstream_stream_info;
 %ignore TETSTREAM_H;

@@ -65,6 +65,7 @@ contains
     allocate (this%mesh%cells(4, promised(info%cell_count)))
     call begin(this%mesh%fields, info%fields)
     call begin(this%mesh%cell_data, info%cell_data)
+    if (size(info%label_names) > 0) this%mesh%label_names = info%label_names
   end subroutine
 
   ! How many rows are taken on trust: the header of a broken file may tell of any number.

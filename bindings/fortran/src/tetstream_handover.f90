@@ -6,6 +6,7 @@ module tetstream_handover
   use tetstream_arrays
   use tetstream_streams
   use tetstream_failures
+  use tetstream_figures, only: tetstream_label_name
   implicit none
   private
 
@@ -19,6 +20,8 @@ module tetstream_handover
     type(tetstream_stream_info) :: info
     type(c_column), allocatable :: fields(:), cell_data(:)
     type(column_room), allocatable :: field_names(:), cell_data_names(:)
+    type(c_label_name), allocatable :: label_names(:)
+    character(kind=c_char), allocatable :: label_texts(:)  ! one after the other
   contains
     procedure :: fill => fill_info
   end type
@@ -58,6 +61,7 @@ contains
       out%box_min = c_loc(this%info%box_min)
       out%box_max = c_loc(this%info%box_max)
     end if
+    if (allocated(this%info%label_names)) call fill_label_names(this, this%info%label_names, out)
   end subroutine
 
   ! Whether the box is there, of the length that the library reads.
@@ -95,6 +99,57 @@ contains
       made(i)%type = columns(i)%type
     end do
     place = c_loc(made)
+  end subroutine
+
+  subroutine fill_label_names(this, names, out)
+    class(info_room), intent(inout), target :: this
+    type(tetstream_label_name), intent(in) :: names(:)
+    type(c_stream_info), intent(inout) :: out
+    integer(c_int64_t) :: i, at
+
+    out%label_name_count = size(names, kind=c_int64_t)
+    if (out%label_name_count == 0) return
+    if (allocated(this%label_names)) deallocate (this%label_names, this%label_texts)
+    allocate (this%label_names(size(names)))
+    at = 0
+    do i = 1, size(names, kind=c_int64_t)
+      at = at + room_of(names(i)%name) + room_of(names(i)%cell_array)
+    end do
+    allocate (this%label_texts(at))
+    at = 1
+    do i = 1, size(names, kind=c_int64_t)
+      this%label_names(i)%label = names(i)%label
+      call put_text(names(i)%name, this%label_texts, at, this%label_names(i)%name)
+      if (room_of(names(i)%cell_array) > 1) &
+        call put_text(names(i)%cell_array, this%label_texts, at, this%label_names(i)%cell_array)
+    end do
+    out%label_names = c_loc(this%label_names)
+  end subroutine
+
+  ! Letters of a name for C, with the null: one more than the library takes at most.
+  pure integer function room_of(name)
+    character(:), allocatable, intent(in) :: name
+
+    room_of = 0
+    if (allocated(name)) room_of = min(len(name), 256) + 1
+  end function
+
+  ! A name into a place of that many letters; one that is not allocated is NULL.
+  subroutine put_text(name, texts, at, place)
+    character(:), allocatable, intent(in) :: name
+    character(kind=c_char), intent(inout), target :: texts(:)
+    integer(c_int64_t), intent(inout) :: at
+    type(c_ptr), intent(inout) :: place
+    integer :: i, room
+
+    room = room_of(name)
+    if (room == 0) return
+    do i = 1, room - 1
+      texts(at + i - 1) = name(i:i)
+    end do
+    texts(at + room - 1) = c_null_char
+    place = c_loc(texts(at))
+    at = at + room
   end subroutine
 
   ! ------------------------------------------------------------------------------------ batches

@@ -246,6 +246,7 @@ contains
     call move_alloc(from%face_labels, to%face_labels)
     call move_alloc(from%locked_faces, to%locked_faces)
     call move_alloc(from%locked_edges, to%locked_edges)
+    call move_alloc(from%label_names, to%label_names)
   end subroutine
 
   ! ------------------------------------------------------------------------------- whole meshes

@@ -4,6 +4,7 @@ module tetstream_streams
   use tetstream_c
   use tetstream_arrays
   use tetstream_failures, only: text_of
+  use tetstream_figures, only: take, tetstream_label_name
   implicit none
   private
   public :: copy_info, copy_batch
@@ -23,9 +24,12 @@ module tetstream_streams
     integer(c_int64_t) :: vertex_count = -1, cell_count = -1, face_count = -1
     integer(c_int64_t) :: front_width = -1, front_span = -1, front_cells = -1
     real(c_double), allocatable :: box_min(:), box_max(:)
+    type(tetstream_label_name), allocatable :: label_names(:)   ! of labels of faces: cell_array is ""
   contains
     procedure :: add_field => info_add_field
     procedure :: add_cell_data => info_add_cell_data
+    procedure, private :: info_add_name_int64, info_add_name_int32
+    generic :: add_label_name => info_add_name_int64, info_add_name_int32
   end type
 
   ! A mesh in arrays; what it does not have is not allocated.
@@ -39,7 +43,10 @@ module tetstream_streams
     integer(c_int64_t), allocatable :: face_labels(:)       ! (f)
     logical, allocatable :: locked_faces(:)                 ! (f)
     integer(c_int64_t), allocatable :: locked_edges(:, :)   ! (2, e), from 1
+    type(tetstream_label_name), allocatable :: label_names(:)   ! of a batch they do not count
   contains
+    procedure, private :: mesh_add_name_int64, mesh_add_name_int32
+    generic :: add_label_name => mesh_add_name_int64, mesh_add_name_int32
     procedure :: field => mesh_field
     procedure :: cell_array => mesh_cell_array
   end type
@@ -84,6 +91,62 @@ contains
     if (present(components)) more(count + 1)%components = components
     if (present(type)) more(count + 1)%type = type
     call move_alloc(more, columns)
+  end subroutine
+
+  ! What a label means: of a cell array, or of faces, without one.
+  subroutine info_add_name_int64(this, label, name, cell_array)
+    class(tetstream_stream_info), intent(inout) :: this
+    integer(c_int64_t), intent(in) :: label
+    character(*), intent(in) :: name
+    character(*), intent(in), optional :: cell_array
+
+    call add_name(this%label_names, label, name, cell_array)
+  end subroutine
+
+  subroutine info_add_name_int32(this, label, name, cell_array)
+    class(tetstream_stream_info), intent(inout) :: this
+    integer(c_int32_t), intent(in) :: label
+    character(*), intent(in) :: name
+    character(*), intent(in), optional :: cell_array
+
+    call add_name(this%label_names, int(label, c_int64_t), name, cell_array)
+  end subroutine
+
+  subroutine mesh_add_name_int64(this, label, name, cell_array)
+    class(tetstream_mesh), intent(inout) :: this
+    integer(c_int64_t), intent(in) :: label
+    character(*), intent(in) :: name
+    character(*), intent(in), optional :: cell_array
+
+    call add_name(this%label_names, label, name, cell_array)
+  end subroutine
+
+  subroutine mesh_add_name_int32(this, label, name, cell_array)
+    class(tetstream_mesh), intent(inout) :: this
+    integer(c_int32_t), intent(in) :: label
+    character(*), intent(in) :: name
+    character(*), intent(in), optional :: cell_array
+
+    call add_name(this%label_names, int(label, c_int64_t), name, cell_array)
+  end subroutine
+
+  subroutine add_name(names, label, name, cell_array)
+    type(tetstream_label_name), allocatable, intent(inout) :: names(:)
+    integer(c_int64_t), intent(in) :: label
+    character(*), intent(in) :: name
+    character(*), intent(in), optional :: cell_array
+    type(tetstream_label_name), allocatable :: more(:)
+    integer :: count
+
+    count = 0
+    if (allocated(names)) count = size(names)
+    allocate (more(count + 1))
+    if (count > 0) more(:count) = names
+    more(count + 1)%label = label
+    more(count + 1)%name = trim(name)
+    more(count + 1)%cell_array = ""
+    if (present(cell_array)) more(count + 1)%cell_array = trim(cell_array)
+    call move_alloc(more, names)
   end subroutine
 
   ! The place of a field in `fields`; 0: there is none of that name.
@@ -133,6 +196,7 @@ contains
     length = 3 + sum(to%fields%components)
     call copy_box(from%box_min, length, to%box_min)
     call copy_box(from%box_max, length, to%box_max)
+    call copy_label_names(from, to%label_names)
   end subroutine
 
   subroutine copy_columns(from, count, to)
@@ -161,6 +225,20 @@ contains
     if (.not. c_associated(from)) return
     call c_f_pointer(from, values, [length])
     to = values
+  end subroutine
+
+  subroutine copy_label_names(from, to)
+    type(c_stream_info), intent(in) :: from
+    type(tetstream_label_name), allocatable, intent(out) :: to(:)
+    type(c_label_name), pointer :: names(:)
+    integer(c_int64_t) :: i
+
+    allocate (to(from%label_name_count))
+    if (from%label_name_count == 0) return
+    call c_f_pointer(from%label_names, names, [from%label_name_count])
+    do i = 1, from%label_name_count
+      call take(names(i), to(i))
+    end do
   end subroutine
 
   ! A batch of the library's, whose arrays live during a call.

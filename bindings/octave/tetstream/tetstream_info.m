@@ -2,9 +2,10 @@
 ##
 ## Reads everything and tells what a mesh is, of a file or in a struct: vertex_count, cell_count; fields
 ## and cell_data: structs of name to the number of components; box: 2 x 3, least and largest
-## coordinates; ranges: a struct of field to its least and largest values, 2 x k; front: how coherent
-## its order is, width and span in vertices, cells that touch them; notes. An indexed mesh's front is
-## that of the order in which it is streamed.
+## coordinates; ranges: a struct of field to its least and largest values, 2 x k; label_names: what
+## labels mean, as in tetstream_read; front: how coherent its order is, width and span in vertices,
+## cells that touch them; notes. An indexed mesh's front is that of the order in which it is
+## streamed.
 ##
 ## Pairs: "window", "memory", "order", "axis", "tmpdir"; "progress", a function.
 ##
@@ -37,5 +38,6 @@ function info = tetstream_info (source, varargin)
   for i = 0:(found.cell_data_count () - 1)
     info.cell_data.(found.cell_data_name (i)) = double (found.cell_data_components (i));
   endfor
+  info.label_names = label_names_of (found);
   info.notes = notes_of (reader);
 endfunction

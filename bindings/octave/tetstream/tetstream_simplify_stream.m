@@ -8,7 +8,8 @@
 ##   points (n x 3), fields (struct of n x k), locked (n logicals); cells (m x 4, numbers of points
 ##   from 1 on, counted through all batches), cell_data (struct of m x k), last_uses (m x 4 logicals:
 ##   no later cell uses that point), finalized (points that no later cell uses); faces, face_labels,
-##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries.
+##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries;
+##   its label_names, as in tetstream_read, are the stream's.
 ## writer: a function that is called with such batches.
 ## report: what was done.
 ##
@@ -74,6 +75,7 @@ function begun (state, info)
     names{end+1} = info.cell_data_name (i);
   endfor
   state("cell_data") = names;
+  state("label_names") = label_names_of (info);
 endfunction
 
 ## A batch of the library's as a struct.
@@ -94,4 +96,5 @@ function batch = shown (source, state)
   batch.faces = source.faces ().' + 1;
   batch.face_labels = source.face_labels ().';
   batch.locked_edges = source.locked_edges ().' + 1;
+  batch.label_names = state("label_names");
 endfunction

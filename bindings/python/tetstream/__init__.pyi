@@ -13,6 +13,7 @@ __version__: str
 
 _Path = Union[str, bytes, os.PathLike[str], os.PathLike[bytes]]
 _Arrays = Mapping[str, ArrayLike]
+_LabelNames = Mapping[Union[str, None], Mapping[int, str]]
 _Columns = Mapping[str, Union[DTypeLike, tuple[DTypeLike, int]]]
 _Source = Union[_Path, "Mesh", "Reader"]
 _Target = Union[_Path, "Writer"]
@@ -111,6 +112,7 @@ class StreamInfo(Record):
     position_type: numpy.dtype[Any]
     fields: dict[str, tuple[numpy.dtype[Any], int]]
     cell_data: dict[str, tuple[numpy.dtype[Any], int]]
+    label_names: dict[str | None, dict[int, str]]
     vertex_count: int
     cell_count: int
     front_width: int
@@ -187,11 +189,13 @@ class Mesh:
     face_labels: ArrayLike | None
     locked_faces: ArrayLike | None
     locked_edges: ArrayLike | None
+    label_names: dict[str | None, Any]
     def __init__(self, points: ArrayLike, cells: ArrayLike, fields: _Arrays | None = None,
                  cell_data: _Arrays | None = None, *, locked: ArrayLike | None = None,
                  faces: ArrayLike | None = None, face_labels: ArrayLike | None = None,
                  locked_faces: ArrayLike | None = None,
-                 locked_edges: ArrayLike | None = None) -> None: ...
+                 locked_edges: ArrayLike | None = None,
+                 label_names: _LabelNames | None = None) -> None: ...
     def simplify(self, *, regions: ArrayLike | str | None = None,
                  weights: Mapping[str, float] | None = None, vertex_map: bool = False,
                  progress: _Told = None, **options: Unpack[_Options]) -> Simplified: ...
@@ -246,7 +250,8 @@ class Reader:
     def batches(cls, batches: _Batches, points: DTypeLike = "float64",
                 fields: _Columns | None = None, cell_data: _Columns | None = None, *,
                 indexed: bool = False, vertex_count: int = -1, cell_count: int = -1,
-                front_width: int = -1, front_span: int = -1, front_cells: int = -1) -> Reader: ...
+                front_width: int = -1, front_span: int = -1, front_cells: int = -1,
+                label_names: _LabelNames | None = None) -> Reader: ...
     def info(self) -> StreamInfo: ...
     @property
     def notes(self) -> list[str]: ...
@@ -273,9 +278,9 @@ def simplify(__points: ArrayLike, __tetrahedra: ArrayLike, fields: _Arrays | Non
              cell_data: _Arrays | None = None, regions: ArrayLike | str | None = None,
              locked: ArrayLike | None = None, faces: ArrayLike | None = None,
              face_labels: ArrayLike | None = None, locked_faces: ArrayLike | None = None,
-             locked_edges: ArrayLike | None = None, weights: Mapping[str, float] | None = None,
-             vertex_map: bool = False, progress: _Told = None,
-             **options: Unpack[_Options]) -> Simplified: ...
+             locked_edges: ArrayLike | None = None, label_names: _LabelNames | None = None,
+             weights: Mapping[str, float] | None = None, vertex_map: bool = False,
+             progress: _Told = None, **options: Unpack[_Options]) -> Simplified: ...
 def simplify_file(source: _Source, target: _Target, *, weights: Mapping[str, float] | None = None,
                   map_file: _Path | None = None, log_file: _Path | None = None,
                   progress: _Told = None, **options: Unpack[_OptionsWithRegions]) -> Report: ...
@@ -283,7 +288,7 @@ def simplify_batches(batches: _Batches, points: DTypeLike = "float64",
                      fields: _Columns | None = None, cell_data: _Columns | None = None, *,
                      weights: Mapping[str, float] | None = None, vertex_count: int = -1,
                      cell_count: int = -1, front_width: int = -1, front_span: int = -1,
-                     front_cells: int = -1,
+                     front_cells: int = -1, label_names: _LabelNames | None = None,
                      **options: Unpack[_OptionsWithRegions]) -> Generator[Batch, None, Report]: ...
 def layout(source: _Source, target: _Target, *, progress: _Told = None,
            **options: Unpack[_OptionsWithRegions]) -> LayoutReport: ...

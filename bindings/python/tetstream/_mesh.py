@@ -1,7 +1,7 @@
 """Meshes in arrays."""
 import numpy
 
-from . import _arrays, core
+from . import _arrays, _labels, core
 
 
 class Mesh:
@@ -14,16 +14,19 @@ class Mesh:
     locked: [n] of bool: points that are never moved; None: none.
     faces: [f][3] of int64, labelled faces of cells, with face_labels: [f] of int64, and
         locked_faces: [f] of bool or None; locked_edges: [e][2] of int64 or None.
+    label_names: what labels mean, a dict of the name of a cell array of integers, or None for
+        faces, to a dict of label to name: {None: {1: "inlet"}, "material": {3: "steel"}}.
     """
 
     def __init__(self, points, cells, fields=None, cell_data=None, *, locked=None, faces=None,
-                 face_labels=None, locked_faces=None, locked_edges=None):
+                 face_labels=None, locked_faces=None, locked_edges=None, label_names=None):
         self.points, self.cells = points, cells
         self.fields = _arrays.named("fields", fields)
         self.cell_data = _arrays.named("cell_data", cell_data)
         self.locked = locked
         self.faces, self.face_labels, self.locked_faces = faces, face_labels, locked_faces
         self.locked_edges = locked_edges
+        self.label_names = _arrays.named("label_names", label_names)
 
     def __repr__(self):
         return (f"<{type(self).__name__} of {len(self.cells)} cells and {len(self.points)} points; "
@@ -123,6 +126,7 @@ def collected(collector, columns=(), cell_columns=(), kind=Mesh):
         mesh.faces, mesh.face_labels = faces.reshape(-1, 3), labels
         mesh.locked_faces = locked_faces.astype(bool) if locked_faces.size else None
     mesh.locked_edges = edges.reshape(-1, 2) if edges.size else None
+    mesh.label_names = _labels.of(info)
     return mesh
 
 
@@ -175,4 +179,5 @@ def batches_of(mesh):
     return Reader.batches(batches(), points=points.dtype,
                           fields={c.name: (c.rows.dtype, c.components) for c in fields},
                           cell_data={c.name: (c.rows.dtype, c.components) for c in cell_data},
-                          vertex_count=len(points), cell_count=len(cells))
+                          vertex_count=len(points), cell_count=len(cells),
+                          label_names=mesh.label_names)

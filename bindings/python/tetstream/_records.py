@@ -40,4 +40,5 @@ class StreamInfo(Record):
     to (numpy dtype, components); ``vertex_count``, ``cell_count``; the front, in ``front_width``,
     ``front_span``, ``front_cells``, and ``front``, which has more; ``box``, [2][3]: least and
     largest coordinates; ``ranges``, a dict of field to [2][components]: least and largest values;
-    ``indexed``; ``notes``. Counts that are not known are -1, boxes None."""
+    ``label_names``, as of a Mesh; ``indexed``; ``notes``. Counts that are not known are -1, boxes
+    None."""

@@ -44,14 +44,14 @@ def _with_regions(mesh, regions, options):
     if isinstance(regions, str):
         return mesh, {**options, "regions": regions}
     name = "region"
-    while name in mesh.cell_data:
+    while name in mesh.cell_data or name in mesh.label_names:
         name += "_"
     regions, cells = numpy.asanyarray(regions), len(mesh.cells)
     _arrays.needs_shape("regions", regions, f"[{cells}]", regions.shape == (cells,))
     labelled = _mesh.Mesh(mesh.points, mesh.cells, mesh.fields,
                           {**mesh.cell_data, name: regions}, locked=mesh.locked, faces=mesh.faces,
                           face_labels=mesh.face_labels, locked_faces=mesh.locked_faces,
-                          locked_edges=mesh.locked_edges)
+                          locked_edges=mesh.locked_edges, label_names=mesh.label_names)
     return labelled, {**options, "regions": name}
 
 
@@ -82,8 +82,8 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
 
 @_options.documented()
 def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None, locked=None,
-             faces=None, face_labels=None, locked_faces=None, locked_edges=None, weights=None,
-             vertex_map=False, progress=None, **options):
+             faces=None, face_labels=None, locked_faces=None, locked_edges=None, label_names=None,
+             weights=None, vertex_map=False, progress=None, **options):
     """Simplifies a mesh in arrays: ``simplify(points, cells, {"p": p}, ratio=0.1)``.
 
     Dense arrays of the types below are read where they lie; others are copied first. Memory beyond
@@ -102,6 +102,7 @@ def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None
         locked: [n] of bool: points that are never moved.
         faces: [f][3], labelled faces of cells, with `face_labels`: [f], and `locked_faces`: [f] of
             bool; `locked_edges`: [e][2].
+        label_names: names of labels, as of a Mesh, which the result has, too.
         weights: dict of field to its weight in the error; others are then only carried along. None:
             all float fields count alike.
         vertex_map: whether the result tells where each point went.
@@ -123,7 +124,7 @@ def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None
     """
     mesh = _mesh.Mesh(points, tetrahedra, fields, cell_data, locked=locked, faces=faces,
                       face_labels=face_labels, locked_faces=locked_faces,
-                      locked_edges=locked_edges)
+                      locked_edges=locked_edges, label_names=label_names)
     return simplify_mesh(mesh, regions=regions, weights=weights, vertex_map=vertex_map,
                          progress=progress, **options)
 
@@ -160,7 +161,7 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
 @_options.documented()
 def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, weights=None,
                      vertex_count=-1, cell_count=-1, front_width=-1, front_span=-1, front_cells=-1,
-                     **options):
+                     label_names=None, **options):
     """Simplifies a stream as a generator: takes Batches, gives Batches, while the input runs.
 
         for batch in tetstream.simplify_batches(solver(), fields={"p": "float64"}, ratio=0.1):
@@ -168,7 +169,7 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
 
     Args:
         batches: an iterable of Batches, or of dicts with a Batch's arguments.
-        points, fields, cell_data, counts and front: as in Reader.batches.
+        points, fields, cell_data, counts, front, label_names: as in Reader.batches.
         weights, **options: as in simplify. A ratio needs `cell_count` to be met early.
 
     Yields:
@@ -177,7 +178,7 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
     Returns:
         A Report, as the generator's value.
     """
-    schema = _streams._Schema.announced(points, fields, cell_data, {
+    schema = _streams._Schema.announced(points, fields, cell_data, label_names, {
         "vertex_count": vertex_count, "cell_count": cell_count, "front_width": front_width,
         "front_span": front_span, "front_cells": front_cells})
     ready = []

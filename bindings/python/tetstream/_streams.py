@@ -3,7 +3,7 @@ import os
 
 import numpy
 
-from . import _arrays, _mesh, core
+from . import _arrays, _labels, _mesh, core
 from ._records import Record, StreamInfo
 from .errors import BadArgument
 
@@ -53,7 +53,7 @@ class _Schema:
         self.points = _arrays.DTYPES[info.position_type]
 
     @classmethod
-    def announced(cls, points, fields, cell_data, counts, indexed=False):
+    def announced(cls, points, fields, cell_data, label_names, counts, indexed=False):
         info = core.StreamInfo()
         info.position_type = _type("points", points)
         info.is_indexed = bool(indexed)
@@ -61,6 +61,7 @@ class _Schema:
             info.add_field(name, column[1], column[0])
         for name, column in _columns("cell_data", cell_data):
             info.add_cell_data(name, column[1], column[0])
+        _labels.add(info, label_names)
         for name, count in counts.items():
             setattr(info, name, count)
         return cls(info)
@@ -219,6 +220,7 @@ class Reader:
         for column in cell_columns:
             info.add_cell_data(column.name, column.components, column.type)
             batch.add_cell_data(column.rows)
+        _labels.add(info, mesh.label_names)
         kept += [column.rows for column in (*columns, *cell_columns)]
 
         def put(function, array):
@@ -255,7 +257,8 @@ class Reader:
 
     @classmethod
     def batches(cls, batches, points="float64", fields=None, cell_data=None, *, indexed=False,
-                vertex_count=-1, cell_count=-1, front_width=-1, front_span=-1, front_cells=-1):
+                vertex_count=-1, cell_count=-1, front_width=-1, front_span=-1, front_cells=-1,
+                label_names=None):
         """A stream out of an iterable, such as a generator, of Batches or of dicts with a Batch's
         arguments.
 
@@ -263,8 +266,9 @@ class Reader:
         fields, cell_data: dicts of name to dtype or to (dtype, components).
         indexed: nothing is finalized; the library orders the mesh before it is streamed.
         Counts and the front are told if they are known; the front sets the window.
+        label_names: as of a Mesh.
         """
-        schema = _Schema.announced(points, fields, cell_data, {
+        schema = _Schema.announced(points, fields, cell_data, label_names, {
             "vertex_count": vertex_count, "cell_count": cell_count, "front_width": front_width,
             "front_span": front_span, "front_cells": front_cells}, indexed)
         iterator = iter(batches)
@@ -306,6 +310,7 @@ def stream_info(info, **more):
     return StreamInfo(position_type=schema.points,
                       fields={name: (dtype, n) for name, dtype, n in schema.fields},
                       cell_data={name: (dtype, n) for name, dtype, n in schema.cell_data},
+                      label_names=_labels.of(info),
                       vertex_count=info.vertex_count, cell_count=info.cell_count,
                       front_width=info.front_width, front_span=info.front_span,
                       front_cells=info.front_cells, indexed=info.is_indexed,

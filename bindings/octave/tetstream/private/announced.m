@@ -9,4 +9,5 @@ function info = announced (caller, mesh)
   for [values, name] = mesh.cell_data
     info.add_cell_data (name, columns (values), type_of (caller, name, values));
   endfor
+  add_label_names (caller, info, mesh.label_names);
 endfunction

@@ -15,4 +15,5 @@ function mesh = collected (collector, cell_class)
   mesh.face_labels = collector.face_labels ().';
   mesh.locked_faces = logical (collector.locked_faces ().');
   mesh.locked_edges = collector.locked_edges ().' + 1;
+  mesh.label_names = label_names_of (info);
 endfunction
