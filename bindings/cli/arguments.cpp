@@ -237,7 +237,8 @@ void Parser::addStreamOptions(CLI::App* command) {
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
         info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
         info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER ||
-        info.id == TETSTREAM_OPTION_STEP || info.id == TETSTREAM_OPTION_THREADS)
+        info.id == TETSTREAM_OPTION_JOIN_POINTS || info.id == TETSTREAM_OPTION_STEP ||
+        info.id == TETSTREAM_OPTION_THREADS)
       addTableOption(command, info);
 }
 
@@ -368,7 +369,8 @@ void Parser::addCompare(CLI::App* command) {
     if (isOfComparison(info.id) || info.id == TETSTREAM_OPTION_SEED ||
         info.id == TETSTREAM_OPTION_REGIONS || info.id == TETSTREAM_OPTION_MEMORY ||
         info.id == TETSTREAM_OPTION_TMPDIR || info.id == TETSTREAM_OPTION_SPLIT ||
-        info.id == TETSTREAM_OPTION_STEP || info.id == TETSTREAM_OPTION_THREADS)
+        info.id == TETSTREAM_OPTION_JOIN_POINTS || info.id == TETSTREAM_OPTION_STEP ||
+        info.id == TETSTREAM_OPTION_THREADS)
       addTableOption(command, info);
   }
   addReport(command);

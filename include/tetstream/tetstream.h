@@ -133,6 +133,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_SPLIT 220           /* text: other cells into tetrahedra: "no", "yes" */
 #define TETSTREAM_OPTION_RECOVER 221         /* text: what is whole of a damaged .tets: "no", "yes" */
 #define TETSTREAM_OPTION_STEP 222            /* text: time step of a file: "last", "first", "3" */
+#define TETSTREAM_OPTION_JOIN_POINTS 223     /* text: points of one place: "auto", "no", "yes" */
 
 #define TETSTREAM_OPTION_IS_INT64 1
 #define TETSTREAM_OPTION_IS_DOUBLE 2
@@ -239,8 +240,8 @@ typedef struct tetstream_column {
  * .msh); of others a note of the writer tells them. */
 typedef struct tetstream_label_name {
   const char *name;       /* 1 to 255 bytes, UTF-8 */
-  const char *cell_array; /* the cell array, of integers with one component, whose label it is; NULL:
-                             a label of faces */
+  const char *cell_array; /* the cell array, of integers with one component, whose label it is; NULL
+                             or empty: a label of faces */
   int64_t label;
 } tetstream_label_name;
 
@@ -359,7 +360,9 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
                                                             const char *format,
                                                             tetstream_reader **reader);
 /* As without `_with`, with options for the reading, which may be NULL: `split` (hexahedra, prisms and
- * pyramids are cut into tetrahedra; else they are UNSUPPORTED), `recover` (of a .tets file that is
+ * pyramids are cut into tetrahedra; else they are UNSUPPORTED), `join-points` (points at the same
+ * place become one, with the mean of their fields: where each cell has points of its own, as fields
+ * that jump are written, or wherever they lie; UNSUPPORTED for streams), `recover` (of a .tets file that is
  * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
  * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none

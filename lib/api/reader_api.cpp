@@ -24,6 +24,9 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   options.temp_dir = run.temp_dir;
   options.split = run.split == "yes";
   options.recover = run.recover == "yes";
+  options.join = run.join_points == "yes"  ? PointJoining::kYes
+                 : run.join_points == "no" ? PointJoining::kNo
+                                           : PointJoining::kAuto;
   if (options.recover && format.open != openTets)
     fail(Status::kUnsupported, "%s: only .tets files can be recovered, not those of format \"%s\"",
          bytes->name().c_str(), format.name);
@@ -40,6 +43,9 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   std::shared_ptr<Waiting> waiting = bytes->waiting();
   const std::string name = bytes->name();
   reader.input = format.open(std::move(bytes), options);
+  if (options.join == PointJoining::kYes && reader.input.stream)
+    fail(Status::kUnsupported, "%s: points of streams are not joined (option join-points)",
+         name.c_str());
   if (options.step > 0 && !reader.input.has_steps)
     fail(Status::kBadArgument,
          "%s: there is no time step %lld (option step, --step): there are none to choose from",

@@ -14,12 +14,17 @@ namespace tetstream {
 
 constexpr int64_t kLastStep = -1;
 
+// Points at the same place, which become one: everywhere, or only where each cell has points of its
+// own, or never but where pieces of a parallel run meet.
+enum class PointJoining : uint8_t { kAuto, kYes, kNo };
+
 struct ReadOptions {
   std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp
   std::function<void(const std::string&)> note;  // what was left out or assumed; may be empty
   std::string path;  // of a file; empty: the bytes come from elsewhere, nothing lies beside them
-  bool recover = false;      // .tets: what is whole of a file that is damaged or cut off
-  bool split = false;        // hexahedra, prisms and pyramids into tetrahedra; else they are errors
+  bool recover = false;  // .tets: what is whole of a file that is damaged or cut off
+  bool split = false;    // hexahedra, prisms and pyramids into tetrahedra; else they are errors
+  PointJoining join = PointJoining::kAuto;
   int64_t step = kLastStep;  // which of the time steps, from 0, of a file that has several
   TextThreads threads;       // who helps the thread that opens
 };

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "buckets.h"
 #include "memory.h"
 #include "mix.h"
+#include "point_means.h"
 #include "status.h"
 
 namespace tetstream {
@@ -20,8 +22,15 @@ constexpr size_t kAtOnce = 2048;                       // points
 constexpr uint64_t kBucketBytes = uint64_t{16} << 20;  // wanted in memory at once
 constexpr uint64_t kMaxBuckets = 256;                  // each is a file with a buffer
 
+// Points everywhere are looked for by their exact coordinates, and in float64, where each cell's
+// may have been computed by itself, in a grid of this part of the largest one: then in that grid
+// moved, until nothing more is found, since two that differ by rounding may lie on both sides of a
+// line.
+constexpr double kGrain = 0x1p-34;
+constexpr int kMostPasses = 8;
+
 struct Keyed {
-  std::array<uint64_t, 3> key;  // bits of the coordinates, or the global id
+  std::array<uint64_t, 3> key;  // bits of the coordinates, or of places in a grid, or the global id
   uint64_t point;
   bool operator<(const Keyed& other) const {
     return key != other.key ? key < other.key : point < other.point;
@@ -41,23 +50,49 @@ class JoinFinder {
 
   void find() {
     const uint64_t points = static_cast<uint64_t>(schema_.vertex_count);
-    const uint64_t buckets =
-        std::clamp<uint64_t>(points * sizeof(Keyed) / kBucketBytes + 1, 1, kMaxBuckets);
-    Buckets<Keyed> keyed(static_cast<size_t>(buckets), plan_.temp_dir);
-    addKeys(keyed, points);
-    Buckets<Same> same(static_cast<size_t>(buckets), plan_.temp_dir);
-    findSame(keyed, same, points);
+    const size_t buckets = static_cast<size_t>(
+        std::clamp<uint64_t>(points * sizeof(Keyed) / kBucketBytes + 1, 1, kMaxBuckets));
+    Buckets<Same> same(buckets, plan_.temp_dir);
+    uint64_t found = findSame(same, points);
+    if (plan_.everywhere && schema_.position_type == ScalarType::kFloat64 && found > 0)
+      findNear(same, points);
     number(same, points);
     tell(points - old_of_.rows());
   }
 
  private:
+  // Of those that are not found yet, by a grid.
+  void findNear(Buckets<Same>& same, uint64_t points) {
+    grain_ = kGrain * largestCoordinate(points);
+    for (int pass = 1; pass < kMostPasses && grain_ > 0; ++pass) {
+      shift_ = 0.618033988749895 * pass;  // of the golden ratio: nowhere near where it was
+      if (findSame(same, points) == 0) return;
+    }
+  }
+
+  double largestCoordinate(uint64_t points) {
+    double places[3 * kAtOnce], largest = 0;
+    for (uint64_t at = 0; at < points; at += kAtOnce) {
+      const size_t n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, points - at));
+      readPlaces(at, n, places);
+      for (size_t i = 0; i < 3 * n; ++i) largest = std::max(largest, std::fabs(places[i]));
+    }
+    return largest;
+  }
+
+  bool isFound(uint64_t point) const {
+    return found_.size() > 0 && (found_[point / 64] >> point % 64 & 1) != 0;
+  }
+
   void addKeys(Buckets<Keyed>& keyed, uint64_t points) {
     double places[3 * kAtOnce];
     for (uint64_t at = 0; at < points; at += kAtOnce) {
       const size_t n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, points - at));
       plan_.global_ids < 0 ? readPlaces(at, n, places) : readIds(at, n, places);
+      for (size_t i = 0; i < 3 * n && grain_ > 0; ++i)
+        places[i] = std::floor(places[i] / grain_ + shift_) + 0.0;
       for (size_t i = 0; i < n; ++i) {
+        if (isFound(at + i)) continue;
         Keyed row{{}, at + i};
         std::memcpy(row.key.data(), places + 3 * i, sizeof row.key);
         keyed.add(bucketOf(row, keyed.count()), row);
@@ -100,21 +135,46 @@ class JoinFinder {
     return static_cast<size_t>(after - plan_.first_points.begin());
   }
 
-  void findSame(Buckets<Keyed>& keyed, Buckets<Same>& same, uint64_t points) {
+  // Returns how many points are others.
+  uint64_t findSame(Buckets<Same>& same, uint64_t points) {
+    Buckets<Keyed> keyed(same.count(), plan_.temp_dir);
+    addKeys(keyed, points);
+    if (plan_.everywhere && found_.size() == 0) {
+      found_.resize(static_cast<size_t>(points / 64 + 1));
+      std::fill_n(found_.data(), found_.size(), uint64_t{0});
+    }
     Account account;
     const uint64_t part = (points - 1) / same.count() + 1;
+    uint64_t count = 0;
     for (size_t bucket = 0; bucket < keyed.count(); ++bucket) {
       const Array<Keyed> rows = keyed.take(bucket, account);
       for (size_t first = 0, end; first < rows.size(); first = end) {
-        end = first + 1;
-        bool repeated = false;  // in one piece
-        for (; end < rows.size() && rows[end].key == rows[first].key; ++end)
-          repeated |= pieceOf(rows[end].point) == pieceOf(rows[end - 1].point);
-        kept_apart_ += repeated && pieceOf(rows[end - 1].point) != pieceOf(rows[first].point);
-        for (size_t i = first + 1; !repeated && i < end; ++i)
-          same.add(static_cast<size_t>(rows[i].point / part), {rows[i].point, rows[first].point});
+        end = endOfKey(rows, first);
+        if (!mayJoin(rows, first, end)) continue;
+        for (size_t i = first + 1; i < end; ++i, ++count) {
+          const uint64_t point = rows[i].point;
+          same.add(static_cast<size_t>(point / part), {point, rows[first].point});
+          if (plan_.everywhere) found_[point / 64] |= uint64_t{1} << point % 64;
+        }
       }
     }
+    return count;
+  }
+
+  static size_t endOfKey(const Array<Keyed>& rows, size_t first) {
+    size_t end = first + 1;
+    while (end < rows.size() && rows[end].key == rows[first].key) ++end;
+    return end;
+  }
+
+  // Not where one piece has several.
+  bool mayJoin(const Array<Keyed>& rows, size_t first, size_t end) {
+    if (plan_.everywhere) return true;
+    bool repeated = false;
+    for (size_t i = first + 1; i < end; ++i)
+      repeated |= pieceOf(rows[i].point) == pieceOf(rows[i - 1].point);
+    kept_apart_ += repeated && pieceOf(rows[end - 1].point) != pieceOf(rows[first].point);
+    return !repeated;
   }
 
   void number(Buckets<Same>& same, uint64_t points) {
@@ -145,7 +205,13 @@ class JoinFinder {
   void tell(uint64_t joined) const {
     if (!plan_.note) return;
     const char* const by = plan_.global_ids < 0 ? "coordinates" : "global ids";
-    if (joined > 0)
+    if (plan_.everywhere)
+      plan_.note(
+          textOf("%llu of %llu points were joined with others at the same place; fields are "
+                 "the mean there (option join-points, --join-points)",
+                 static_cast<unsigned long long>(joined),
+                 static_cast<unsigned long long>(schema_.vertex_count)));
+    else if (joined > 0)
       plan_.note(textOf("%llu points were joined with those of other pieces by their %s",
                         static_cast<unsigned long long>(joined), by));
     if (kept_apart_ > 0)
@@ -160,27 +226,45 @@ class JoinFinder {
   const JoinPlan& plan_;
   RowSpool &new_of_, &old_of_;
   uint64_t kept_apart_ = 0;
+  double grain_ = 0, shift_ = 0;  // of the grid; 0: exact
+  Account account_;
+  Array<uint64_t> found_{account_};  // everywhere: a bit for each point that is another
 };
 
 class JoinedPoints final : public IndexedSource {
  public:
   JoinedPoints(std::unique_ptr<IndexedSource> mesh, std::shared_ptr<PointJoin> points)
-      : mesh_(std::move(mesh)), points_(std::move(points)), schema_(mesh_->schema()) {
+      : mesh_(std::move(mesh)),
+        points_(std::move(points)),
+        schema_(mesh_->schema()),
+        means_(schema_.fields.size()) {
     schema_.vertex_count = static_cast<int64_t>(points_->count());
+    if (mesh_->locked()) lock();
   }
 
   const Schema& schema() const override { return schema_; }
+  uint64_t firstNumber() const override { return mesh_->firstNumber(); }
+  const uint8_t* locked() const override { return locked_.size() > 0 ? locked_.data() : nullptr; }
+  bool hasOrigins() const override { return points_->plan().everywhere; }
+  void readOrigins(uint64_t first, size_t count, int64_t* out) override {
+    for (size_t i = 0; i < count; ++i)
+      out[i] = hasOrigins() ? static_cast<int64_t>(points_->oldOf(first + i))
+                            : static_cast<int64_t>(first + i);
+  }
   void readPositions(uint64_t first, size_t count, void* out) override {
     forRuns(first, count, 3 * sizeOf(schema_.position_type), out,
             [&](uint64_t point, size_t n, void* to) { mesh_->readPositions(point, n, to); });
   }
   void readField(size_t column, uint64_t first, size_t count, void* out) override {
+    if (points_->plan().everywhere && isFloat(schema_.fields[column].type))
+      return meansOf(column).read(first, count, out);
     forRuns(first, count, schema_.fields[column].bytesPerRow(), out,
             [&](uint64_t point, size_t n, void* to) { mesh_->readField(column, point, n, to); });
   }
   void readCells(uint64_t first, size_t count, int64_t* out) override {
     mesh_->readCells(first, count, out);
     for (size_t i = 0; i < 4 * count; ++i) out[i] = points_->newOf(static_cast<uint64_t>(out[i]));
+    for (size_t i = 0; i < count; ++i) checkCell(first + i, out + 4 * i);
   }
   void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
     mesh_->readCellData(column, first, count, out);
@@ -203,23 +287,55 @@ class JoinedPoints final : public IndexedSource {
     }
   }
 
+  // Others have their own words for cells that have a point twice.
+  void checkCell(uint64_t cell, const int64_t* corners) const {
+    if (!points_->plan().everywhere) return;
+    for (int i = 0; i < 3; ++i)
+      if (std::find(corners + i + 1, corners + 4, corners[i]) != corners + 4)
+        fail(Status::kBadData,
+             "cell %llu has two points at the same place, which were joined (option join-points, "
+             "--join-points)",
+             static_cast<unsigned long long>(cell + mesh_->firstNumber()));
+  }
+
+  void lock() {
+    locked_.resize(static_cast<size_t>(points_->count()));
+    std::fill_n(locked_.data(), locked_.size(), uint8_t{0});
+    for (uint64_t old = 0; old < static_cast<uint64_t>(mesh_->schema().vertex_count); ++old)
+      if (mesh_->locked()[old]) locked_[static_cast<size_t>(points_->newOf(old))] = 1;
+  }
+
+  PointMeans& meansOf(size_t column) {
+    std::unique_ptr<PointMeans>& means = means_[column];
+    if (!means) means = std::make_unique<PointMeans>(*mesh_, *points_, column);
+    return *means;
+  }
+
   std::unique_ptr<IndexedSource> mesh_;
   std::shared_ptr<PointJoin> points_;
   Schema schema_;
+  Account account_;
+  Array<uint8_t> locked_{account_};                 // per point, if any is
+  std::vector<std::unique_ptr<PointMeans>> means_;  // of fields that were read
 };
 
 }  // namespace
 
 PointJoin::PointJoin(IndexedSource& mesh, const JoinPlan& plan)
-    : new_of_(sizeof(int64_t), plan.temp_dir), old_of_(sizeof(uint64_t), plan.temp_dir) {
+    : plan_(plan),
+      new_of_(sizeof(int64_t), plan.temp_dir),
+      old_of_(sizeof(uint64_t), plan.temp_dir) {
   JoinFinder(mesh, plan, new_of_, old_of_).find();
 }
 
-// Of a joined point, what stands there is -1 - the first one, which is not joined.
+// Of a joined point, what stands there is -1 - another one, which may have been joined later.
 int64_t PointJoin::firstOf(int64_t point) {
-  int64_t number;
-  std::memcpy(&number, new_of_.row(static_cast<uint64_t>(point)), sizeof number);
-  return number < 0 ? -1 - number : point;
+  for (;;) {
+    int64_t number;
+    std::memcpy(&number, new_of_.row(static_cast<uint64_t>(point)), sizeof number);
+    if (number >= 0) return point;
+    point = -1 - number;
+  }
 }
 
 int64_t PointJoin::newOf(uint64_t point) {

@@ -41,7 +41,8 @@ std::optional<size_t> labelColumn(MeshSpool& mesh, const char* name,
       if (isOfIntegers(columns[i]) && fits(i) && may(i)) return i;
     return {};
   };
-  if (findColumn(columns, name) >= 0) return first([&](size_t i) { return columns[i].name == name; });
+  if (findColumn(columns, name) >= 0)
+    return first([&](size_t i) { return columns[i].name == name; });
   const auto named = first([&](size_t i) { return hasNames(mesh.schema(), columns[i].name); });
   if (named) return named;
   return first(

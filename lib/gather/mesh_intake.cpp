@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "joined_points.h"
 #include "label_names.h"
 #include "memory.h"
 #include "rows_at_once.h"
@@ -392,7 +393,24 @@ std::unique_ptr<IndexedSource> MeshIntake::finish() {
   if (quadratic_ > 0) note(plural(quadratic_, kHigherOrderNote));
   if (split_ > 0) note(plural(split_, kSplitNote));
   for (const auto& [things, count] : left_out_) note(plural(count, things + " are left out"));
+  if (options_.join == PointJoining::kYes) return joined();
   return std::move(mesh_);
+}
+
+std::unique_ptr<IndexedSource> MeshIntake::joined() {
+  if (split_ > 0)
+    fail(Status::kUnsupported,
+         "%s: points are joined after cells were split, which then do not agree (options "
+         "join-points "
+         "and split)",
+         name_.c_str());
+  JoinPlan plan;
+  plan.everywhere = true;
+  plan.temp_dir = options_.temp_dir;
+  plan.note = [this](const std::string& text) { note(text); };
+  auto points = std::make_shared<PointJoin>(*mesh_, plan);
+  if (!points->changed()) return std::move(mesh_);
+  return joinPoints(std::move(mesh_), std::move(points));
 }
 
 }  // namespace tetstream

@@ -130,6 +130,7 @@ class MeshIntake {
   }
   void writeHeld();
   void checkCorners();
+  std::unique_ptr<IndexedSource> joined();
   template <class Visit>
   void forFaces(Visit visit);
   void dropStrayFaces();

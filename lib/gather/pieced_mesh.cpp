@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apart_cells.h"
 #include "face_label_column.h"
 #include "interleaved_cells.h"
 #include "joined_points.h"
@@ -362,6 +363,8 @@ static int findGlobalIds(const Schema& schema, const std::string& named) {
 
 Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
   JoinPlan plan;
+  plan.everywhere = options.join == PointJoining::kYes ||
+                    (options.join == PointJoining::kAuto && cellsAreApart(mesh));
   if (mesh.join)
     for (const MeshPiece& piece : mesh.pieces)
       if (piece.point_count > 0) plan.first_points.push_back(piece.first_point);
@@ -369,12 +372,13 @@ Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
   Input input;
   input.has_steps = mesh.has_steps;
   auto opened = std::make_unique<PiecedMesh>(std::move(mesh), options);
-  plan.global_ids = findGlobalIds(opened->schema(), global_ids);
+  if (!plan.everywhere) plan.global_ids = findGlobalIds(opened->schema(), global_ids);
   plan.temp_dir = options.temp_dir;
   if (options.note)
     plan.note = [name, note = options.note](const std::string& text) { note(name + ": " + text); };
   std::shared_ptr<PointJoin> joined;
-  if (plan.first_points.size() > 1) joined = std::make_shared<PointJoin>(*opened, plan);
+  if (plan.everywhere || plan.first_points.size() > 1)
+    joined = std::make_shared<PointJoin>(*opened, plan);
   if (joined && !joined->changed()) joined.reset();
   opened->takeCells(joined.get());
   input.indexed = std::move(opened);

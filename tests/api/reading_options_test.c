@@ -1,5 +1,5 @@
-/* Options of the reading: other cells that are split, damaged files, time steps, folders of
- * temporary files; properties of the format msh. */
+/* Options of the reading: other cells that are split, points that are joined, damaged files, time
+ * steps, folders of temporary files; properties of the format msh. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +39,43 @@ static void other_cells_are_split_only_if_asked_for(void) {
   CHECK_SAYS(tetstream_reader_note(reader, 0), "are split into them");
   tetstream_reader_destroy(reader);
   tetstream_options_destroy(split);
+}
+
+/* Two cells with a point each at the same place. */
+static const char kSlit[] =
+    "MeshVersionFormatted 2\nDimension 3\nVertices 7\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+    "0 0 0 0\n-1 0 0 0\n0 -1 0 0\nTetrahedra 2\n1 2 3 4 0\n5 6 7 4 0\nEnd\n";
+
+static void points_are_joined_if_asked_for(void) {
+  const char* values[] = {"auto", "no", "yes"};
+  const void* stream;
+  size_t size;
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  tetstream_options* options = NULL;
+  for (int i = 0; i < 3; ++i) {
+    tetstream_stream_info info = {0};
+    info.struct_size = sizeof info;
+    options = with(TETSTREAM_OPTION_JOIN_POINTS, values[i]);
+    CHECK_EQUAL(
+        tetstream_reader_open_memory_with(kSlit, sizeof kSlit - 1, "mesh", options, &reader),
+        TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
+    CHECK_EQUAL(info.vertex_count, i == 2 ? 6 : 7);
+    if (i == 2) CHECK_SAYS(tetstream_reader_note(reader, 0), "1 of 7 points were joined");
+    if (i < 2) tetstream_reader_destroy(reader);
+    if (i < 2) tetstream_options_destroy(options);
+  }
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_writer_get_memory(writer, &stream, &size), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_memory_with(stream, size, "tets", options, &reader),
+              TETSTREAM_UNSUPPORTED);
+  CHECK_SAYS(tetstream_reader_message(reader), "points of streams are not joined");
+  tetstream_reader_destroy(reader);
+  tetstream_writer_destroy(writer);
+  tetstream_options_destroy(options);
 }
 
 /* Two steps, of one cell and of two. */
@@ -197,6 +234,7 @@ static void the_format_msh_has_an_encoding_and_a_version(void) {
 
 int main(void) {
   RUN_CASE(other_cells_are_split_only_if_asked_for);
+  RUN_CASE(points_are_joined_if_asked_for);
   RUN_CASE(one_time_step_is_read);
   RUN_CASE(a_damaged_file_is_read_only_if_asked_for);
   RUN_CASE(every_way_of_opening_takes_options);

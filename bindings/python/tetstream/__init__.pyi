@@ -46,6 +46,7 @@ class _Options(TypedDict, total=False):
     axis: Literal["auto", "x", "y", "z"]
     order: str
     split: Literal["no", "yes"]
+    join_points: Literal["auto", "no", "yes"]
     recover: Literal["no", "yes"]
     step: str
 
@@ -172,6 +173,7 @@ class Options:
     axis: str
     order: str
     split: str
+    join_points: str
     recover: str
     step: str
     def __init__(self, **values: Unpack[_OptionsWithRegions]) -> None: ...
