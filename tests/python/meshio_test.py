@@ -31,6 +31,48 @@ class Meshio(unittest.TestCase):
         numpy.testing.assert_array_equal(again.fields["f"], small.fields["f"])
         numpy.testing.assert_array_equal(again.cell_data["part"].ravel(), small.cell_data["part"])
 
+    def test_labelled_faces_and_names_go_there_and_back(self):
+        points, cells, field = box(4)
+        bottom = cells[(points[cells][:, :, 2] == 0).sum(axis=1) == 3]
+        on = points[bottom][:, :, 2] == 0
+        triangles = bottom[on].reshape(-1, 3)
+        for by in ("gmsh:physical", "medit:ref", None):
+            labels = numpy.full(len(triangles), 7)
+            labels[0] = 0  # of no group
+            data = {"r": [numpy.arange(len(cells), dtype=float), numpy.zeros(len(triangles))]}
+            if by:
+                data[by] = [numpy.full(len(cells), 3), labels]
+            mesh = tetstream.from_meshio(meshio.Mesh(
+                points, [("tetra", cells), ("triangle", triangles)], {"f": field}, data,
+                {"floor": numpy.array([7, 2]), "air": numpy.array([3, 3]),
+                 "edge": numpy.array([9, 1])}))
+            if not by:
+                self.assertIsNone(mesh.faces)
+                self.assertEqual(mesh.label_names, {})
+                continue
+            numpy.testing.assert_array_equal(mesh.faces, triangles[1:])
+            self.assertEqual(set(mesh.face_labels), {7})
+            self.assertEqual(mesh.label_names, {None: {7: "floor"}, by: {3: "air"}})
+            small = mesh.simplify(ratio=0.4)
+            self.assertGreater(len(small.faces), 0)
+            again = tetstream.from_meshio(small.to_meshio())
+            numpy.testing.assert_array_equal(again.faces, small.faces)
+            numpy.testing.assert_array_equal(again.face_labels, small.face_labels)
+            numpy.testing.assert_array_equal(again.cell_data[by], small.cell_data[by])
+            numpy.testing.assert_array_equal(again.cell_data["r"], small.cell_data["r"])
+            self.assertEqual(again.label_names, mesh.label_names)
+
+    def test_faces_of_cells_without_labels_reach_gmsh(self):
+        points, cells, _ = box(2)
+        mesh = tetstream.Mesh(points, cells, faces=cells[:1, :3], face_labels=numpy.array([5]),
+                              label_names={None: {5: "spot"}})
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "spot.msh")
+            mesh.to_meshio().write(path, file_format="gmsh22", binary=False)
+            again = tetstream.read(path)
+        numpy.testing.assert_array_equal(again.face_labels, [5])
+        self.assertEqual(again.label_names, {None: {5: "spot"}})
+
     def test_other_cells_are_refused(self):
         with self.assertRaisesRegex(tetstream.Unsupported, "hexahedron"):
             tetstream.from_meshio(meshio.Mesh(numpy.zeros((8, 3)), [("hexahedron", [range(8)])]))

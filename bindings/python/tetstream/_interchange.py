@@ -41,23 +41,70 @@ def to_pyvista(mesh):
     return grid
 
 
+# How meshio calls what labels cells and faces alike, in files of Gmsh and of MEDIT.
+_LABELS = ("gmsh:physical", "medit:ref")
+
+
 def from_meshio(mesh):
     """A Mesh of a meshio.Mesh: the tetrahedra of all its blocks, point data as fields, cell data.
-    Triangles are left out, as are lines and vertices; other cells are refused."""
+    Triangles are labelled faces, by the cell data "gmsh:physical" or "medit:ref", unless they have 0
+    there or neither is; names of groups (field_data) are names of labels. Lines and vertices are
+    left out; other cells are refused."""
     kept = [i for i, block in enumerate(mesh.cells) if block.type == "tetra"]
     _needs_tetrahedra("the mesh", {block.type for block in mesh.cells} -
                       {"tetra", "triangle", "line", "vertex"})
     if not kept:
         raise Unsupported("the mesh has no tetrahedra")
-    return Mesh(mesh.points, numpy.concatenate([mesh.cells[i].data for i in kept]),
+    made = Mesh(mesh.points, numpy.concatenate([mesh.cells[i].data for i in kept]),
                 dict(mesh.point_data),
                 {name: numpy.concatenate([numpy.asarray(blocks[i]) for i in kept])
                  for name, blocks in mesh.cell_data.items()})
+    by = next((name for name in _LABELS if name in mesh.cell_data), None)
+    if by is not None:
+        _take_faces(made, mesh, by)
+        _take_names(made, mesh, by)
+    return made
+
+
+def _take_faces(made, mesh, by):
+    kept = [i for i, block in enumerate(mesh.cells) if block.type == "triangle"]
+    if not kept:
+        return
+    faces = numpy.concatenate([mesh.cells[i].data for i in kept]).astype(numpy.int64)
+    labels = numpy.concatenate([numpy.asarray(mesh.cell_data[by][i]) for i in kept])
+    labels = labels.astype(numpy.int64)
+    if labels.any():
+        made.faces, made.face_labels = faces[labels != 0], labels[labels != 0]
+
+
+def _take_names(made, mesh, by):
+    for name, group in mesh.field_data.items():
+        if numpy.shape(group) != (2,):
+            continue
+        label, dimension = (int(number) for number in group)
+        if dimension == 3 or (dimension == 2 and made.faces is not None):
+            made.label_names.setdefault(by if dimension == 3 else None, {})[label] = name
 
 
 def to_meshio(mesh):
-    """A meshio.Mesh of a Mesh."""
+    """A meshio.Mesh of a Mesh. Labelled faces are triangles, whose labels stand in the cell data
+    "gmsh:physical", or in "medit:ref" if the mesh has that; other cell data are 0 there, and all cells
+    have the label 1 if there was none. Names of these labels are field_data."""
     import meshio
-    return meshio.Mesh(mesh.points, [("tetra", numpy.asarray(mesh.cells))],
-                       point_data=dict(mesh.fields),
-                       cell_data={name: [values] for name, values in mesh.cell_data.items()})
+    by = next((name for name in _LABELS if name in mesh.cell_data), _LABELS[0])
+    count = 0 if mesh.faces is None else len(mesh.faces)
+    blocks = [("tetra", numpy.asarray(mesh.cells))]
+    cell_data = {name: [numpy.asarray(values)] for name, values in mesh.cell_data.items()}
+    if count > 0:
+        blocks.append(("triangle", numpy.asarray(mesh.faces)))
+        # Gmsh passes over cells of no group where there are groups.
+        cell_data.setdefault(by, [numpy.ones(len(mesh.cells), numpy.int64)])
+        for name, of_blocks in cell_data.items():
+            shape = (count, *of_blocks[0].shape[1:])
+            of_blocks.append(numpy.asarray(mesh.face_labels).astype(of_blocks[0].dtype)
+                             if name == by else numpy.zeros(shape, of_blocks[0].dtype))
+    names = {name: numpy.array([label, dimension])
+             for array, dimension in ((None, 2), (by, 3))
+             for label, name in mesh.label_names.get(array, {}).items()}
+    return meshio.Mesh(mesh.points, blocks, point_data=dict(mesh.fields), cell_data=cell_data,
+                       field_data=names)
