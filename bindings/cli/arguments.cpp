@@ -216,7 +216,8 @@ void Parser::addTraces(CLI::App* command) {
 
 CLI::Option* Parser::addTableOption(CLI::App* command, const tetstream_option_info& info) {
   const std::string name = info.name;
-  if (info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER) {
+  if (info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER ||
+      info.id == TETSTREAM_OPTION_CELLS_TO_POINTS) {
     return command->add_flag_callback(
         "--" + name, [this, name] { arguments_.options.values.emplace_back(name, "yes"); },
         info.text);
@@ -231,14 +232,19 @@ CLI::Option* Parser::addTableOption(CLI::App* command, const tetstream_option_in
       ->option_text(metavariable(info));
 }
 
+// What counts where a file of any kind is read.
+bool isOfFiles(int32_t id) {
+  return id == TETSTREAM_OPTION_SPLIT || id == TETSTREAM_OPTION_JOIN_POINTS ||
+         id == TETSTREAM_OPTION_CELLS_TO_POINTS || id == TETSTREAM_OPTION_STEP;
+}
+
 // What counts where nothing is simplified.
 void Parser::addStreamOptions(CLI::App* command) {
   for (const tetstream_option_info& info : optionTable())
     if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
         info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
-        info.id == TETSTREAM_OPTION_SPLIT || info.id == TETSTREAM_OPTION_RECOVER ||
-        info.id == TETSTREAM_OPTION_JOIN_POINTS || info.id == TETSTREAM_OPTION_STEP ||
-        info.id == TETSTREAM_OPTION_THREADS)
+        info.id == TETSTREAM_OPTION_RECOVER || info.id == TETSTREAM_OPTION_THREADS ||
+        isOfFiles(info.id))
       addTableOption(command, info);
 }
 
@@ -368,9 +374,8 @@ void Parser::addCompare(CLI::App* command) {
           "ends may be left out (default: all of it)";
     if (isOfComparison(info.id) || info.id == TETSTREAM_OPTION_SEED ||
         info.id == TETSTREAM_OPTION_REGIONS || info.id == TETSTREAM_OPTION_MEMORY ||
-        info.id == TETSTREAM_OPTION_TMPDIR || info.id == TETSTREAM_OPTION_SPLIT ||
-        info.id == TETSTREAM_OPTION_JOIN_POINTS || info.id == TETSTREAM_OPTION_STEP ||
-        info.id == TETSTREAM_OPTION_THREADS)
+        info.id == TETSTREAM_OPTION_TMPDIR || info.id == TETSTREAM_OPTION_THREADS ||
+        isOfFiles(info.id))
       addTableOption(command, info);
   }
   addReport(command);

@@ -134,6 +134,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_RECOVER 221         /* text: what is whole of a damaged .tets: "no", "yes" */
 #define TETSTREAM_OPTION_STEP 222            /* text: time step of a file: "last", "first", "3" */
 #define TETSTREAM_OPTION_JOIN_POINTS 223     /* text: points of one place: "auto", "no", "yes" */
+#define TETSTREAM_OPTION_CELLS_TO_POINTS 224 /* text: cell arrays as fields, too: "no", "yes" */
 
 #define TETSTREAM_OPTION_IS_INT64 1
 #define TETSTREAM_OPTION_IS_DOUBLE 2
@@ -362,7 +363,8 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
 /* As without `_with`, with options for the reading, which may be NULL: `split` (hexahedra, prisms and
  * pyramids are cut into tetrahedra; else they are UNSUPPORTED), `join-points` (points at the same
  * place become one, with the mean of their fields: where each cell has points of its own, as fields
- * that jump are written, or wherever they lie; UNSUPPORTED for streams), `recover` (of a .tets file that is
+ * that jump are written, or wherever they lie; UNSUPPORTED for streams), `cells-to-points` (cell arrays
+ * of floats are fields, too, at a point the mean of the cells round it; UNSUPPORTED for streams), `recover` (of a .tets file that is
  * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
  * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none

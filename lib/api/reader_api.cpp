@@ -1,4 +1,5 @@
 // api: readers of the public header.
+#include "cells_to_points.h"
 #include "compressed_bytes.h"
 #include "generate.h"
 #include "handles.h"
@@ -11,6 +12,27 @@ using namespace tetstream;
 
 static std::string textOrEmpty(const char* text) {
   return text ? text : "";
+}
+
+static void takeCellsToPoints(Input& input, const std::string& temp_dir, const std::string& name) {
+  if (input.stream)
+    fail(Status::kUnsupported,
+         "%s: of a stream, cell arrays do not become fields (option cells-to-points)",
+         name.c_str());
+  input.indexed = cellsToPoints(std::move(input.indexed), temp_dir);
+}
+
+// Where a file has floats, but none that a simplification could follow.
+static std::string unmeasuredNote(const Input& input) {
+  const Schema& schema = input.schema();
+  std::string names;
+  for (const Column& column : schema.cell_data)
+    if (isFloat(column.type)) names += (names.empty() ? "\"" : ", \"") + column.name + "\"";
+  const bool any_field = std::any_of(schema.fields.begin(), schema.fields.end(),
+                                     [](const Column& field) { return isFloat(field.type); });
+  if (any_field || names.empty()) return "";
+  return "no field at points is there to be followed, only cell arrays: " + names +
+         (input.indexed ? " (option cells-to-points, --cells-to-points)" : "");
 }
 
 // Opens the bytes as `format` and reads the header. `path` where they are a file's.
@@ -46,10 +68,13 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   if (options.join == PointJoining::kYes && reader.input.stream)
     fail(Status::kUnsupported, "%s: points of streams are not joined (option join-points)",
          name.c_str());
+  if (run.cells_to_points == "yes") takeCellsToPoints(reader.input, run.temp_dir, name);
   if (options.step > 0 && !reader.input.has_steps)
     fail(Status::kBadArgument,
          "%s: there is no time step %lld (option step, --step): there are none to choose from",
          name.c_str(), static_cast<long long>(options.step));
+  const std::string unmeasured = unmeasuredNote(reader.input);
+  if (!unmeasured.empty()) options.note(name + ": " + unmeasured);
   reader.input.stays_with_caller = false;
   reader.input.waiting = std::move(waiting);
   reader.input.name = name;

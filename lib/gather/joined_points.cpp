@@ -307,8 +307,31 @@ class JoinedPoints final : public IndexedSource {
 
   PointMeans& meansOf(size_t column) {
     std::unique_ptr<PointMeans>& means = means_[column];
-    if (!means) means = std::make_unique<PointMeans>(*mesh_, *points_, column);
+    const auto old_points = static_cast<uint64_t>(mesh_->schema().vertex_count);
+    if (!means)
+      means = std::make_unique<PointMeans>(
+          schema_.fields[column], points_->count(), old_points, points_->plan().temp_dir,
+          [&](size_t component, auto add) { forValues(column, component, add); });
     return *means;
+  }
+
+  // add(point as it is now, value) for each point that there was.
+  template <class Add>
+  void forValues(size_t column, size_t component, Add add) {
+    const Column& field = schema_.fields[column];
+    const auto width = static_cast<size_t>(field.components);
+    const auto old_points = static_cast<uint64_t>(mesh_->schema().vertex_count);
+    std::vector<unsigned char> rows(kAtOnce * field.bytesPerRow());
+    for (uint64_t at = 0; at < old_points; at += kAtOnce) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, old_points - at));
+      mesh_->readField(column, at, n, rows.data());
+      for (size_t i = 0; i < n; ++i) {
+        double value;
+        convertScalars(rows.data() + (i * width + component) * sizeOf(field.type), field.type,
+                       &value, ScalarType::kFloat64, 1);
+        add(static_cast<uint64_t>(points_->newOf(at + i)), value);
+      }
+    }
   }
 
   std::unique_ptr<IndexedSource> mesh_;

@@ -28,10 +28,11 @@ struct RunOptions {
   int64_t threads = 0;         // at work at once; 0: one for each core that the process may use
   Workers* workers = nullptr;  // that were brought; null: threads of our own
   std::string split = "no";    // of other cells, when a file is read
-  std::string join_points = "auto";  // likewise
-  std::string recover = "no";        // what is whole of a damaged file
-  std::string step = "last";         // time step, likewise
-  bool origins = false;              // ordered vertices tell their ranks in the input
+  std::string cells_to_points = "no";  // likewise
+  std::string join_points = "auto";    // likewise
+  std::string recover = "no";          // what is whole of a damaged file
+  std::string step = "last";           // time step, likewise
+  bool origins = false;                // ordered vertices tell their ranks in the input
   CompareOptions compare;
 };
 

@@ -66,6 +66,7 @@ static void published_numbers_have_their_names_and_types(void) {
       {TETSTREAM_OPTION_THREADS, TETSTREAM_OPTION_IS_INT64, "threads"},
       {TETSTREAM_OPTION_SPLIT, TETSTREAM_OPTION_IS_TEXT, "split"},
       {TETSTREAM_OPTION_JOIN_POINTS, TETSTREAM_OPTION_IS_TEXT, "join-points"},
+      {TETSTREAM_OPTION_CELLS_TO_POINTS, TETSTREAM_OPTION_IS_TEXT, "cells-to-points"},
       {TETSTREAM_OPTION_AXIS, TETSTREAM_OPTION_IS_TEXT, "axis"},
   };
   for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; ++i) {

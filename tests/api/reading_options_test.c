@@ -1,5 +1,5 @@
-/* Options of the reading: other cells that are split, points that are joined, damaged files, time
- * steps, folders of temporary files; properties of the format msh. */
+/* Options of the reading: other cells that are split, points that are joined, cell arrays as
+ * fields, damaged files, time steps, folders of temporary files; properties of the format msh. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -74,7 +74,45 @@ static void points_are_joined_if_asked_for(void) {
               TETSTREAM_UNSUPPORTED);
   CHECK_SAYS(tetstream_reader_message(reader), "points of streams are not joined");
   tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_JOIN_POINTS, "no"),
+              TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_CELLS_TO_POINTS, "yes"),
+              TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_memory_with(stream, size, "tets", options, &reader),
+              TETSTREAM_UNSUPPORTED);
+  CHECK_SAYS(tetstream_reader_message(reader), "cell arrays do not become fields");
+  tetstream_reader_destroy(reader);
   tetstream_writer_destroy(writer);
+  tetstream_options_destroy(options);
+}
+
+/* A cell with a value. */
+static const char kOneValue[] =
+    "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0 1 0 "
+    "0\n"
+    "0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\nCELL_DATA 1\nSCALARS heat double 1\n"
+    "LOOKUP_TABLE default\n2.5\n";
+
+static void cell_arrays_are_fields_if_asked_for(void) {
+  const size_t size = sizeof kOneValue - 1;
+  tetstream_options* options = with(TETSTREAM_OPTION_CELLS_TO_POINTS, "yes");
+  tetstream_reader* reader = NULL;
+  tetstream_stream_info info = {0};
+  info.struct_size = sizeof info;
+  CHECK_EQUAL(tetstream_reader_open_memory(kOneValue, size, "vtk", &reader), TETSTREAM_OK);
+  CHECK_SAYS(tetstream_reader_note(reader, 0),
+             "only cell arrays: \"heat\" (option cells-to-points");
+  CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
+  CHECK_EQUAL(info.field_count, 0);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_memory_with(kOneValue, size, "vtk", options, &reader),
+              TETSTREAM_OK);
+  CHECK(tetstream_reader_note(reader, 0) == NULL);
+  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_OK);
+  CHECK_EQUAL(info.field_count, 1);
+  CHECK_EQUAL(info.cell_data_count, 1);
+  CHECK_EQUAL(info.box_min[3], 2.5);
+  tetstream_reader_destroy(reader);
   tetstream_options_destroy(options);
 }
 
@@ -235,6 +273,7 @@ static void the_format_msh_has_an_encoding_and_a_version(void) {
 int main(void) {
   RUN_CASE(other_cells_are_split_only_if_asked_for);
   RUN_CASE(points_are_joined_if_asked_for);
+  RUN_CASE(cell_arrays_are_fields_if_asked_for);
   RUN_CASE(one_time_step_is_read);
   RUN_CASE(a_damaged_file_is_read_only_if_asked_for);
   RUN_CASE(every_way_of_opening_takes_options);

@@ -47,6 +47,7 @@ class _Options(TypedDict, total=False):
     order: str
     split: Literal["no", "yes"]
     join_points: Literal["auto", "no", "yes"]
+    cells_to_points: Literal["no", "yes"]
     recover: Literal["no", "yes"]
     step: str
 
@@ -174,6 +175,7 @@ class Options:
     order: str
     split: str
     join_points: str
+    cells_to_points: str
     recover: str
     step: str
     def __init__(self, **values: Unpack[_OptionsWithRegions]) -> None: ...
