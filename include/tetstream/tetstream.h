@@ -238,7 +238,7 @@ typedef struct tetstream_column {
 
 /* What a label means: the name of a region or of a part of the boundary, as files have them. Names
  * change nothing in a run; they go with the labels, which are kept, to formats that hold them (.tets,
- * .msh); of others a note of the writer tells them. */
+ * .msh, .exo); of others a note of the writer tells them. */
 typedef struct tetstream_label_name {
   const char *name;       /* 1 to 255 bytes, UTF-8 */
   const char *cell_array; /* the cell array, of integers with one component, whose label it is; NULL

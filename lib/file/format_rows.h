@@ -80,6 +80,7 @@ std::unique_ptr<Sink> createVtk(std::unique_ptr<ByteSink> bytes, const WriteOpti
 std::unique_ptr<Sink> createVtkHdf(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+std::unique_ptr<Sink> createExodus(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createMesh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
 std::unique_ptr<Sink> createMeshb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);

@@ -1,7 +1,10 @@
 #include "label_column.h"
 
 #include <algorithm>
+#include <set>
 #include <vector>
+
+#include "rows_at_once.h"
 
 namespace tetstream {
 
@@ -17,14 +20,11 @@ bool hasNames(const Schema& schema, const std::string& array) {
 }
 
 bool looksLikeIds(MeshSpool& mesh, size_t column) {
-  const ScalarType type = mesh.schema().cell_data[column].type;
   const uint64_t step = mesh.cellCount() / kRowsThatTell + 1;
   std::vector<int64_t> labels;
   for (uint64_t cell = 0; cell < mesh.cellCount(); cell += step) {
-    int64_t stored = 0, label = 0;
-    mesh.readCellData(column, cell, 1, &stored);
-    convertScalars(&stored, type, &label, ScalarType::kInt64, 1);
-    labels.push_back(label);
+    labels.push_back(0);
+    readLabels(mesh, column, cell, 1, &labels.back());
   }
   std::sort(labels.begin(), labels.end());
   const auto end = std::unique(labels.begin(), labels.end());
@@ -47,6 +47,31 @@ std::optional<size_t> labelColumn(MeshSpool& mesh, const char* name,
   if (named) return named;
   return first(
       [&](size_t i) { return !namesPartition(columns[i].name) && !looksLikeIds(mesh, i); });
+}
+
+void readLabels(MeshSpool& mesh, size_t column, uint64_t first, size_t count, int64_t* out) {
+  int64_t raw[kRowsAtOnce];
+  mesh.readCellData(column, first, count, raw);
+  convertScalars(raw, mesh.schema().cell_data[column].type, out, ScalarType::kInt64, count);
+}
+
+bool canBeGroups(MeshSpool& mesh, size_t column, int64_t least) {
+  std::set<int64_t> found;
+  int64_t rows[kRowsAtOnce], last = 0;
+  bool any = false;
+  for (uint64_t first = 0; first < mesh.cellCount(); first += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh.cellCount() - first));
+    readLabels(mesh, column, first, n, rows);
+    for (size_t i = 0; i < n; ++i) {
+      if (any && rows[i] == last) continue;
+      last = rows[i];
+      any = true;
+      if (last < least || last > INT32_MAX) return false;
+      found.insert(last);
+      if (found.size() > kMostGroups) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace tetstream

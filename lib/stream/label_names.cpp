@@ -44,8 +44,9 @@ void checkLabelNames(const Schema& schema) {
   for (size_t i = 0; i < names.size(); ++i) {
     const LabelName& name = names[i];
     if (name.name.empty() || name.name.size() > kMostNameBytes)
-      fail(Status::kBadArgument, "the name of %s has %zu bytes, 1 to %zu are possible",
-           whatItNames(name).c_str(), name.name.size(), kMostNameBytes);
+      fail(Status::kBadArgument, "the name of %s has %s, of which there are 1 to %zu",
+           whatItNames(name).c_str(), name.name.empty() ? "no bytes" : "too many bytes",
+           kMostNameBytes);
     if (i > 0 && isOfOneLabel(names[i - 1], name))
       fail(Status::kBadArgument, "%s has two names, \"%s\" and \"%s\"", whatItNames(name).c_str(),
            names[i - 1].name.c_str(), name.name.c_str());

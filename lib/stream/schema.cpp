@@ -25,8 +25,8 @@ static void checkColumns(const std::vector<Column>& columns, const char* kind) {
   for (size_t i = 0; i < columns.size(); ++i) {
     const Column& c = columns[i];
     if (c.name.empty() || c.name.size() > kMostNameBytes)
-      fail(Status::kBadArgument, "%s %zu: a name has 1 to %zu bytes, this one %zu", kind, i,
-           kMostNameBytes, c.name.size());
+      fail(Status::kBadArgument, "%s %zu: a name has 1 to %zu bytes, this one has %s", kind, i,
+           kMostNameBytes, c.name.empty() ? "none" : "more");
     if (c.components < 1 || c.components > kMaxComponents)
       fail(Status::kBadArgument, "%s \"%s\": %d components, 1 to %d are possible", kind,
            c.name.c_str(), c.components, kMaxComponents);

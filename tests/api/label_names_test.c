@@ -129,7 +129,7 @@ static void wrong_names_are_refused(void) {
   check_refused(mesh, good_names, -1, "-1 is no possible number of names of labels");
   check_refused(mesh, NULL, 1, "the names of labels are NULL");
   check_refused(mesh, &nothing, 1, "name 0 of labels is NULL");
-  check_refused(mesh, &empty, 1, "the name of faces 3 has 0 bytes");
+  check_refused(mesh, &empty, 1, "the name of faces 3 has no bytes");
   check_refused(mesh, &elsewhere, 1, "there is no cell array \"regions\"");
   check_refused(mesh, twice, 3, "faces 3 has two names, \"a\" and \"c\"");
   hostile_mesh_destroy(mesh);

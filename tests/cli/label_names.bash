@@ -26,3 +26,12 @@ contains "$out" '"name": "steel"'
 
 expect 0 convert c.msh d.vtu
 contains "$err" '.vtu has no names of labels; they are left out: faces 9 "outer wall", "gmsh:physical" 4 "steel"'
+
+# Exodus has blocks and side sets.
+expect 0 convert c.msh e.exo
+contains_not "$err" 'left out: faces'
+expect 0 info e.exo
+contains "$out" 'cell label    4, steel'
+contains "$out" 'face label    9, 1 faces, outer wall'
+expect 0 convert e.exo f.msh --encoding text --msh-version 2.2 --quiet
+contains "$(<f.msh)" $'$PhysicalNames\n2\n2 9 "outer wall"\n3 4 "steel"\n$EndPhysicalNames'

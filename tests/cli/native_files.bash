@@ -30,7 +30,7 @@ holds 3D_Ridgecrest_mesh_tri.exo 9847 49982 'block_id' '"elastic_ypos"' \
 # sheets of labelled faces inside a region.
 for file in palace_ring_disk.msh mmg_tinyBoxt.mesh 3D_Ridgecrest_mesh_tri.exo; do
   rm -f small.*  # the .sol file of another mesh
-  for format in msh mesh meshb vtu tets; do
+  for format in msh mesh meshb vtu tets exo; do
     expect 0 simplify "$meshes/$file" "small.$format" --ratio 0.1 --report json --quiet
     cells=$(member "$out" cells_out)
     [[ $(cells_in "small.$format") == "$cells" ]] || fail "$file as $format: not $cells cells"

@@ -52,3 +52,5 @@ vtk_says fills "${filled[@]}"
 vtk_says blocks .
 expect 0 convert blocks.exo ours.blocks.vtu
 vtk_says same blocks.vtu ours.blocks.vtu
+expect 0 convert blocks.vtu ours.blocks.exo
+vtk_says same blocks.vtu ours.blocks.exo

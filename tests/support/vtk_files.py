@@ -1,4 +1,4 @@
-"""What VTK reads in a file of its own formats, .vtu, .vtk or .vtkhdf."""
+"""What VTK reads in a file of its own formats, .vtu, .vtk or .vtkhdf, or of Exodus II, .exo."""
 
 import sys
 
@@ -8,6 +8,8 @@ import vtk
 def reader_of(path):
     if path.endswith(".vtkhdf"):
         return vtk.vtkHDFReader()
+    if path.endswith(".exo"):
+        return vtk.vtkExodusIIReader()
     if path.endswith(".vtu"):
         return vtk.vtkXMLUnstructuredGridReader()
     reader = vtk.vtkUnstructuredGridReader()
@@ -24,7 +26,28 @@ def grid_of(path):
     for event in ("ErrorEvent", "WarningEvent"):
         reader.AddObserver(event, lambda *words: said.append(words))
     reader.SetFileName(path)
+    grid = blocks_of(reader) if path.endswith(".exo") else None
     reader.Update()
     if said:
         sys.exit(f"{path}: VTK is not content")
-    return reader.GetOutput()
+    return grid or reader.GetOutput()
+
+
+def blocks_of(reader):
+    """All element blocks of an Exodus file as one grid, with all variables; block_id tells which."""
+    reader.UpdateInformation()
+    reader.GenerateObjectIdCellArrayOn()
+    reader.GenerateGlobalElementIdArrayOff()
+    reader.GenerateGlobalNodeIdArrayOff()
+    for kind in (reader.NODAL, reader.ELEM_BLOCK):
+        for i in range(reader.GetNumberOfObjectArrays(kind)):
+            reader.SetObjectArrayStatus(kind, reader.GetObjectArrayName(kind, i), 1)
+    reader.Update()
+    blocks = reader.GetOutput().GetBlock(0)
+    append = vtk.vtkAppendFilter()
+    for i in range(blocks.GetNumberOfBlocks()):
+        append.AddInputData(blocks.GetBlock(i))
+    append.Update()
+    grid = append.GetOutput()
+    grid.GetCellData().GetArray("ObjectId").SetName("block_id")
+    return grid

@@ -100,6 +100,9 @@ std::string writtenBy(Sink& sink, std::vector<unsigned char>& out, const VtuMesh
   for (const std::string& column : mesh.cell_data) cell_data.push_back(column.data());
   batch.fields = fields.data();
   batch.cell_data = cell_data.data();
+  batch.face_count = mesh.face_labels.size();
+  batch.faces = mesh.faces.data();
+  batch.face_labels = mesh.face_labels.data();
   sink.put(batch);
   sink.finish();
   return std::string(out.begin(), out.end());

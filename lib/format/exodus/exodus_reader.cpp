@@ -167,8 +167,19 @@ class Exodus {
       file_->open("time_whole", step, 1)->read(0, 1, &time, ScalarType::kFloat64);
       return time;
     });
-    for (size_t i = 0; i < of_nodes.size(); ++i) addNodal(i, of_nodes);
-    for (size_t i = 0; i < of_elements.size(); ++i) addElemental(i, of_elements[i]);
+    for (size_t i = 0; i < of_nodes.size(); ++i)
+      if (isNew(piece_.point_data, shown(of_nodes[i], i))) addNodal(i, of_nodes);
+    for (size_t i = 0; i < of_elements.size(); ++i)
+      if (isNew(piece_.cell_data, shown(of_elements[i], i))) addElemental(i, of_elements[i]);
+  }
+
+  bool isNew(const std::vector<MeshArray>& arrays, const std::string& name) {
+    const bool is_there = std::any_of(arrays.begin(), arrays.end(),
+                                      [&](const MeshArray& array) { return array.name == name; });
+    if (is_there)
+      mesh_.addNote(textOf("variable \"%s\" is left out: there is another array of its name",
+                           name.c_str()));
+    return !is_there;
   }
 
   // One variable each, or, in old files, all of them in one.

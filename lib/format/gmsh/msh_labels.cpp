@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
-#include "label_column.h"
+#include "rows_at_once.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr size_t kLabelsAtOnce = 1024;
 constexpr int32_t kGroupOfAll = 1;
 
 bool isIntegerColumn(const Column& column) {
@@ -25,41 +24,17 @@ MshLabels::MshLabels(MeshSpool& mesh) : mesh_(mesh) {
 
 void MshLabels::read(const std::optional<size_t>& column, uint64_t first, size_t count,
                      int64_t* out) {
-  if (!column) return;
-  int64_t raw[kLabelsAtOnce];
-  mesh_.readCellData(*column, first, count, raw);
-  convertScalars(raw, mesh_.schema().cell_data[*column].type, out, ScalarType::kInt64, count);
-}
-
-// Whether a column can be groups: no number below `least` or above what Gmsh holds, not too many.
-bool MshLabels::isUsable(size_t column, int64_t least) {
-  std::set<int64_t> found;
-  int64_t rows[kLabelsAtOnce], last = 0;
-  bool any = false;
-  for (uint64_t first = 0; first < mesh_.cellCount(); first += kLabelsAtOnce) {
-    const auto n =
-        static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, mesh_.cellCount() - first));
-    read(column, first, n, rows);
-    for (size_t i = 0; i < n; ++i) {
-      if (any && rows[i] == last) continue;
-      last = rows[i];
-      any = true;
-      if (last < least || last > INT32_MAX) return false;
-      found.insert(last);
-      if (found.size() > kMostGroups) return false;
-    }
-  }
-  return true;
+  if (column) readLabels(mesh_, *column, first, count, out);
 }
 
 void MshLabels::chooseColumns() {
   const std::vector<Column>& columns = mesh_.schema().cell_data;
   const int entity = findColumn(columns, kMshEntity);
   if (entity >= 0 && isIntegerColumn(columns[static_cast<size_t>(entity)]) &&
-      isUsable(static_cast<size_t>(entity), 1))
+      canBeGroups(mesh_, static_cast<size_t>(entity), 1))
     entity_column_ = static_cast<size_t>(entity);
   group_column_ = labelColumn(mesh_, kMshPhysical, [&](size_t column) {
-    return static_cast<int>(column) != entity && isUsable(column, 0);
+    return static_cast<int>(column) != entity && canBeGroups(mesh_, column, 0);
   });
 }
 
@@ -67,11 +42,10 @@ void MshLabels::chooseColumns() {
 // without labels beside faces with such are one group: of a file that has groups, Gmsh saves again
 // what is in one only, and meshio does not read cells of none.
 void MshLabels::findVolumes() {
-  int64_t groups[kLabelsAtOnce] = {}, entities[kLabelsAtOnce] = {};
+  int64_t groups[kRowsAtOnce] = {}, entities[kRowsAtOnce] = {};
   int64_t highest = 0;
-  for (uint64_t first = 0; first < mesh_.cellCount(); first += kLabelsAtOnce) {
-    const auto n =
-        static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, mesh_.cellCount() - first));
+  for (uint64_t first = 0; first < mesh_.cellCount(); first += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_.cellCount() - first));
     read(group_column_, first, n, groups);
     read(entity_column_, first, n, entities);
     for (size_t i = 0; i < n; ++i) {
@@ -97,10 +71,10 @@ void MshLabels::findVolumes() {
 }
 
 void MshLabels::findSurfaces() {
-  int64_t corners[3 * kLabelsAtOnce], labels[kLabelsAtOnce];
+  int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
   const auto count = mesh_.faceCount();
-  for (uint64_t first = 0; first < count; first += kLabelsAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kLabelsAtOnce, count - first));
+  for (uint64_t first = 0; first < count; first += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - first));
     mesh_.readFaces(first, n, corners, labels);
     for (size_t i = 0; i < n; ++i) {
       const bool known =

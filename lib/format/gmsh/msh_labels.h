@@ -8,12 +8,11 @@
 #include <set>
 #include <utility>
 
+#include "label_column.h"
 #include "mesh_spool.h"
 #include "msh_hints.h"
 
 namespace tetstream {
-
-constexpr size_t kMostGroups = 1 << 16;  // more labels than that are numbers, no groups
 
 // A volume or a surface: its tag, which differs from the others', and its group, 0 for none.
 struct MshEntity {
@@ -52,7 +51,6 @@ class MshLabels {
 
  private:
   void read(const std::optional<size_t>& column, uint64_t first, size_t count, int64_t* out);
-  bool isUsable(size_t column, int64_t least);
   void chooseColumns();
   void findVolumes();
   void findSurfaces();

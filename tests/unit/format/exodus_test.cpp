@@ -59,6 +59,17 @@ TEST(Exodus, SidesLabelFacesOnceEach) {
   EXPECT_TRUE(hasNote(mesh, "1 faces are in side sets more than once"));
 }
 
+TEST(Exodus, OfVariablesOfOneNameTheFirstIsRead) {
+  NetcdfMaker m = twoBlocks();
+  for (TestVariable& v : m.variables)
+    if (v.name == "name_elem_var") v.text = "block_id";
+  const VtuMesh mesh = readAs("exodus", m.make());
+  EXPECT_TRUE(
+      hasNote(mesh, "variable \"block_id\" is left out: there is another array of its name"));
+  ASSERT_EQ(mesh.schema.cell_data.size(), 1u);
+  EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]), (std::vector<int32_t>{30, 20}));
+}
+
 TEST(Exodus, TheTimeStepIsChosen) {
   const std::string file = twoBlocks().make();
   ReadOptions options;

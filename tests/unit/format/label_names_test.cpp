@@ -70,7 +70,7 @@ TEST(LabelNamesOfFiles, ThatLieAreRefused) {
     uint32_t value;
     const char* problem;
   } cases[] = {{0, 20, "impossible sizes"},  {0, 1u << 20, "too short"},
-               {4, 900, "impossible sizes"}, {4, 0, "has 0 bytes"},
+               {4, 900, "impossible sizes"}, {4, 0, "has no bytes"},
                {8, 2, "impossible sizes"},   {8, 0xfffffff0u, "impossible"},
                {8, 0, "has no labels"},      {24, 0x64610065u, "a zero byte"}};
   for (const auto& c : cases) {

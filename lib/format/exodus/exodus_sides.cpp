@@ -1,0 +1,142 @@
+// Faces and the faces of cells come together by their corners: hashed into buckets that fit into
+// memory, each of which is sorted.
+#include "exodus_sides.h"
+
+#include <algorithm>
+#include <array>
+
+#include "exodus_blocks.h"
+#include "mix.h"
+#include "rows_at_once.h"
+
+namespace tetstream {
+
+namespace {
+
+constexpr size_t kBuckets = 64;
+
+struct Row {
+  std::array<int64_t, 3> key;  // the corners, ascending
+  int64_t element;             // 0: the labelled face itself
+  int64_t side_or_label;
+  bool operator<(const Row& other) const {
+    return key != other.key ? key < other.key : element < other.element;
+  }
+};
+
+class FaceRows {
+ public:
+  explicit FaceRows(const std::string& temp_dir) : buckets_(kBuckets, temp_dir) {}
+  Buckets<Row>& buckets() { return buckets_; }
+  void add(std::array<int64_t, 3> corners, int64_t element, int64_t side_or_label) {
+    std::sort(corners.begin(), corners.end());
+    uint64_t hash = 0;
+    for (const int64_t corner : corners) hash = mix(hash ^ static_cast<uint64_t>(corner));
+    buckets_.add(static_cast<size_t>(hash % kBuckets), {corners, element, side_or_label});
+  }
+
+ private:
+  Buckets<Row> buckets_;
+};
+
+// A bit a point.
+class PointSet {
+ public:
+  PointSet(Account& account, uint64_t points)
+      : words_(account, static_cast<size_t>(points / 64 + 1)) {
+    std::fill_n(words_.data(), words_.size(), uint64_t{0});
+  }
+  void add(int64_t point) { words_[wordOf(point)] |= bitOf(point); }
+  bool has(int64_t point) const { return (words_[wordOf(point)] & bitOf(point)) != 0; }
+
+ private:
+  static size_t wordOf(int64_t point) { return static_cast<size_t>(point / 64); }
+  static uint64_t bitOf(int64_t point) { return uint64_t{1} << (point % 64); }
+  Array<uint64_t> words_;
+};
+
+// Returns how many are left out.
+uint64_t addFaces(MeshSpool& mesh, FaceRows& rows, PointSet& points) {
+  int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
+  uint64_t left_out = 0;
+  for (uint64_t at = 0; at < mesh.faceCount(); at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh.faceCount() - at));
+    mesh.readFaces(at, n, corners, labels);
+    for (size_t i = 0; i < n; ++i) {
+      const int64_t* face = corners + 3 * i;
+      if (!ExodusSides::isId(labels[i])) {
+        ++left_out;
+        continue;
+      }
+      rows.add({face[0], face[1], face[2]}, 0, labels[i]);
+      for (int k = 0; k < 3; ++k) points.add(face[k]);
+    }
+  }
+  return left_out;
+}
+
+// Of cells, the faces that can be labelled ones.
+void addSides(MeshSpool& mesh, RowSpool& elements, FaceRows& rows, const PointSet& points) {
+  std::vector<int64_t> cells(4 * kRowsAtOnce);
+  for (uint64_t at = 0; at < mesh.cellCount(); at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh.cellCount() - at));
+    mesh.readCells(at, n, cells.data());
+    for (size_t i = 0; i < n; ++i) {
+      const int64_t* cell = &cells[4 * i];
+      for (int64_t side = 1; side <= 4; ++side) {
+        int places[4];
+        exodusSide(CellShape::kTetra, side, places);
+        const std::array<int64_t, 3> face = {cell[places[0]], cell[places[1]], cell[places[2]]};
+        if (!points.has(face[0]) || !points.has(face[1]) || !points.has(face[2])) continue;
+        const auto element = *static_cast<const int64_t*>(elements.row(at + i));
+        rows.add(face, element + 1, side);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+struct ExodusSides::Found {
+  int64_t label;
+  ExodusSide side;
+};
+
+ExodusSides::ExodusSides(MeshSpool& mesh, RowSpool& elements, const std::string& temp_dir)
+    : temp_dir_(temp_dir) {
+  RowSpool found(sizeof(Found), temp_dir);
+  if (mesh.faceCount() > 0) find(mesh, elements, found);
+  found.finish();
+  grouped_ = std::make_unique<GroupedRows<ExodusSide>>(counts_, temp_dir);
+  for (uint64_t i = 0; i < found.rows(); ++i) {
+    const auto* row = static_cast<const Found*>(found.row(i));
+    grouped_->add(row->label, row->side);
+  }
+  grouped_->finish();
+}
+
+void ExodusSides::find(MeshSpool& mesh, RowSpool& elements, RowSpool& found) {
+  Account account;
+  FaceRows rows(temp_dir_);
+  PointSet points(account, mesh.pointCount());
+  left_out_ = addFaces(mesh, rows, points);
+  addSides(mesh, elements, rows, points);
+  for (size_t bucket = 0; bucket < kBuckets; ++bucket) {
+    const Array<Row> sorted = rows.buckets().take(bucket, account);
+    for (size_t i = 0; i < sorted.size(); ++i) {
+      if (sorted[i].element != 0) continue;
+      if (i + 1 == sorted.size() || sorted[i + 1].key != sorted[i].key ||
+          sorted[i + 1].element == 0) {
+        ++left_out_;  // a face of no cell, or one that is there again
+        continue;
+      }
+      const Found row = {sorted[i].side_or_label,
+                         {static_cast<int32_t>(sorted[i + 1].element),
+                          static_cast<int32_t>(sorted[i + 1].side_or_label)}};
+      found.append(&row, 1);
+      ++counts_[row.label];
+    }
+  }
+}
+
+}  // namespace tetstream

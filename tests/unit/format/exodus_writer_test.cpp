@@ -1,0 +1,202 @@
+// Exodus files of ours: blocks, side sets, names and variables come back; the layout with wide
+// numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "indexed_testing.h"
+#include "meshes.h"
+#include "netcdf_file.h"
+#include "netcdf_writer.h"
+#include "vtu_mesh_testing.h"
+
+namespace tetstream {
+namespace {
+
+using namespace test;
+
+template <class T>
+std::string packedValues(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+// A grid whose cells are in three blocks in turn, labelled faces on two of its sides and one
+// inside.
+VtuMesh labelledGrid() {
+  const SmallMesh grid = gridMesh(2, 3, 2);
+  VtuMesh mesh;
+  mesh.schema.position_type = ScalarType::kFloat64;
+  mesh.schema.fields = {{"f", 1, ScalarType::kFloat64}, {"v", 3, ScalarType::kFloat32}};
+  mesh.schema.cell_data = {{"heat", 2, ScalarType::kFloat64}, {"part", 1, ScalarType::kInt32}};
+  mesh.schema.label_names = {{"", 7, "bottom"}, {"part", 20, "middle"}};
+  mesh.positions = packedValues(grid.positions);
+  mesh.cells = grid.cells;
+  mesh.schema.vertex_count = static_cast<int64_t>(grid.vertexCount());
+  mesh.schema.cell_count = static_cast<int64_t>(grid.cellCount());
+  std::vector<float> v;
+  for (size_t i = 0; i < 3 * grid.vertexCount(); ++i) v.push_back(0.25f * static_cast<float>(i));
+  mesh.fields = {packedValues(grid.field), packedValues(v)};
+  std::vector<double> heat;
+  std::vector<int32_t> part;
+  for (size_t c = 0; c < grid.cellCount(); ++c) {
+    heat.insert(heat.end(), {static_cast<double>(c), -0.5 * static_cast<double>(c)});
+    part.push_back(30 - 10 * static_cast<int32_t>(c % 3));
+  }
+  mesh.cell_data = {packedValues(heat), packedValues(part)};
+  const auto addFace = [&](size_t cell, size_t without, int64_t label) {
+    for (size_t j = 0; j < 4; ++j)
+      if (j != without) mesh.faces.push_back(grid.cells[4 * cell + j]);
+    mesh.face_labels.push_back(label);
+  };
+  for (size_t c = 0; c < grid.cellCount(); ++c)
+    for (size_t j = 0; j < 4; ++j) {
+      int low = 0;
+      for (size_t k = 0; k < 4; ++k)
+        low += k != j && grid.positions[3 * static_cast<size_t>(grid.cells[4 * c + k]) + 2] == 0;
+      if (low == 3) addFace(c, j, 7);
+    }
+  addFace(17, 2, 8);
+  mesh.schema.face_count = static_cast<int64_t>(mesh.face_labels.size());
+  return mesh;
+}
+
+std::string asExodus(const VtuMesh& mesh, std::vector<std::string>* notes = nullptr) {
+  std::vector<unsigned char> out;
+  WriteOptions options;
+  if (notes) options.note = [notes](const std::string& note) { notes->push_back(note); };
+  return writtenBy(*createExodus(createMemory(out), options), out, mesh);
+}
+
+std::vector<std::vector<int64_t>> labelledFacesOf(const VtuMesh& mesh) {
+  std::vector<std::vector<int64_t>> faces;
+  for (size_t i = 0; i < mesh.face_labels.size(); ++i) {
+    std::vector<int64_t> face(&mesh.faces[3 * i], &mesh.faces[3 * i] + 3);
+    std::sort(face.begin(), face.end());
+    face.push_back(mesh.face_labels[i]);
+    faces.push_back(face);
+  }
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+
+TEST(ExodusWriter, BlocksSetsNamesAndVariablesComeBack) {
+  const VtuMesh mesh = labelledGrid();
+  std::vector<std::string> notes;
+  const std::string file = asExodus(mesh, &notes);
+  EXPECT_EQ(file.substr(0, 4), std::string("CDF\x02"));
+  EXPECT_TRUE(anyNote(notes, "each component is a variable of its own: \"v\", \"heat\""));
+  ASSERT_EQ(notes.size(), 1u);
+  for (const size_t step : {1, 1000}) {
+    const VtuMesh back = readAs("exodus", file, step);
+    EXPECT_EQ(back.positions, mesh.positions);
+    EXPECT_EQ(back.schema.label_names,
+              (std::vector<LabelName>{{"", 7, "bottom"}, {"block_id", 20, "middle"}}));
+    EXPECT_EQ(labelledFacesOf(back), labelledFacesOf(mesh));
+    ASSERT_EQ(back.schema.fields.size(), 4u);
+    EXPECT_EQ(back.schema.fields[0].name, "f");
+    EXPECT_EQ(back.fields[0], mesh.fields[0]);
+    EXPECT_EQ(back.schema.fields[3].name, "v_z");
+    EXPECT_EQ(valuesAs<double>(back.fields[3])[5], 0.25 * 17);
+    ASSERT_EQ(back.schema.cell_data.size(), 3u);
+    EXPECT_EQ(back.schema.cell_data[0].name, "block_id");
+    EXPECT_EQ(back.schema.cell_data[2].name, "heat_2");
+    // Cells by block, in each in their order.
+    const std::vector<int32_t> blocks = valuesAs<int32_t>(back.cell_data[0]);
+    const std::vector<double> second = valuesAs<double>(back.cell_data[2]);
+    const size_t cells = mesh.cells.size() / 4;
+    for (size_t i = 0; i < cells; ++i) {
+      const size_t block = i / (cells / 3), old = 3 * (i % (cells / 3)) + 2 - block;
+      EXPECT_EQ(blocks[i], 10 + 10 * static_cast<int32_t>(block));
+      EXPECT_EQ(second[i], -0.5 * static_cast<double>(old));
+      EXPECT_TRUE(std::equal(&mesh.cells[4 * old], &mesh.cells[4 * old] + 4, &back.cells[4 * i]));
+    }
+  }
+}
+
+TEST(ExodusWriter, CellsWithoutLabelsAreBlock1AndFloatsStayNarrow) {
+  VtuMesh mesh = labelledGrid();
+  mesh.schema.position_type = ScalarType::kFloat32;
+  std::vector<float> narrow;
+  for (const double x : valuesAs<double>(mesh.positions)) narrow.push_back(static_cast<float>(x));
+  mesh.positions = packedValues(narrow);
+  mesh.schema.fields = {mesh.schema.fields[1]};
+  mesh.fields = {mesh.fields[1]};
+  mesh.schema.cell_data.clear();
+  mesh.cell_data.clear();
+  mesh.schema.label_names.clear();
+  mesh.faces.clear();
+  mesh.face_labels.clear();
+  const VtuMesh back = readAs("exodus", asExodus(mesh));
+  EXPECT_EQ(back.schema.position_type, ScalarType::kFloat32);
+  EXPECT_EQ(back.schema.fields[0].type, ScalarType::kFloat32);
+  EXPECT_EQ(back.positions, mesh.positions);
+  EXPECT_EQ(back.cells, mesh.cells);
+  const std::vector<int32_t> blocks = valuesAs<int32_t>(back.cell_data[0]);
+  EXPECT_EQ(std::count(blocks.begin(), blocks.end(), 1),
+            static_cast<std::ptrdiff_t>(blocks.size()));
+}
+
+TEST(ExodusWriter, TellsWhatIsLeftOutOrRounded) {
+  VtuMesh mesh = labelledGrid();
+  mesh.faces.insert(mesh.faces.end(), {0, 1, 2, mesh.cells[0], mesh.cells[1], mesh.cells[2]});
+  mesh.face_labels.insert(mesh.face_labels.end(), {0, int64_t{1} << 40});
+  mesh.faces.insert(mesh.faces.end(), {0, 5, 35});  // of no cell
+  mesh.face_labels.push_back(4);
+  mesh.schema.cell_data.push_back({"number", 1, ScalarType::kInt64});
+  std::vector<int64_t> numbers(mesh.cells.size() / 4, 3);
+  numbers[5] = (int64_t{1} << 53) + 1;
+  mesh.cell_data.push_back(packedValues(numbers));
+  mesh.schema.label_names = {{"", 99, "nowhere"}, {"number", 3, "three"}, {"part", 20, "middle"}};
+  mesh.schema.cell_data.push_back({"block_id", 1, ScalarType::kInt32});
+  mesh.cell_data.push_back(mesh.cell_data[1]);
+  std::vector<std::string> notes;
+  const VtuMesh back = readAs("exodus", asExodus(mesh, &notes));
+  EXPECT_TRUE(anyNote(notes, "3 labelled faces are left out"));
+  EXPECT_TRUE(anyNote(notes, "\"number\" has integers that a float64 does not hold"));
+  EXPECT_TRUE(anyNote(notes,
+                      "no side sets are left out: faces 99 \"nowhere\", \"number\" 3 \"three\", "
+                      "\"part\" 20 \"middle\""));
+  EXPECT_EQ(back.face_labels.size(), labelledGrid().face_labels.size());
+  EXPECT_TRUE(back.schema.label_names.empty());
+  EXPECT_EQ(back.schema.cell_data.size(), 5u);
+  EXPECT_EQ(valuesAs<int32_t>(back.cell_data[0])[0], 10);  // block_id, though others have names
+}
+
+// Where an array is too large for 32-bit sizes.
+TEST(NetcdfWriter, WideNumbersAreReadAsTheOthers) {
+  for (const uint64_t most : {uint64_t{40}, uint64_t{1} << 30}) {
+    std::vector<unsigned char> out;
+    const auto bytes = createMemory(out);
+    NetcdfWriter writer(*bytes, most);
+    const size_t time = writer.addDimension("time", 0), rows = writer.addDimension("rows", 7),
+                 width = writer.addDimension("width", 5);
+    writer.addAttribute("title", "some");
+    writer.addAttribute("number", NetcdfType::kDouble, 2.5);
+    writer.addAttribute("word", NetcdfType::kInt, -3);
+    std::vector<double> reals = {1, -2.5, 3e300, 4, 5, 6, 7};
+    writer.addVariable("late", NetcdfType::kDouble, {time, rows}, {}, [&](NetcdfValues& values) {
+      values.put(reals.data(), ScalarType::kFloat64, 7);
+    });
+    writer.addVariable("words", NetcdfType::kChar, {rows, width}, {"kind", "text"},
+                       [](NetcdfValues& values) {
+                         for (int i = 0; i < 7; ++i) values.text(textOf("w%d", i * 11), 5);
+                       });
+    writer.addVariable("numbers", NetcdfType::kInt, {rows}, {}, [](NetcdfValues& values) {
+      for (int64_t i = 0; i < 7; ++i) values.put(-100000 * i);
+    });
+    writer.write();
+    bytes->commit();
+    EXPECT_EQ(out[3], most == 40 ? 5 : 2);
+    const auto file = openNetcdf(openMemory(out.data(), out.size(), "memory"));
+    EXPECT_EQ(file->reals("late", 100), reals);
+    EXPECT_EQ(file->texts("words", 100),
+              (std::vector<std::string>{"w0", "w11", "w22", "w33", "w44", "w55", "w66"}));
+    EXPECT_EQ(file->textAttribute("words", "kind"), "text");
+    EXPECT_EQ(file->integers("numbers", 100),
+              (std::vector<int64_t>{0, -100000, -200000, -300000, -400000, -500000, -600000}));
+  }
+}
+
+}  // namespace
+}  // namespace tetstream
