@@ -9,6 +9,10 @@ namespace tetstream {
 
 constexpr size_t kFeedBytes = 1 << 16;
 constexpr uint64_t kMaxTagBytes = 1 << 20;  // of a tag or comment, which expat holds in memory
+// Of a tag that may be full of entities, each of which can become kMaxEntityBytes out of three:
+// with what is fed at once that is 22 MiB, before expat's own protection, which allows for more.
+constexpr uint64_t kMaxTagWithEntities = 1 << 16;
+constexpr size_t kMaxEntities = 64, kMaxEntityBytes = 512;  // names and paths of files
 
 XmlFeed::XmlFeed(ByteSource& bytes, Doctype doctype)
     : bytes_(bytes), expat_(XML_ParserCreate(nullptr), XML_ParserFree) {
@@ -17,6 +21,7 @@ XmlFeed::XmlFeed(ByteSource& bytes, Doctype doctype)
   XML_SetElementHandler(expat_.get(), onStart, onEnd);
   if (doctype == Doctype::kRefused) XML_SetStartDoctypeDeclHandler(expat_.get(), onDoctype);
   XML_SetEntityDeclHandler(expat_.get(), onEntity);
+  XML_SetAttlistDeclHandler(expat_.get(), onAttlist);
   XML_SetCdataSectionHandler(expat_.get(), onCdata, onCdataEnd);
   XML_SetDefaultHandler(expat_.get(), onOther);
 }
@@ -47,8 +52,9 @@ void XmlFeed::feed() {
     if (status != XML_STATUS_OK) failXml();
     if (end) return;
     fed += got;
-    if (fed - last_event_ > kMaxTagBytes)
-      failAt(last_event_, "a tag or comment is longer than 1 MiB");
+    if (fed - last_event_ > (entities_.empty() ? kMaxTagBytes : kMaxTagWithEntities))
+      failAt(last_event_, std::string("a tag or comment is longer than ") +
+                              (entities_.empty() ? "1 MiB" : "64 KiB"));
     const bool in_text = depth_ > 0 && !in_cdata_ && last_event_ == fed;
     if (in_text) fed = passText(fed, buffer.data());
   }
@@ -154,10 +160,38 @@ void XMLCALL XmlFeed::onCdataEnd(void* user) {
   self.guard([] {});
 }
 
-void XMLCALL XmlFeed::onEntity(void* user, const XML_Char*, int, const XML_Char*, int,
-                               const XML_Char*, const XML_Char*, const XML_Char*, const XML_Char*) {
+// Such as could not grow: without others in them they need no bound of how often one leads to the
+// next. The first declaration of a name counts.
+void XmlFeed::addEntity(const char* name, std::string text) {
+  const size_t bytes = std::max(std::strlen(name), text.size());
+  if (bytes > kMaxEntityBytes || entities_.size() == kMaxEntities ||
+      text.find_first_of("&<") != std::string::npos)
+    failHere("an entity is not read that is long, one of many or more than plain text",
+             Status::kUnsupported);
+  entities_.emplace(name, std::move(text));
+}
+
+void XMLCALL XmlFeed::onEntity(void* user, const XML_Char* name, int is_parameter,
+                               const XML_Char* text, int size, const XML_Char*, const XML_Char*,
+                               const XML_Char*, const XML_Char*) {
   XmlFeed& self = *static_cast<XmlFeed*>(user);
-  self.guard([&] { self.failHere("declarations of entities are not read", Status::kUnsupported); });
+  self.guard([&] {
+    if (is_parameter || !text)
+      self.failHere("declarations of entities are not read but for those of plain text",
+                    Status::kUnsupported);
+    self.addEntity(name, std::string(text, static_cast<size_t>(size)));
+  });
+}
+
+// Words of tags that are declared, and then kept, may be full of entities, too.
+void XMLCALL XmlFeed::onAttlist(void* user, const XML_Char*, const XML_Char*, const XML_Char*,
+                                const XML_Char*, int) {
+  XmlFeed& self = *static_cast<XmlFeed*>(user);
+  self.guard([&] {
+    if (!self.entities_.empty())
+      self.failHere("declarations of attributes beside entities are not read",
+                    Status::kUnsupported);
+  });
 }
 
 void XMLCALL XmlFeed::onDoctype(void* user, const XML_Char*, const XML_Char*, const XML_Char*,

@@ -26,7 +26,7 @@ class NetcdfHdf5 final : public NetcdfFile {
     v.type = shape.type;
     v.text = !shape.numbers;
     if (shape.numbers) v.sizes.push_back(shape.rows);
-    if (shape.numbers && shape.dimensions == 2) v.sizes.push_back(shape.components);
+    if (shape.numbers && shape.dimensions >= 2) v.sizes.push_back(shape.components);
     return &(variables_[variable] = std::move(v));
   }
 

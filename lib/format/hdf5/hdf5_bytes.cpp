@@ -67,15 +67,13 @@ class CompactBytes final : public ValueBytes {
   std::vector<unsigned char> bytes_;
 };
 
-// In chunks of some rows and columns. A band is what the chunks of the same rows hold, as rows.
+// In chunks of some rows and columns, of which those of further directions are one. A band is what
+// the chunks of the same rows hold, as rows.
 class ChunkedBytes final : public ValueBytes {
  public:
   explicit ChunkedBytes(Dataset dataset) : dataset_(std::move(dataset)) {
     const Hdf5Shape& shape = dataset_.shape;
-    const hid_t plan = dataset_.plan;
-    const int dimensions = dataset_.file.check(hdf5().Pget_chunk(plan, 2, chunk_), dataset_.what);
-    if (dimensions != shape.dimensions || chunk_[0] == 0 || chunk_[1] == 0)
-      dataset_.fail(Status::kBadData, "has chunks of other dimensions");
+    readChunkSize();
     row_bytes_ = shape.components * shape.element;
     const uint64_t widest = std::max<uint64_t>(shape.components, chunk_[1]) * shape.element;
     if (widest > kMaxBandBytes || chunk_[0] > kMaxBandBytes / widest)
@@ -103,6 +101,23 @@ class ChunkedBytes final : public ValueBytes {
     Hdf5Filter kind;
     size_t element;
   };
+
+  void readChunkSize() {
+    const Hdf5Functions& h = hdf5();
+    hsize_t sizes[kMostHdf5Dimensions];
+    const Hdf5Id space(dataset_.file.check(h.Dget_space(dataset_.id), dataset_.what), h.Sclose);
+    dataset_.file.check(h.Sget_simple_extent_dims(space, sizes, nullptr), dataset_.what);
+    const int dimensions = dataset_.file.check(
+        h.Pget_chunk(dataset_.plan, kMostHdf5Dimensions, chunk_), dataset_.what);
+    if (dimensions != dataset_.shape.dimensions || chunk_[0] == 0 || chunk_[1] == 0)
+      dataset_.fail(Status::kBadData, "has chunks of other dimensions");
+    for (int d = 2; d < dimensions; ++d)
+      if (chunk_[d] != sizes[d])
+        dataset_.fail(Status::kUnsupported, "has chunks that are cut in the third direction");
+    if (chunk_[1] > kMaxBandBytes / std::max<uint64_t>(dataset_.shape.inner, 1))
+      dataset_.fail(Status::kUnsupported, "has chunks of more than 256 MiB");
+    chunk_[1] *= dataset_.shape.inner;
+  }
 
   void readFilters() {
     const int count = dataset_.file.check(hdf5().Pget_nfilters(dataset_.plan), dataset_.what);
@@ -159,7 +174,7 @@ class ChunkedBytes final : public ValueBytes {
 
   // note: a chunk's size is asked for and its bytes are read by the same record of the library's.
   void readChunk(uint64_t row, uint64_t column, Hdf5Chunk& out) {
-    const hsize_t place[2] = {row, column};
+    const hsize_t place[kMostHdf5Dimensions] = {row, column / dataset_.shape.inner};
     hsize_t stored = 0;
     haddr_t address = 0;
     unsigned left_out = 0;
@@ -211,7 +226,7 @@ class ChunkedBytes final : public ValueBytes {
   }
 
   Dataset dataset_;
-  hsize_t chunk_[2] = {1, 1};
+  hsize_t chunk_[kMostHdf5Dimensions] = {1, 1};  // rows and columns, once it was read
   uint64_t row_bytes_ = 0, held_ = UINT64_MAX;
   size_t chunk_bytes_ = 0;
   std::vector<Filter> filters_;

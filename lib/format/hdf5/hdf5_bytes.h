@@ -10,9 +10,9 @@
 
 namespace tetstream {
 
-// A dataset of one or two dimensions whose claims were checked. Borrows the file. Opened in a
-// turn, read in turns of its own. Throws kUnsupported for filters other than deflate, shuffle and
-// fletcher32, and for rows of chunks of more than 256 MiB.
+// A dataset whose claims were checked. Borrows the file. Opened in a turn, read in turns of its
+// own. Throws kUnsupported for filters other than deflate, shuffle and fletcher32, for rows of
+// chunks of more than 256 MiB, and for chunks that are cut in directions behind the second.
 std::unique_ptr<ValueBytes> openHdf5Bytes(Hdf5File& file, const std::string& path,
                                           const Hdf5Shape& shape);
 

@@ -125,6 +125,12 @@ bool Hdf5File::readType(hid_t type, Hdf5Shape* shape) {
   return h.Tequal(turned, ours) > 0;
 }
 
+// More than there is of anything where it is too large, which checkStorage tells.
+static uint64_t productOf(uint64_t a, uint64_t b) {
+  uint64_t product = 0;
+  return __builtin_mul_overflow(a, b, &product) ? UINT64_MAX : product;
+}
+
 Hdf5Shape Hdf5File::shapeOf(const std::string& path) {
   const std::string what = "dataset \"" + path + "\"";
   const Hdf5Id dataset = openDataset(path);
@@ -132,14 +138,16 @@ Hdf5Shape Hdf5File::shapeOf(const std::string& path) {
   const Hdf5Id type(check(hdf5().Dget_type(dataset), what), hdf5().Tclose);
   Hdf5Shape shape;
   shape.dimensions = check(hdf5().Sget_simple_extent_ndims(space), what);
-  if (shape.dimensions != 1 && shape.dimensions != 2) return shape;
+  if (shape.dimensions < 1 || shape.dimensions > kMostHdf5Dimensions) return shape;
   shape.numbers = readType(type, &shape);
-  shape.characters = hdf5().Tget_class(type) == H5T_STRING && hdf5().Tget_size(type) == 1;
+  shape.characters =
+      shape.dimensions <= 2 && hdf5().Tget_class(type) == H5T_STRING && hdf5().Tget_size(type) == 1;
   if (!shape.numbers && !shape.characters) return shape;
-  hsize_t sizes[2] = {0, 1};
+  hsize_t sizes[kMostHdf5Dimensions] = {0, 1};
   check(hdf5().Sget_simple_extent_dims(space, sizes, nullptr), what);
   shape.rows = sizes[0];
-  shape.components = sizes[1];
+  for (int d = 2; d < shape.dimensions; ++d) shape.inner = productOf(shape.inner, sizes[d]);
+  shape.components = shape.dimensions > 1 ? productOf(shape.inner, sizes[1]) : 1;
   checkStorage(dataset, shape, path);
   return shape;
 }

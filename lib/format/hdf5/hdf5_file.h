@@ -46,6 +46,8 @@ class Hdf5Id {
   herr_t (*close_)(hid_t) = nullptr;
 };
 
+constexpr int kMostHdf5Dimensions = 8;  // libhdf5 has up to 32
+
 // What a dataset holds, as far as we read it.
 struct Hdf5Shape {
   bool numbers = false;     // of a type of ours
@@ -54,8 +56,9 @@ struct Hdf5Shape {
   size_t element = 1;  // bytes
   bool big_endian = false;
   uint64_t rows = 0;
-  uint64_t components = 1;
-  int dimensions = 1;  // 2: rows and components
+  uint64_t components = 1;  // of all directions but the first
+  uint64_t inner = 1;       // of those but the second: so many values are one of its
+  int dimensions = 1;       // 2: rows and components
 };
 
 class Hdf5File;

@@ -11,8 +11,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr uint64_t kMaxReference = 4096;  // bytes
-
 class RawBytes final : public ValueBytes {
  public:
   RawBytes(std::shared_ptr<ByteSource> file, uint64_t begin)
@@ -52,44 +50,27 @@ constexpr RawType kRawTypes[] = {
 
 }  // namespace
 
-void XdmfArrays::failItem(const XdmfItem& item, Status status, const std::string& text) const {
-  fail(status, "%s: byte %llu: %s", bytes_->name().c_str(),
-       static_cast<unsigned long long>(item.begin), text.c_str());
-}
-
-std::string XdmfArrays::textOfItem(const XdmfItem& item) const {
-  if (item.end - item.begin > kMaxReference)
-    failItem(item, Status::kBadData, "the name of a dataset is too long");
-  std::string text(static_cast<size_t>(item.end - item.begin), 0);
-  text.resize(bytes_->readAt(item.begin, text.data(), text.size()));
-  const char* blanks = " \t\r\n";
-  const size_t first = text.find_first_not_of(blanks);
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::string XdmfArrays::describe(const XdmfItem& item) const {
-  return textOf("%s: byte %llu: the values", bytes_->name().c_str(),
-                static_cast<unsigned long long>(item.begin));
+  return text_.placeOf(item) + ": the values";
 }
 
 std::string XdmfArrays::placeOf(const XdmfItem& item) {
   if (item.is_slab && item.parts.size() == 2)
-    return textOfItem(item.parts[0]) + " of " + placeOf(item.parts[1]);
-  if (sameWord(item.format, "HDF")) return textOfItem(item);
-  if (sameWord(item.format, "Binary")) return textOfItem(item) + ":" + std::to_string(item.seek);
+    return text_.of(item.parts[0]) + " of " + placeOf(item.parts[1]);
+  if (sameWord(item.format, "HDF")) return text_.of(item);
+  if (sameWord(item.format, "Binary")) return text_.of(item) + ":" + std::to_string(item.seek);
   return std::to_string(item.begin);
 }
 
 MeshArray XdmfArrays::arrayOf(const XdmfItem& item, const std::string& name, int components) {
   MeshArray array{cutName(name), ValueType::kFloat32, components, {}};
-  if (item.sizes.empty()) failItem(item, Status::kBadData, "a DataItem has no Dimensions");
+  if (item.sizes.empty()) text_.failItem(item, Status::kBadData, "a DataItem has no Dimensions");
   if (item.is_slab) return ofSlab(item, std::move(array));
   if (sameWord(item.format, "XML")) return ofText(item, std::move(array));
   if (sameWord(item.format, "HDF")) return ofHdf5(item, std::move(array));
   if (sameWord(item.format, "Binary")) return ofRawFile(item, std::move(array));
-  failItem(item, Status::kUnsupported,
-           "values in the format \"" + cutName(item.format) + "\" are not read");
+  text_.failItem(item, Status::kUnsupported,
+                 "values in the format \"" + cutName(item.format) + "\" are not read");
 }
 
 MeshArray XdmfArrays::ofText(const XdmfItem& item, MeshArray array) {
@@ -100,12 +81,9 @@ MeshArray XdmfArrays::ofText(const XdmfItem& item, MeshArray array) {
     array.type = wide ? ValueType::kUInt64 : ValueType::kUInt32;
   else
     array.type = wide ? ValueType::kInt64 : ValueType::kInt32;
-  array.open = [bytes = bytes_, helpers = helpers_, item, name = array.name,
-                type = array.type](uint64_t count) {
-    if (count != item.count())
-      failCount(textOf("%s: byte %llu", bytes->name().c_str(),
-                       static_cast<unsigned long long>(item.begin)),
-                item.count(), count);
+  array.open = [bytes = bytes_, helpers = helpers_, item, name = array.name, type = array.type,
+                place = text_.placeOf(item)](uint64_t count) {
+    if (count != item.count()) failCount(place, item.count(), count);
     return openTextValues(*bytes, tetstream::placeOf(*bytes, name), type,
                           {item.begin, item.end, count}, helpers);
   };
@@ -116,30 +94,31 @@ ValueType XdmfArrays::typeOfRaw(const XdmfItem& item) const {
   for (const RawType& raw : kRawTypes)
     if (sameWord(item.kind, raw.kind) && (raw.precision == 0 || raw.precision == item.precision))
       return raw.type;
-  failItem(item, Status::kUnsupported,
-           "values of the type \"" + cutName(item.kind) + "\" of " +
-               std::to_string(item.precision) + " bytes are not read");
+  text_.failItem(item, Status::kUnsupported,
+                 "values of the type \"" + cutName(item.kind) + "\" of " +
+                     std::to_string(item.precision) + " bytes are not read");
 }
 
 MeshArray XdmfArrays::ofRawFile(const XdmfItem& item, MeshArray array) {
   array.type = typeOfRaw(item);
   if (!sameWord(item.compression, "Raw"))
-    failItem(item, Status::kUnsupported,
-             "values with the compression \"" + cutName(item.compression) + "\" are not read");
+    text_.failItem(
+        item, Status::kUnsupported,
+        "values with the compression \"" + cutName(item.compression) + "\" are not read");
   const bool big = sameWord(item.order, "Big");
   const bool native = sameWord(item.order, "Native");
   if (!big && !native && !sameWord(item.order, "Little"))
-    failItem(item, Status::kUnsupported,
-             "values in the byte order \"" + cutName(item.order) + "\" are not read");
-  const std::string name = textOfItem(item);
-  if (name.empty()) failItem(item, Status::kBadData, "the name of a file is missing");
+    text_.failItem(item, Status::kUnsupported,
+                   "values in the byte order \"" + cutName(item.order) + "\" are not read");
+  const std::string name = text_.of(item);
+  if (name.empty()) text_.failItem(item, Status::kBadData, "the name of a file is missing");
   std::shared_ptr<ByteSource>& file = raw_files_[name];
   if (!file) file = pool_->add(pathBeside(bytes_->name(), name));
   const uint64_t held = item.count(), size = file->size();
   if (item.seek > size || held > (size - item.seek) / sizeOf(array.type))
-    failItem(item, Status::kBadData,
-             "\"" + cutName(name) + "\" has " + std::to_string(size) +
-                 " bytes, fewer than the Dimensions and the Seek need");
+    text_.failItem(item, Status::kBadData,
+                   "\"" + cutName(name) + "\" has " + std::to_string(size) +
+                       " bytes, fewer than the Dimensions and the Seek need");
   array.open = [file, held, type = array.type, seek = item.seek,
                 big = native ? std::endian::native == std::endian::big : big](uint64_t count) {
     if (count != held) failCount(file->name(), held, count);
@@ -152,11 +131,12 @@ MeshArray XdmfArrays::ofRawFile(const XdmfItem& item, MeshArray array) {
 std::vector<SlabRange> XdmfArrays::rangesOf(const XdmfItem& item) const {
   if (item.parts.size() != 2 || item.parts[0].is_slab || !sameWord(item.parts[0].format, "XML") ||
       item.parts[1].sizes.empty())
-    failItem(item, Status::kUnsupported,
-             "a HyperSlab is not read unless it has a list of numbers in the text and values with "
-             "their Dimensions");
+    text_.failItem(
+        item, Status::kUnsupported,
+        "a HyperSlab is not read unless it has a list of numbers in the text and values with "
+        "their Dimensions");
   const std::vector<uint64_t>& sizes = item.parts[1].sizes;
-  std::string text = textOfItem(item.parts[0]);
+  std::string text = text_.of(item.parts[0]);
   std::replace_if(text.begin(), text.end(), isBlank, ' ');
   std::vector<uint64_t> numbers;
   for (std::string_view rest = text; !rest.empty();) {
@@ -164,20 +144,20 @@ std::vector<SlabRange> XdmfArrays::rangesOf(const XdmfItem& item) const {
     const std::string_view word = takeWord(rest);
     if (word.empty()) break;
     if (!parseInteger(word, &number) || number < 0)
-      failItem(item, Status::kBadData, quoted(word) + " in a HyperSlab is no number");
+      text_.failItem(item, Status::kBadData, quoted(word) + " in a HyperSlab is no number");
     numbers.push_back(static_cast<uint64_t>(number));
   }
   const size_t rank = sizes.size();
   if (numbers.size() != 3 * rank)
-    failItem(item, Status::kBadData,
-             "a HyperSlab of " + std::to_string(rank) + " directions has " +
-                 std::to_string(numbers.size()) + " numbers");
+    text_.failItem(item, Status::kBadData,
+                   "a HyperSlab of " + std::to_string(rank) + " directions has " +
+                       std::to_string(numbers.size()) + " numbers");
   std::vector<SlabRange> ranges;
   for (size_t d = 0; d < rank; ++d) {
     ranges.push_back({numbers[d], numbers[rank + d], numbers[2 * rank + d], sizes[d]});
     if (!fitsSlab(ranges.back()))
-      failItem(item, Status::kBadData,
-               "a HyperSlab reaches out of its values in direction " + std::to_string(d));
+      text_.failItem(item, Status::kBadData,
+                     "a HyperSlab reaches out of its values in direction " + std::to_string(d));
   }
   return ranges;
 }
@@ -187,9 +167,9 @@ MeshArray XdmfArrays::ofSlab(const XdmfItem& item, MeshArray array) {
   uint64_t held = 1;  // at most the values that it is cut from
   for (const SlabRange& range : ranges) held *= range.count;
   if (held != item.count())
-    failItem(item, Status::kBadData,
-             "a HyperSlab of " + std::to_string(held) + " values has not the " +
-                 std::to_string(item.count()) + " of its Dimensions");
+    text_.failItem(item, Status::kBadData,
+                   "a HyperSlab of " + std::to_string(held) + " values has not the " +
+                       std::to_string(item.count()) + " of its Dimensions");
   const MeshArray whole = arrayOf(item.parts[1], array.name, 1);
   array.type = whole.type;
   array.open = [open = whole.open, all = item.parts[1].count(), ranges, held,
@@ -221,24 +201,24 @@ DatasetName splitReference(const std::string& reference) {
 }  // namespace
 
 MeshArray XdmfArrays::ofHdf5(const XdmfItem& item, MeshArray array) {
-  const std::string reference = textOfItem(item);
+  const std::string reference = text_.of(item);
   const DatasetName dataset = splitReference(reference);
   if (dataset.file.empty() || dataset.path.empty())
-    failItem(item, Status::kBadData,
-             "\"" + cutName(reference) + "\" names no dataset, as FILE:/PATH does");
+    text_.failItem(item, Status::kBadData,
+                   "\"" + cutName(reference) + "\" names no dataset, as FILE:/PATH does");
   const std::string name = pathBeside(bytes_->name(), dataset.file);
   const std::string path = dataset.path;
   std::shared_ptr<Hdf5File>& file = files_[name];
   if (!file) file = openHdf5(openFile(name));
   const Hdf5Turn turn;
   if (!file->has(path))
-    failItem(item, Status::kBadData, "there is no dataset \"" + cutName(reference) + "\"");
+    text_.failItem(item, Status::kBadData, "there is no dataset \"" + cutName(reference) + "\"");
   const Hdf5Shape shape = file->shapeOf(path);
   const uint64_t held = shape.rows * shape.components;
   if (!shape.numbers || held != item.count())
-    failItem(item, Status::kBadData,
-             "\"" + cutName(reference) + "\" has not the " + std::to_string(item.count()) +
-                 " numbers of the Dimensions");
+    text_.failItem(item, Status::kBadData,
+                   "\"" + cutName(reference) + "\" has not the " + std::to_string(item.count()) +
+                       " numbers of the Dimensions");
   array.type = shape.type;
   array.open = [file, path, held](uint64_t count) {
     if (count != held)
@@ -253,7 +233,8 @@ MeshArray XdmfArrays::ofHdf5(const XdmfItem& item, MeshArray array) {
 #else
 
 MeshArray XdmfArrays::ofHdf5(const XdmfItem& item, MeshArray) {
-  failItem(item, Status::kUnsupported, "the values are in HDF5, which this build does not have");
+  text_.failItem(item, Status::kUnsupported,
+                 "the values are in HDF5, which this build does not have");
 }
 
 #endif

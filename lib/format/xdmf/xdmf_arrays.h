@@ -1,5 +1,5 @@
 // format/xdmf: the values that an XDMF file names, in its own text, in HDF5 files or in raw files
-// beside it. Depends on xdmf_tree.h, xdmf_slab.h, file_pool.h, mesh_pieces.h.
+// beside it. Depends on xdmf_text.h, xdmf_slab.h, file_pool.h, mesh_pieces.h.
 #pragma once
 
 #include <map>
@@ -8,9 +8,8 @@
 
 #include "file_pool.h"
 #include "mesh_pieces.h"
-#include "status.h"
 #include "xdmf_slab.h"
-#include "xdmf_tree.h"
+#include "xdmf_text.h"
 
 namespace tetstream {
 
@@ -18,8 +17,8 @@ class Hdf5File;
 
 class XdmfArrays {
  public:
-  XdmfArrays(std::shared_ptr<ByteSource> bytes, const Helpers& helpers)
-      : bytes_(std::move(bytes)), helpers_(helpers) {}
+  XdmfArrays(std::shared_ptr<ByteSource> bytes, const XdmfText& text, const Helpers& helpers)
+      : bytes_(std::move(bytes)), text_(text), helpers_(helpers) {}
 
   // The item's values, which are as many as its sizes say: throws if they are not.
   MeshArray arrayOf(const XdmfItem& item, const std::string& name, int components);
@@ -28,16 +27,15 @@ class XdmfArrays {
   std::string describe(const XdmfItem& item) const;  // "FILE: byte 7: the values", for messages
 
  private:
-  std::string textOfItem(const XdmfItem& item) const;
   MeshArray ofText(const XdmfItem& item, MeshArray array);
   MeshArray ofHdf5(const XdmfItem& item, MeshArray array);
   MeshArray ofRawFile(const XdmfItem& item, MeshArray array);
   MeshArray ofSlab(const XdmfItem& item, MeshArray array);
   std::vector<SlabRange> rangesOf(const XdmfItem& item) const;
   ValueType typeOfRaw(const XdmfItem& item) const;
-  [[noreturn]] void failItem(const XdmfItem& item, Status status, const std::string& text) const;
 
   std::shared_ptr<ByteSource> bytes_;
+  const XdmfText text_;
   const Helpers helpers_;  // of text
   std::map<std::string, std::shared_ptr<Hdf5File>> files_;
   std::shared_ptr<FilePool> pool_ = std::make_shared<FilePool>();

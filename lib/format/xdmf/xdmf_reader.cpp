@@ -1,6 +1,6 @@
 // Reads XDMF 2 and 3 as FEniCS, meshio and VTK write it: grids in XML, values in its text, in HDF5
 // or in raw files. Of a collection over time one step is read; grids of a spatial collection are
-// pieces whose shared points are one each.
+// pieces whose shared points are one each; grids beside the mesh give it more arrays and labels.
 #include <algorithm>
 #include <cstdlib>
 
@@ -10,23 +10,28 @@
 #include "status.h"
 #include "time_steps.h"
 #include "vtk_cells.h"
+#include "xdmf_beside.h"
 #include "xdmf_cells.h"
+#include "xdmf_references.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr int kMostIncludes = 8;   // one of another
-constexpr int kMostOthers = 1024;  // functions, each of which looks for its mesh
+constexpr int kMostIncludes = 8;      // one of another
+constexpr size_t kMostOthers = 1024;  // functions, each of which looks for its mesh
 
 class Xdmf {
  public:
   Xdmf(const std::shared_ptr<ByteSource>& bytes, const ReadOptions& options, MeshPieces& mesh)
       : options_(options),
         mesh_(mesh),
-        arrays_(bytes, {options.threads, std::this_thread::get_id()}),
-        grids_(readXdmf(*bytes)) {
+        file_(readXdmfTree(*bytes)),
+        text_(bytes, file_.entities),
+        arrays_(bytes, text_, {options.threads, std::this_thread::get_id()}),
+        grids_(file_.grids) {
     mesh_.name = bytes->name();
+    followXdmfReferences(file_, text_);
     children_.resize(grids_.size());
     for (int i = 0; i < gridCount(); ++i)
       if (at(i).parent >= 0) children_[static_cast<size_t>(at(i).parent)].push_back(i);
@@ -90,13 +95,24 @@ class Xdmf {
   std::vector<int> leavesOfStep(int collection) {
     const std::vector<int>& steps = childrenOf(collection);
     if (steps.empty()) failFile(Status::kBadData, nameOf(collection) + " has no time steps");
-    const bool timed = std::all_of(steps.begin(), steps.end(),
-                                   [this](int step) { return at(step).time.has_value(); });
-    std::function<double(uint64_t)> time;
-    if (timed) time = [&](uint64_t step) { return *at(steps[static_cast<size_t>(step)]).time; };
     step_count_ = steps.size();
-    step_ = static_cast<size_t>(chooseStep(mesh_, step_count_, options_, time));
+    step_ = static_cast<size_t>(chooseStep(mesh_, step_count_, options_, timesOf(collection)));
     return leavesOf(steps[step_]);
+  }
+
+  // Each step tells its time, or the collection those of all; empty: neither does.
+  std::function<double(uint64_t)> timesOf(int collection) {
+    const std::vector<int>& steps = childrenOf(collection);
+    if (std::all_of(steps.begin(), steps.end(),
+                    [this](int step) { return at(step).time.has_value(); }))
+      return [this, &steps](uint64_t step) { return *at(steps[static_cast<size_t>(step)]).time; };
+    const std::vector<XdmfItem>& lists = at(collection).times;
+    if (lists.size() != 1 || lists[0].count() != steps.size()) return {};
+    return [times = arrays_.arrayOf(lists[0], "times", 1), &steps](uint64_t step) {
+      double time = 0;
+      times.open(steps.size())->read(step, 1, &time, ScalarType::kFloat64);
+      return time;
+    };
   }
 
   // ---------------------------------------------------------------------------------- includes
@@ -164,7 +180,7 @@ class Xdmf {
     MeshPiece piece;
     addPoints(*geometry, piece);
     addXdmfCells(*topology, arrays_, options_.temp_dir, piece);
-    addAttributes(grid, piece);
+    XdmfFields(arrays_, mesh_, piece).add(at(grid).attributes);
     return piece;
   }
 
@@ -195,46 +211,29 @@ class Xdmf {
                              }};
   }
 
-  void addAttributes(int grid, MeshPiece& piece) {
-    for (const XdmfAttribute& attribute : at(grid).attributes) {
-      const bool of_points = sameWord(attribute.center, "Node");
-      const std::string shown = textOf("array \"%s\"", cutName(attribute.name).c_str());
-      const uint64_t rows = of_points ? piece.point_count : piece.cell_count;
-      auto& list = of_points ? piece.point_data : piece.cell_data;
-      if (!of_points && !sameWord(attribute.center, "Cell")) {
-        mesh_.addNote(shown + " is left out: it is of " + cutName(attribute.center));
-      } else if (attribute.is_function || attribute.items.size() != 1) {
-        mesh_.addNote(shown + " is left out: it is no list of values, but a function");
-      } else if (std::any_of(list.begin(), list.end(), [&](const MeshArray& other) {
-                   return other.name == cutName(attribute.name);
-                 })) {
-        mesh_.addNote(shown + " is left out: there is another one of its name");
-      } else if (rows > 0) {
-        addAttribute(attribute, shown, rows, list);
-      }
-    }
-  }
-
-  void addAttribute(const XdmfAttribute& attribute, const std::string& shown, uint64_t rows,
-                    std::vector<MeshArray>& list) {
-    const uint64_t count = attribute.items[0].count(), components = count / rows;
-    if (count % rows != 0)
-      failFile(Status::kBadData, shown + " has " + std::to_string(count) + " values for " +
-                                     std::to_string(rows) + " rows");
-    if (components < 1 || components > 9)
-      return mesh_.addNote(shown + " is left out: it has " + std::to_string(components) +
-                           " components, 1 to 9 are possible");
-    list.push_back(arrays_.arrayOf(attribute.items[0],
-                                   attribute.name.empty() ? "values" : attribute.name,
-                                   static_cast<int>(components)));
-  }
-
   // --------------------------------------------------------------------------------- the others
 
-  // What else is on the same mesh: other functions, each in a collection or a grid of its own.
+  // What else is on the same mesh: other functions, each in a collection or a grid of its own, and
+  // labels of some of its cells and faces.
   void addOthers(int leaf, MeshPiece& piece) {
-    const std::string mesh = placeOf(leaf);
-    int others = 0;
+    const std::string mesh = placeOf(leaf), points = placeOfPoints(leaf);
+    XdmfFields fields(arrays_, mesh_, piece);
+    XdmfBeside beside(arrays_, options_, mesh_, piece, *topologyOf(leaf));
+    for (const int grid : gridsBeside(leaf)) {
+      const XdmfTopology* topology = topologyOf(grid);
+      if (placeOf(grid) == mesh)
+        fields.add(at(grid).attributes);
+      else if (topology && !topology->items.empty() && placeOfPoints(grid) == points)
+        beside.add(at(grid), *topology);
+      else
+        mesh_.addNote(nameOf(grid) + " is left out: it has another mesh");
+    }
+    beside.finish();
+  }
+
+  // Of a collection over time the grids of the same step.
+  std::vector<int> gridsBeside(int leaf) {
+    std::vector<int> all;
     for (int i = 0; i < gridCount(); ++i) {
       std::vector<int> grids;
       if (at(i).kind == XdmfGrid::kTemporal) {
@@ -246,22 +245,22 @@ class Xdmf {
         grids = leavesOf(i);
       }
       for (const int grid : grids) {
-        if (grid == leaf) continue;
-        if (++others > kMostOthers)
+        if (grid != leaf) all.push_back(grid);
+        if (all.size() > kMostOthers)
           failFile(Status::kUnsupported, "there are too many grids beside " + nameOf(leaf));
-        if (placeOf(grid) == mesh)
-          addAttributes(grid, piece);
-        else
-          mesh_.addNote(nameOf(grid) + " is left out: it has another mesh");
       }
     }
+    return all;
   }
 
   std::string placeOf(int grid) {
     const XdmfTopology* topology = topologyOf(grid);
+    if (!topology || topology->items.empty()) return "";
+    return arrays_.placeOf(topology->items[0]) + " " + placeOfPoints(grid);
+  }
+  std::string placeOfPoints(int grid) {
     const XdmfGeometry* geometry = geometryOf(grid);
-    if (!topology || topology->items.empty() || !geometry || geometry->items.empty()) return "";
-    return arrays_.placeOf(topology->items[0]) + " " + arrays_.placeOf(geometry->items[0]);
+    return geometry && !geometry->items.empty() ? arrays_.placeOf(geometry->items[0]) : "";
   }
 
   // Where all are tetrahedra, they need no types and stay where they are.
@@ -281,8 +280,10 @@ class Xdmf {
 
   const ReadOptions& options_;
   MeshPieces& mesh_;
+  XdmfFile file_;
+  XdmfText text_;
   XdmfArrays arrays_;
-  std::vector<XdmfGrid> grids_;
+  const std::vector<XdmfGrid>& grids_;
   std::vector<std::vector<int>> children_;  // of each
   size_t step_count_ = 0, step_ = 0;
 };

@@ -22,19 +22,25 @@ namespace {
 
 constexpr size_t kMaxGrids = 1 << 18, kMaxItems = 1 << 20;
 constexpr size_t kMaxDepth = 64;
+// References copy items, which therefore are small, whatever the file says.
+constexpr size_t kMaxWord = 64, kMaxDirections = 32, kMaxReference = 1024;
 
 class XdmfTree final : XmlFeed {
  public:
-  explicit XdmfTree(ByteSource& bytes) : XmlFeed(bytes, Doctype::kPassedOver) {}
+  explicit XdmfTree(ByteSource& bytes) : XmlFeed(bytes, Doctype::kOfPlainEntities) {}
 
-  std::vector<XdmfGrid> run() {
+  XdmfFile run() {
     feed();
-    return std::move(grids_);
+    XdmfFile file;
+    file.grids = std::move(grids_);
+    for (size_t i = 0; i < named_.size(); ++i) file.named.emplace(names_[i], std::move(named_[i]));
+    file.entities = entities();
+    return file;
   }
 
  private:
   // What the tags that are open hold; kOther is passed over with all that is in it.
-  enum Open { kRoot, kDomain, kGrid, kTopology, kGeometry, kAttribute, kItem, kOther };
+  enum Open { kRoot, kDomain, kGrid, kTopology, kGeometry, kAttribute, kTimes, kItem, kOther };
 
   void start(const char* name, Attributes attributes) override {
     if (open_.size() == kMaxDepth) failHere("the tags are nested too deeply", Status::kUnsupported);
@@ -49,7 +55,11 @@ class XdmfTree final : XmlFeed {
       items_open_.pop_back();
     }
     if (closed == kGrid) grid_ = grids_[static_cast<size_t>(grid_)].parent;
-    if (closed == kTopology || closed == kGeometry || closed == kAttribute) items_ = nullptr;
+    if (holdsItems(closed)) items_ = nullptr;
+  }
+
+  static bool holdsItems(Open open) {
+    return open == kTopology || open == kGeometry || open == kAttribute || open == kTimes;
   }
 
   Open kindOf(const char* name, Attributes attributes) {
@@ -64,7 +74,8 @@ class XdmfTree final : XmlFeed {
       return addGrid(attributes);
     if (in == kGrid) return addToGrid(name, attributes);
     if (std::strcmp(name, "DataItem") != 0) return kOther;
-    if (in == kTopology || in == kGeometry || in == kAttribute) return addItem(attributes, *items_);
+    if (holdsItems(in)) return addItem(attributes, *items_);
+    if (in == kDomain) return addNamed(attributes);
     if (in == kItem && items_open_.back()->is_slab)
       return addItem(attributes, items_open_.back()->parts);
     return kOther;
@@ -124,6 +135,10 @@ class XdmfTree final : XmlFeed {
       double time = 0;
       if (std::from_chars(value.data(), value.data() + value.size(), time).ec == std::errc())
         grid.time = time;
+      if (sameWord(wordOf(attributes, "TimeType", ""), "List")) {
+        items_ = &grid.times;
+        return kTimes;
+      }
     }
     const char* local = std::strrchr(name, ':');
     if (std::strcmp(local ? local + 1 : name, "include") == 0)
@@ -131,30 +146,57 @@ class XdmfTree final : XmlFeed {
     return kOther;
   }
 
-  Open addItem(Attributes attributes, std::vector<XdmfItem>& items) {
+  static bool isSlab(Attributes attributes) {
     const bool old_slab = sameWord(wordOf(attributes, "Type", ""), "HyperSlab");
-    const std::string type = wordOf(attributes, "ItemType", old_slab ? "HyperSlab" : "Uniform");
-    const bool is_slab = sameWord(type, "HyperSlab");
-    if ((!is_slab && !sameWord(type, "Uniform")) || find(attributes, "Reference"))
-      failHere("a DataItem of the type \"" + cutName(type) + "\" is not read, nor a reference",
+    return sameWord(typeOfItem(attributes), "HyperSlab") ||
+           (old_slab && !find(attributes, "ItemType"));
+  }
+  static std::string typeOfItem(Attributes attributes) {
+    return wordOf(attributes, "ItemType", "Uniform");
+  }
+  static bool isRead(Attributes attributes) {
+    return isSlab(attributes) || sameWord(typeOfItem(attributes), "Uniform");
+  }
+
+  // For references to it; of other types nothing may be wanted.
+  Open addNamed(Attributes attributes) {
+    const std::string name = wordOf(attributes, "Name", "");
+    if (name.empty() || !isRead(attributes)) return kOther;
+    names_.push_back(name);
+    return addItem(attributes, named_);
+  }
+
+  Open addItem(Attributes attributes, std::vector<XdmfItem>& items) {
+    if (!isRead(attributes))
+      failHere("a DataItem of the type \"" + cutName(typeOfItem(attributes)) + "\" is not read",
                Status::kUnsupported);
     if (++item_count_ > kMaxItems) failHere("there are too many arrays", Status::kUnsupported);
+    items.push_back(itemOf(attributes));
+    items_open_.push_back(&items.back());
+    return kItem;
+  }
+
+  XdmfItem itemOf(Attributes attributes) const {
+    const auto word = [&](const char* name, const std::string& otherwise) {
+      return wordOf(attributes, name, otherwise.c_str()).substr(0, kMaxWord);
+    };
     XdmfItem item;
-    item.format = wordOf(attributes, "Format", "XML");
-    item.kind = wordOf(attributes, "NumberType", wordOf(attributes, "DataType", "Float").c_str());
+    item.format = word("Format", "XML");
+    item.kind = word("NumberType", word("DataType", "Float"));
+    item.has_kind = find(attributes, "NumberType") || find(attributes, "DataType");
     const char* precision = find(attributes, "Precision");
     if (precision && !parseUnsigned(precision, &item.precision))
       failHere("a Precision is no number");
     const char* seek = find(attributes, "Seek");
     if (seek && !parseUnsigned(seek, &item.seek)) failHere("a Seek is no number of bytes");
-    item.order = wordOf(attributes, "Endian", "Native");
-    item.compression = wordOf(attributes, "Compression", "Raw");
+    item.order = word("Endian", "Native");
+    item.compression = word("Compression", "Raw");
+    item.reference = wordOf(attributes, "Reference", "");
+    if (item.reference.size() > kMaxReference) failHere("a Reference is too long");
     readSizes(wordOf(attributes, "Dimensions", ""), item);
-    item.is_slab = is_slab;
+    item.is_slab = isSlab(attributes);
     item.begin = item.end = tagEnd();
-    items.push_back(std::move(item));
-    items_open_.push_back(&items.back());
-    return kItem;
+    return item;
   }
 
   void readSizes(const std::string& text, XdmfItem& item) const {
@@ -168,7 +210,7 @@ class XdmfTree final : XmlFeed {
       uint64_t size = 0;
       const std::from_chars_result r = std::from_chars(at, end, size);
       if (r.ec != std::errc() || size > kMaxMeshCount ||
-          (size > 0 && count > 9 * kMaxMeshCount / size))
+          (size > 0 && count > 9 * kMaxMeshCount / size) || item.sizes.size() == kMaxDirections)
         failHere("the Dimensions \"" + cutName(text) + "\" are none");
       count *= size;
       item.sizes.push_back(size);
@@ -181,12 +223,14 @@ class XdmfTree final : XmlFeed {
   int grid_ = -1;  // that is open
   std::vector<XdmfItem>* items_ = nullptr;
   std::vector<XdmfItem*> items_open_;  // each a part of the one before
+  std::vector<XdmfItem> named_;
+  std::vector<std::string> names_;  // of each of those
   size_t item_count_ = 0;
 };
 
 }  // namespace
 
-std::vector<XdmfGrid> readXdmf(ByteSource& bytes) {
+XdmfFile readXdmfTree(ByteSource& bytes) {
   return XdmfTree(bytes).run();
 }
 

@@ -1,6 +1,7 @@
 // format/xdmf: what an XDMF file says, before any value of it is read. Depends on xml_feed.h.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@ namespace tetstream {
 // Values: text of the file itself, or the name of a dataset in another one, or of a raw file.
 struct XdmfItem {
   std::string format = "XML", kind = "Float";  // "HDF", "Binary"; "Int", "UInt", "Char", "UChar"
+  bool has_kind = false;                       // the file tells it
   uint64_t precision = 4;                      // bytes
   std::string order = "Native", compression = "Raw";  // of a raw file: "Little", "Big"
   uint64_t seek = 0;                                  // its bytes before the values
@@ -20,6 +22,8 @@ struct XdmfItem {
   // Of a hyperslab: its begin, stride and count along each direction, and what it is cut from.
   bool is_slab = false;
   std::vector<XdmfItem> parts;
+  // Of one that stands for another one: where that is, as XPath; "XML": its text tells.
+  std::string reference;
 
   uint64_t count() const;
 };
@@ -49,10 +53,17 @@ struct XdmfGrid {
   std::optional<XdmfGeometry> geometry;
   std::vector<XdmfAttribute> attributes;
   std::vector<std::string> includes;  // xpointers to what the grid takes from others
+  std::vector<XdmfItem> times;        // of the grids in it, in a list
 };
 
-// All grids in the order of the file, each after the one that it is in.
-std::vector<XdmfGrid> readXdmf(ByteSource& bytes);
+struct XdmfFile {
+  std::vector<XdmfGrid> grids;  // in the order of the file, each after the one that it is in
+  std::map<std::string, XdmfItem> named;  // of the domain itself, by name the first one
+  std::map<std::string, std::string> entities;
+};
+
+// References are as the file has them: see xdmf_references.h.
+XdmfFile readXdmfTree(ByteSource& bytes);
 
 bool sameWord(const std::string& a, const char* b);  // but for the case
 

@@ -183,6 +183,36 @@ TEST(Hdf5Bytes, RefusesFiltersThatItCannotUndo) {
             "are read");
 }
 
+// Those behind the second are one with it.
+TEST(Hdf5Bytes, ReadsDatasetsOfMoreDirections) {
+  constexpr hsize_t sizes[4] = {20, 25, 3, 2};
+  const auto make = [&](const std::vector<hsize_t>& chunk) {
+    std::string bytes;
+    Hdf5File file(std::make_unique<MemoryStorage>(bytes), "made", true);
+    {
+      const Hdf5Turn turn;
+      const Hdf5Library h;
+      const Hdf5Id plan(hdf5().Pcreate(hdf5().P_CLS_DATASET_CREATE_ID), hdf5().Pclose);
+      if (!chunk.empty()) {
+        h.call<herr_t(hid_t, int, const hsize_t*)>("H5Pset_chunk")(plan, 4, chunk.data());
+        deflate(h, plan);
+      }
+      const Hdf5Id space(hdf5().Screate_simple(4, sizes, nullptr), hdf5().Sclose);
+      const Hdf5Id set = file.create("a", hdf5().T_NATIVE_INT64, space, plan);
+      EXPECT_GE(hdf5().Dwrite(set, hdf5().T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                              numbers().data()),
+                0);
+    }
+    file.close();
+    return bytes;
+  };
+  const std::vector<hsize_t> chunks[] = {{}, {1, 25, 3, 2}, {7, 25, 3, 2}, {7, 4, 3, 2}};
+  for (const std::vector<hsize_t>& chunk : chunks)
+    EXPECT_EQ(readWhole(make(chunk)), numbers()) << chunk.size();
+  EXPECT_NE(refusal(make({1, 25, 3, 1})).find("chunks that are cut in the third direction"),
+            std::string::npos);
+}
+
 // What the head of the chunks says of the size of an element is not what the type says: libhdf5
 // makes room for the one and copies the other.
 TEST(Hdf5Bytes, DoesNotBelieveTheHeadOfTheChunks) {
