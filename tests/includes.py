@@ -12,7 +12,7 @@ NAMES = {
     "algorithm": """all_of any_of binary_search clamp copy copy_n count count_if equal fill fill_n find
         find_if find_if_not is_permutation lower_bound make_heap max max_element min min_element minmax
         minmax_element move_backward none_of nth_element partition_point pop_heap push_heap remove
-        remove_if replace replace_if reverse search sort stable_sort unique upper_bound""",
+        remove_if replace replace_if reverse search sort stable_partition stable_sort unique upper_bound""",
     "array": "array",
     "atomic": "atomic atomic_ref memory_order_relaxed",
     "bit": """bit_cast bit_ceil bit_floor bit_width countl_zero countr_zero endian has_single_bit
@@ -50,6 +50,7 @@ NAMES = {
     "string_view": "string_view",
     "system_error": "errc system_error",
     "thread": "this_thread thread",
+    "tuple": "tie",
     "type_traits": """conditional_t is_enum_v is_floating_point_v is_integral_v is_same_v
         is_trivially_copyable_v is_void_v make_unsigned_t""",
     "unordered_map": "unordered_map",

@@ -12,6 +12,12 @@
 
 namespace tetstream {
 
+// How many buckets so many rows want: each is in memory once, and is a file with a buffer before.
+constexpr size_t bucketsFor(uint64_t rows, size_t row_bytes) {
+  constexpr uint64_t kBucketBytes = uint64_t{16} << 20, kMostBuckets = 256;
+  return static_cast<size_t>(std::min(rows * row_bytes / kBucketBytes + 1, kMostBuckets));
+}
+
 // Rows in files, by bucket.
 template <class Row>
 class Buckets {

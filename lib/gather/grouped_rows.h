@@ -17,7 +17,7 @@ class GroupedRows {
   GroupedRows(const std::map<int64_t, uint64_t>& counts, const std::string& temp_dir)
       : next_(firstOf(counts)),
         total_(totalOf(counts)),
-        buckets_(bucketsFor(total_), temp_dir),
+        buckets_(bucketsFor(total_, sizeof(Placed)), temp_dir),
         part_(total_ / buckets_.count() + 1),
         rows_(sizeof(Row), temp_dir) {}
 
@@ -58,11 +58,6 @@ class GroupedRows {
     uint64_t sum = 0;
     for (const auto& [label, count] : counts) sum += count;
     return sum;
-  }
-  static size_t bucketsFor(uint64_t rows) {
-    constexpr uint64_t kBucketBytes = uint64_t{16} << 20, kMostBuckets = 256;
-    return static_cast<size_t>(
-        std::clamp<uint64_t>(rows * sizeof(Placed) / kBucketBytes + 1, 1, kMostBuckets));
   }
 
   std::map<int64_t, uint64_t> next_;

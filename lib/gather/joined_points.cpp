@@ -18,9 +18,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kAtOnce = 2048;                       // points
-constexpr uint64_t kBucketBytes = uint64_t{16} << 20;  // wanted in memory at once
-constexpr uint64_t kMaxBuckets = 256;                  // each is a file with a buffer
+constexpr size_t kAtOnce = 2048;  // points
 
 // Points everywhere are looked for by their exact coordinates, and in float64, where each cell's
 // may have been computed by itself, in a grid of this part of the largest one: then in that grid
@@ -50,8 +48,7 @@ class JoinFinder {
 
   void find() {
     const uint64_t points = static_cast<uint64_t>(schema_.vertex_count);
-    const size_t buckets = static_cast<size_t>(
-        std::clamp<uint64_t>(points * sizeof(Keyed) / kBucketBytes + 1, 1, kMaxBuckets));
+    const size_t buckets = bucketsFor(points, sizeof(Keyed));
     Buckets<Same> same(buckets, plan_.temp_dir);
     uint64_t found = findSame(same, points);
     if (plan_.everywhere && schema_.position_type == ScalarType::kFloat64 && found > 0)

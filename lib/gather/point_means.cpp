@@ -4,14 +4,7 @@
 
 namespace tetstream {
 
-constexpr uint64_t kBucketBytes = uint64_t{16} << 20;  // wanted in memory at once
-constexpr uint64_t kMaxBuckets = 256;                  // each is a file with a buffer
-constexpr SpoolShape kInSequence = {2, 256 << 10};
-
-size_t PointMeans::bucketsFor(uint64_t values) {
-  return static_cast<size_t>(
-      std::clamp<uint64_t>(values * sizeof(Value) / kBucketBytes + 1, 1, kMaxBuckets));
-}
+constexpr SpoolShape kMeansInSequence = {2, 256 << 10};
 
 double PointMeans::meanOf(const Value* values, size_t count) {
   double sum = 0;
@@ -26,7 +19,7 @@ double PointMeans::meanOf(const Value* values, size_t count) {
 
 void PointMeans::addComponent(Buckets<Value>& sorted, const std::string& temp_dir) {
   Account account;
-  auto means = std::make_unique<RowSpool>(sizeof(double), temp_dir, kInSequence);
+  auto means = std::make_unique<RowSpool>(sizeof(double), temp_dir, kMeansInSequence);
   const auto fillUpTo = [&](uint64_t point) {
     constexpr double nothing = 0;
     while (means->rows() < point) means->append(&nothing, 1);

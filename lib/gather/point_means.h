@@ -24,7 +24,7 @@ class PointMeans {
              Visit visit)
       : column_(column), points_(points) {
     for (size_t k = 0; k < static_cast<size_t>(column.components); ++k) {
-      const size_t buckets = bucketsFor(values);
+      const size_t buckets = bucketsFor(values, sizeof(Value));
       Buckets<Value> sorted(buckets, temp_dir);
       const uint64_t part = points / buckets + 1;
       uint64_t rank = 0;
@@ -46,7 +46,6 @@ class PointMeans {
       return point != other.point ? point < other.point : rank < other.rank;
     }
   };
-  static size_t bucketsFor(uint64_t values);
   static double meanOf(const Value* values, size_t count);
   void addComponent(Buckets<Value>& sorted, const std::string& temp_dir);
 

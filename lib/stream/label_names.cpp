@@ -32,9 +32,10 @@ void checkArray(const Schema& schema, const LabelName& name) {
          name.name.c_str(), name.array.c_str());
   const Column& column = schema.cell_data[static_cast<size_t>(found)];
   if (isFloat(column.type) || column.components != 1)
-    fail(Status::kBadArgument,
-         "label name \"%s\": the cell array \"%s\" has no labels, which are integers, one to a cell",
-         name.name.c_str(), name.array.c_str());
+    fail(
+        Status::kBadArgument,
+        "label name \"%s\": the cell array \"%s\" has no labels, which are integers, one to a cell",
+        name.name.c_str(), name.array.c_str());
 }
 
 }  // namespace
@@ -59,7 +60,7 @@ void sortLabelNames(std::vector<LabelName>& names) {
 }
 
 void settleLabelNames(std::vector<LabelName>& names) {
-  for (LabelName& name : names) name.name = cutName(name.name.c_str());  // to a zero byte, if any
+  for (LabelName& name : names) name.name = cutName(name.name.substr(0, name.name.find('\0')));
   std::erase_if(names, [](const LabelName& name) { return name.name.empty(); });
   sortLabelNames(names);
   names.erase(std::unique(names.begin(), names.end(), isOfOneLabel), names.end());

@@ -10,6 +10,8 @@
 
 namespace tetstream {
 
+constexpr const char* kBlockId = "block_id";  // the cell array of their ids
+
 struct ExodusBlock {
   int64_t id = 0;
   std::string name, element;                    // "TETRA"; the name may be empty

@@ -17,7 +17,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr const char* kBlockId = "block_id";
 constexpr size_t kMaxVariables = 1 << 12;
 
 std::string numbered(const char* name, size_t number) {
@@ -177,8 +176,8 @@ class Exodus {
     const bool is_there = std::any_of(arrays.begin(), arrays.end(),
                                       [&](const MeshArray& array) { return array.name == name; });
     if (is_there)
-      mesh_.addNote(textOf("variable \"%s\" is left out: there is another array of its name",
-                           name.c_str()));
+      mesh_.addNote(
+          textOf("variable \"%s\" is left out: there is another array of its name", name.c_str()));
     return !is_there;
   }
 

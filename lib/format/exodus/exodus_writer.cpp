@@ -3,6 +3,7 @@
 // reader.
 #include <algorithm>
 
+#include "exodus_blocks.h"
 #include "exodus_sides.h"
 #include "label_column.h"
 #include "label_names.h"
@@ -15,7 +16,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr const char* kBlockId = "block_id";
 constexpr size_t kLeastNameBytes = 33;  // of names in the file, as of old
 
 // A component of a column, with the name that it has by itself.

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "netcdf_file.h"
+#include "netcdf_layout.h"
 #include "status.h"
 
 namespace tetstream {
@@ -16,8 +17,6 @@ constexpr uint64_t kMaxNames = 1 << 20;   // dimensions, variables or attributes
 constexpr uint64_t kMaxNameBytes = 4096;
 constexpr uint64_t kMaxTextBytes = 256;    // of an attribute that is kept
 constexpr uint64_t kMaxDimensions = 1024;  // of a variable
-
-enum Tag : uint64_t { kDimensionList = 10, kVariableList = 11, kAttributeList = 12 };
 
 struct NumberKind {
   ValueType type;
@@ -37,10 +36,6 @@ struct ClassicVariable : NetcdfVariable {
   uint64_t record_bytes = 0;  // of one record, or of all if it has none; without what fills it up
   std::map<std::string, std::string> texts;
 };
-
-uint64_t filledUp(uint64_t bytes) {
-  return (bytes + 3) / 4 * 4;
-}
 
 // The header, from the file's first byte on.
 class ClassicHeader {
@@ -118,7 +113,7 @@ class ClassicHeader {
   }
 
   // How many there are of a list; 0 where there is none.
-  uint64_t listOf(Tag tag, const char* what) {
+  uint64_t listOf(NetcdfTag tag, const char* what) {
     const uint64_t found = number(4), entries = count();
     if (found == 0 && entries == 0) return 0;
     if (found != tag) failBad(textOf("there is no list of %s", what));

@@ -4,13 +4,12 @@
 #include <bit>
 #include <cstring>
 
+#include "netcdf_layout.h"
 #include "status.h"
 
 namespace tetstream {
 
 namespace {
-
-constexpr uint32_t kDimensionList = 10, kVariableList = 11, kAttributeList = 12;
 
 size_t sizeOfType(NetcdfType type) {
   switch (type) {
@@ -23,10 +22,6 @@ size_t sizeOfType(NetcdfType type) {
       return 8;
   }
   return 0;
-}
-
-uint64_t filledUp(uint64_t bytes) {
-  return (bytes + 3) / 4 * 4;
 }
 
 // The last `bytes` of a number, the highest first.

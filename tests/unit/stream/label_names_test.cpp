@@ -28,7 +28,8 @@ std::string problemOf(std::vector<LabelName> names) {
 
 TEST(LabelNames, AreOfFacesOrOfAnArrayOfIntegers) {
   EXPECT_EQ(problemOf({{"", -4, "inlet"}, {"material", 3, "inlet"}, {"material", 4, "lead"}}), "");
-  EXPECT_EQ(problemOf({{"", 1, ""}}), "the name of faces 1 has no bytes, of which there are 1 to 255");
+  EXPECT_EQ(problemOf({{"", 1, ""}}),
+            "the name of faces 1 has no bytes, of which there are 1 to 255");
   EXPECT_EQ(problemOf({{"material", 1, std::string(256, 'x')}}),
             "the name of \"material\" 1 has too many bytes, of which there are 1 to 255");
   EXPECT_EQ(problemOf({{"", 1, "a"}, {"", 1, "b"}}), "faces 1 has two names, \"a\" and \"b\"");
