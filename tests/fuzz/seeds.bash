@@ -113,6 +113,35 @@ join ../pvd/pieces pieces.pvd ../vtu/text.vtu 1.vtu p.pvtu
 
 "$exodus_seeds" ../exodus
 
+# Labels with names.
+cat >../msh/names.msh <<'END'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+2 9 "wall"
+3 4 "steel"
+$EndPhysicalNames
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 1 1 1
+$EndNodes
+$Elements
+4
+1 2 2 0 3 2 3 4
+2 2 2 9 1 1 2 3
+3 4 2 4 1 1 2 3 4
+4 4 2 5 1 2 3 4 5
+$EndElements
+END
+convert ../msh/names.msh ../tets/names.tets --compress no
+convert ../msh/names.msh ../exodus/names.exo
+
 # XDMF: values in its text, in an HDF5 file, of which VTKHDF is one, and steps that share a mesh.
 cat >mesh.xdmf <<'END'
 <?xml version="1.0"?>
@@ -147,6 +176,30 @@ END
   done
   printf '</Domain></Xdmf>\n'
 } >../xdmf/steps
+# Grids of cells and of faces on the same points; entities and references.
+{
+  cat mesh.xdmf
+  for shape in 'Tetrahedron 1 4' 'Triangle 1 3'; do
+    read -r type rows nodes <<<"$shape"
+    printf '<Grid Name="%s"><xi:include xpointer="xpointer(/Xdmf/Domain/Grid/Geometry)"/>' "$type"
+    printf '<Topology TopologyType="%s"><DataItem Dimensions="%s %s" NumberType="Int">' $shape
+    seq -s ' ' 1 "$nodes"
+    printf '</DataItem></Topology><Attribute Name="%s" Center="Cell"><DataItem Dimensions="%s">' \
+      "$type" "$rows"
+    printf '7</DataItem></Attribute></Grid>\n'
+  done
+  printf '</Domain></Xdmf>\n'
+} >../xdmf/beside
+cat >../xdmf/named <<'END'
+<!DOCTYPE Xdmf SYSTEM "Xdmf.dtd" [<!ENTITY Two "1 2">]>
+<Xdmf Version="2.0"><Domain><DataItem Name="points" Dimensions="5 3" Format="XML">0 0 0 1 0 0 0 1 0
+0 0 1 1 1 1</DataItem><DataItem Name="cells" Dimensions="2 4" NumberType="Int">0 1 2 3 1 2 3 4
+</DataItem><Grid><Topology TopologyType="Tetrahedron"><DataItem Reference="XML">
+/Xdmf/Domain/DataItem[@Name="cells"]</DataItem></Topology><Geometry><DataItem Reference="XML">
+/Xdmf/Domain/DataItem[@Name="points"]</DataItem></Geometry><Attribute Name="p" Center="Cell">
+<DataItem ItemType="HyperSlab" Dimensions="2"><DataItem Dimensions="3 1">0 1 2</DataItem><DataItem
+Dimensions="4">&Two; 3 4</DataItem></DataItem></Attribute></Grid></Domain></Xdmf>
+END
 cat >../xdmf/mixed <<'END'
 <Xdmf Version="2.0"><Domain><Grid Name="all" GridType="Collection" CollectionType="Spatial">
 <Grid Name="a"><Topology TopologyType="Mixed"><DataItem Dimensions="22" NumberType="Int"
