@@ -25,7 +25,7 @@ std::string formatsText() {
   for (int32_t i = 0;
        tetstream_format_at(i, &name, &extensions, &line, &read, &write) == TETSTREAM_OK; ++i) {
     const char* ways = read && write ? "reads, writes" : read ? "reads" : "writes";
-    text += textOf("  %-6s %-14s %-14s %s\n", name, extensions, ways, line);
+    text += textOf("  %-6s %-18s %-14s %s\n", name, extensions, ways, line);
   }
   return text;
 }

@@ -75,10 +75,14 @@ def strange_places(group):
         tried(group, "output: a folder of its name", command, out, lambda: bench.run(words), [IO])
         if os.path.exists("/dev/full") and kind == "tets" and "convert" in command.words:
             bench.fill()
-            words = command.words[:2] + ["-", "--format", out.split(".")[1]]
+            words = command.words[:2] + ["-", "--format", format_of(out.split(".")[1])]
             with open("/dev/full", "wb") as full:
                 tried(group, "output: a device that is full", command, "",
                       lambda: bench.run(words, stdout=full), [IO])
+
+
+def format_of(ending):
+    return {"exo": "exodus"}.get(ending, ending)
 
 
 def stalled_inputs(group):
@@ -88,7 +92,7 @@ def stalled_inputs(group):
                        if name.startswith("in.") and name.count(".") == 1):
         if kind in ("ele", "sol", "solb", "node", "pvtu", "pvd"):  # not of one file
             continue
-        name = {"exo": "exodus"}.get(kind, kind)
+        name = format_of(kind)
         with open(os.path.join(bench.inputs, "in." + kind), "rb") as file:
             data = file.read()
         words = f"convert - out.tets --format-in {name}".split()

@@ -1,6 +1,5 @@
 """The formats that the command reads and does not write: files of them, made of a MEDIT text."""
 import os
-import struct
 
 
 def read_mesh(path):
@@ -44,27 +43,6 @@ def write_xdmf(path, points, cells):
         "</Topology><Geometry>" + item(points, "Float") + "</Geometry></Grid></Domain></Xdmf>"
 
 
-def write_exodus(path, points, cells):
-    """netCDF's classic layout: a header, then coord and connect1."""
-    def big(*numbers):
-        return struct.pack(f">{len(numbers)}I", *numbers)
-
-    def name(text):
-        return big(len(text)) + text + b"\0" * (-len(text) % 4)
-    sizes = {b"dim": 3, b"nodes": len(points), b"cells": len(cells), b"four": 4}
-    coordinates = struct.pack(f">{3 * len(points)}d", *(p[k] for k in range(3) for p in points))
-    corners = struct.pack(f">{4 * len(cells)}i", *(c + 1 for row in cells for c in row))
-
-    def header(begin):
-        text = b"CDF\1" + big(0, 10, len(sizes))
-        text += b"".join(name(key) + big(size) for key, size in sizes.items())
-        text += big(0, 0, 11, 2)
-        text += name(b"coord") + big(2, 0, 1, 0, 0, 6, len(coordinates), begin)
-        text += name(b"connect1") + big(2, 2, 3, 12, 1) + name(b"elem_type") + big(2)
-        return text + name(b"TETRA") + big(4, len(corners), begin + len(coordinates))
-    return header(len(header(0))) + coordinates + corners
-
-
 def write_pvtu(path, points, cells):
     return '<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="in.vtu"/>' \
         "</PUnstructuredGrid></VTKFile>"
@@ -77,7 +55,7 @@ def write_pvd(path, points, cells):
 
 # By the name of the input.
 WRITERS = {"in.node": write_tetgen, "in.su2": write_su2, "in.xdmf": write_xdmf,
-           "in.exo": write_exodus, "in.pvtu": write_pvtu, "in.pvd": write_pvd}
+           "in.pvtu": write_pvtu, "in.pvd": write_pvd}
 
 
 def make(folder):
@@ -87,4 +65,4 @@ def make(folder):
         path = os.path.join(folder, source)
         content = write(path, points, cells)
         with open(path, "wb") as file:
-            file.write(content if isinstance(content, bytes) else content.encode())
+            file.write(content.encode())

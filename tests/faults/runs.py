@@ -22,8 +22,9 @@ class Command:
 
 
 def formats_written(tool):
+    """Of each, how names of its files end."""
     text = subprocess.run([tool, "--version"], capture_output=True, text=True).stdout
-    return [line.split()[0] for line in text.splitlines() if "writes" in line]
+    return [line.split()[1][1:] for line in text.splitlines() if "writes" in line]
 
 
 def table(tool):

@@ -211,7 +211,7 @@ contains
     call run(7_int64, "outlet", "", stat, errmsg)
     call check_says(errmsg, 'faces 7 has two names, "inlet" and "outlet"', "one name a label")
     call run(8_int64, " ", "", stat, errmsg)
-    call check_says(errmsg, "the name of faces 8 has 0 bytes", "no blanks")
+    call check_says(errmsg, "the name of faces 8 has no bytes", "no blanks")
     call run(8_int64, repeat("n", 300), "", stat, errmsg)
     call check_says(errmsg, "the name of faces 8 has", "nor 300 letters")
     call run(8_int64, "gas", repeat("n", 300), stat, errmsg)

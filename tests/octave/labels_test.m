@@ -63,7 +63,7 @@ one = names(1);
 refused ("label name \"inlet\": there is no cell array \"nowhere\"", ...
          setfield (one, "cell_array", "nowhere"));
 refused ("faces 7 has two names, \"inlet\" and \"inlet\"", [one, one]);
-refused ("the name of faces 7 has 0 bytes", setfield (one, "name", ""));
+refused ("the name of faces 7 has no bytes", setfield (one, "name", ""));
 refused ("a struct array of cell_array, label and name", {7, "inlet"});
 refused ("a struct array of cell_array, label and name", rmfield (one, "label"));
 refused ("label_names(2): cell_array and name are texts", [one, setfield(one, "name", 3)]);

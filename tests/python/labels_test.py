@@ -106,7 +106,7 @@ class Refused(unittest.TestCase):
             mesh.simplify(ratio=0.5, regions=mesh.cell_data["material"])
 
     def test_names_that_are_none(self):
-        self.refused(tetstream.BadArgument, "the name of faces 7 has 0 bytes", {None: {7: ""}})
+        self.refused(tetstream.BadArgument, "the name of faces 7 has no bytes", {None: {7: ""}})
         self.refused(tetstream.BadArgument, "the name of faces 7 has", {None: {7: "n" * 300}})
         self.refused(TypeError, "a str is wanted, not int", {None: {7: 8}})
         self.refused(ValueError, "null character", {None: {7: "in\0let"}})

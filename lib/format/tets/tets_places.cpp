@@ -15,6 +15,7 @@ class Places final : public Source {
     schema_ = stored_;
     schema_.fields.clear();
     schema_.cell_data.clear();
+    schema_.label_names.clear();
     for (std::vector<double>* corner : {&schema_.box_min, &schema_.box_max})
       if (!corner->empty()) corner->resize(schema_.boxSize());
     if (!range) return;
