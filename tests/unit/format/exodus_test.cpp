@@ -46,16 +46,8 @@ TEST(Exodus, IsReadInEachLayout) {
 
 TEST(Exodus, SidesLabelFacesOnceEach) {
   const VtuMesh mesh = readAs("exodus", twoBlocks().make(), 1);
-  std::map<std::vector<int64_t>, int64_t> labels;
-  for (size_t i = 0; i < mesh.face_labels.size(); ++i) {
-    std::vector<int64_t> corners(mesh.faces.begin() + static_cast<std::ptrdiff_t>(3 * i),
-                                 mesh.faces.begin() + static_cast<std::ptrdiff_t>(3 * i + 3));
-    std::sort(corners.begin(), corners.end());
-    labels[corners] = mesh.face_labels[i];
-  }
   EXPECT_EQ(mesh.face_labels.size(), 3u);
-  EXPECT_EQ(labels, (std::map<std::vector<int64_t>, int64_t>{
-                        {{0, 1, 2}, 7}, {{1, 2, 3}, 7}, {{2, 3, 4}, 9}}));
+  EXPECT_EQ(labelsOfFaces(mesh), (LabelsOfFaces{{{0, 1, 2}, 7}, {{1, 2, 3}, 7}, {{2, 3, 4}, 9}}));
   EXPECT_TRUE(hasNote(mesh, "1 faces are in side sets more than once"));
 }
 

@@ -68,18 +68,6 @@ std::string asExodus(const VtuMesh& mesh, std::vector<std::string>* notes = null
   return writtenBy(*createExodus(createMemory(out), options), out, mesh);
 }
 
-std::vector<std::vector<int64_t>> labelledFacesOf(const VtuMesh& mesh) {
-  std::vector<std::vector<int64_t>> faces;
-  for (size_t i = 0; i < mesh.face_labels.size(); ++i) {
-    std::vector<int64_t> face(&mesh.faces[3 * i], &mesh.faces[3 * i] + 3);
-    std::sort(face.begin(), face.end());
-    face.push_back(mesh.face_labels[i]);
-    faces.push_back(face);
-  }
-  std::sort(faces.begin(), faces.end());
-  return faces;
-}
-
 TEST(ExodusWriter, BlocksSetsNamesAndVariablesComeBack) {
   const VtuMesh mesh = labelledGrid();
   std::vector<std::string> notes;
@@ -92,7 +80,7 @@ TEST(ExodusWriter, BlocksSetsNamesAndVariablesComeBack) {
     EXPECT_EQ(back.positions, mesh.positions);
     EXPECT_EQ(back.schema.label_names,
               (std::vector<LabelName>{{"", 7, "bottom"}, {"block_id", 20, "middle"}}));
-    EXPECT_EQ(labelledFacesOf(back), labelledFacesOf(mesh));
+    EXPECT_EQ(labelsOfFaces(back), labelsOfFaces(mesh));
     ASSERT_EQ(back.schema.fields.size(), 4u);
     EXPECT_EQ(back.schema.fields[0].name, "f");
     EXPECT_EQ(back.fields[0], mesh.fields[0]);

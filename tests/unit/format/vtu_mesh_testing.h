@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,18 @@ inline bool has(const std::string& text, const std::string& part) {
 inline bool hasNote(const VtuMesh& mesh, const std::string& text) {
   return std::any_of(mesh.notes.begin(), mesh.notes.end(),
                      [&](const std::string& note) { return has(note, text); });
+}
+
+// The labels of faces by their corners, ascending.
+using LabelsOfFaces = std::map<std::vector<int64_t>, int64_t>;
+inline LabelsOfFaces labelsOfFaces(const VtuMesh& mesh) {
+  LabelsOfFaces labels;
+  for (size_t i = 0; i < mesh.face_labels.size(); ++i) {
+    std::vector<int64_t> corners(&mesh.faces[3 * i], &mesh.faces[3 * i] + 3);
+    std::sort(corners.begin(), corners.end());
+    labels[corners] = mesh.face_labels[i];
+  }
+  return labels;
 }
 
 // A text with `to` in place of the first `from`.

@@ -1,7 +1,11 @@
 // Shared by tests of XDMF files: their text, put together from parts.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
+
+#include "vtu_mesh_testing.h"
 
 namespace tetstream::test {
 
@@ -50,5 +54,21 @@ const std::string kXdmfTwoCellGrid = xdmfGrid("mesh", kXdmfTwoCells + kXdmfFiveP
 // The points of the first grid that has some.
 const std::string kXdmfSamePoints =
     "<xi:include xpointer=\"xpointer(/Xdmf/Domain/Grid/Geometry)\"/>";
+
+// Whether a file that is read is refused wherever it is cut off, and with any bit flipped read or
+// refused.
+inline void expectXdmfSurvives(const std::string& good) {
+  EXPECT_EQ(failureAs("xdmf", good), "");
+  for (size_t size = 0; size < good.size(); ++size)
+    EXPECT_TRUE(failureAs("xdmf", good.substr(0, size)).starts_with("TETSTREAM_BAD_DATA")) << size;
+  for (size_t bit = 0; bit < 8 * good.size(); bit += 3) {
+    std::string flipped = good;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    const std::string failure = failureAs("xdmf", flipped);
+    EXPECT_TRUE(failure.empty() || failure.starts_with("TETSTREAM_BAD_DATA") ||
+                failure.starts_with("TETSTREAM_UNSUPPORTED"))
+        << bit << ": " << failure;
+  }
+}
 
 }  // namespace tetstream::test
