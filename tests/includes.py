@@ -9,10 +9,10 @@ import sys
 
 # Names that several headers declare stand with each of them.
 NAMES = {
-    "algorithm": """all_of any_of binary_search clamp copy copy_n count count_if equal fill fill_n find
+    "algorithm": """adjacent_find all_of any_of binary_search clamp copy copy_n count count_if equal fill fill_n find
         find_if find_if_not is_permutation lower_bound make_heap max max_element min min_element minmax
         minmax_element move_backward none_of nth_element partition_point pop_heap push_heap remove
-        remove_if replace replace_if reverse search sort stable_partition stable_sort unique upper_bound""",
+        remove_if replace replace_if reverse search sort stable_partition stable_sort transform unique upper_bound""",
     "array": "array",
     "atomic": "atomic atomic_ref memory_order_relaxed",
     "bit": """bit_cast bit_ceil bit_floor bit_width countl_zero countr_zero endian has_single_bit

@@ -20,6 +20,25 @@ static Comparison createComparison(const Arguments& arguments) {
   return comparison;
 }
 
+// What makes a mesh out of ORIGINAL may be done already, or not be there, in what came of it:
+// options of the reading count for SIMPLIFIED where it takes them.
+static Reader openSimplified(const Arguments& arguments) {
+  OptionWords plain = arguments.options;
+  std::erase_if(plain.values, [](const auto& value) {
+    return value.first == "step" || value.first == "join-points" ||
+           value.first == "cells-to-points";
+  });
+  const Options without = makeOptions(plain), all = makeOptions(arguments.options);
+  if (arguments.second.isStandard() || plain.values.size() == arguments.options.values.size())
+    return openReader(arguments.second, without.get());
+  try {
+    return openReader(arguments.second, all.get());
+  } catch (const Failure& failure) {
+    if (failure.code != kUsage && failure.code != kUnsupported) throw;
+  }
+  return openReader(arguments.second, without.get());
+}
+
 ExitCode compare(const Arguments& arguments) {
   if (arguments.in.isStandard() && arguments.second.isStandard())
     throw Failure{kUsage, "only one of the meshes can come from standard input"};
@@ -27,7 +46,7 @@ ExitCode compare(const Arguments& arguments) {
   if (!arguments.out.path.empty()) checkOutput(arguments.out);
   const Options options = makeOptions(arguments.options);
   const Reader original = openReader(arguments.in, options.get());
-  const Reader simplified = openReader(arguments.second, options.get());
+  const Reader simplified = openSimplified(arguments);
   ProgressBar bar(progressOf(arguments));
   const tetstream_status status = tetstream_comparison_read(
       comparison.get(), original.get(), simplified.get(), ProgressBar::callback, &bar);

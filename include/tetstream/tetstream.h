@@ -362,8 +362,8 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
                                                             tetstream_reader **reader);
 /* As without `_with`, with options for the reading, which may be NULL: `split` (hexahedra, prisms and
  * pyramids are cut into tetrahedra; else they are UNSUPPORTED), `join-points` (points at the same
- * place become one, with the mean of their fields: where each cell has points of its own, as fields
- * that jump are written, or wherever they lie; UNSUPPORTED for streams), `cells-to-points` (cell arrays
+ * place become one, with the means of their floats: where no cell shares a point with another, as
+ * fields that jump are written, or wherever they lie; UNSUPPORTED for streams), `cells-to-points` (cell arrays
  * of floats are fields, too, at a point the mean of the cells round it; UNSUPPORTED for streams), `recover` (of a .tets file that is
  * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
  * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`

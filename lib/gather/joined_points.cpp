@@ -11,7 +11,6 @@
 #include "buckets.h"
 #include "memory.h"
 #include "mix.h"
-#include "point_means.h"
 #include "status.h"
 
 namespace tetstream {
@@ -21,11 +20,10 @@ namespace {
 constexpr size_t kAtOnce = 2048;  // points
 
 // Points everywhere are looked for by their exact coordinates, and in float64, where each cell's
-// may have been computed by itself, in a grid of this part of the largest one: then in that grid
-// moved, until nothing more is found, since two that differ by rounding may lie on both sides of a
-// line.
-constexpr double kGrain = 0x1p-34;
-constexpr int kMostPasses = 8;
+// may have been computed by itself, in a grid of this part of the largest one. Two that differ by
+// rounding may lie on both sides of a line: so in several grids, of which each is moved.
+constexpr double kGrain = 0x1p-40;
+constexpr int kGrids = 4;
 
 struct Keyed {
   std::array<uint64_t, 3> key;  // bits of the coordinates, or of places in a grid, or the global id
@@ -46,24 +44,25 @@ class JoinFinder {
   JoinFinder(IndexedSource& mesh, const JoinPlan& plan, RowSpool& new_of, RowSpool& old_of)
       : mesh_(mesh), schema_(mesh.schema()), plan_(plan), new_of_(new_of), old_of_(old_of) {}
 
+  uint64_t keptApart() const { return kept_apart_; }
+
   void find() {
     const uint64_t points = static_cast<uint64_t>(schema_.vertex_count);
     const size_t buckets = bucketsFor(points, sizeof(Keyed));
     Buckets<Same> same(buckets, plan_.temp_dir);
-    uint64_t found = findSame(same, points);
-    if (plan_.everywhere && schema_.position_type == ScalarType::kFloat64 && found > 0)
+    findSame(same, points);
+    if (plan_.everywhere && plan_.near && schema_.position_type == ScalarType::kFloat64)
       findNear(same, points);
     number(same, points);
-    tell(points - old_of_.rows());
   }
 
  private:
-  // Of those that are not found yet, by a grid.
+  // Of those that are not found yet, by grids.
   void findNear(Buckets<Same>& same, uint64_t points) {
     grain_ = kGrain * largestCoordinate(points);
-    for (int pass = 1; pass < kMostPasses && grain_ > 0; ++pass) {
-      shift_ = 0.618033988749895 * pass;  // of the golden ratio: nowhere near where it was
-      if (findSame(same, points) == 0) return;
+    for (int grid = 1; grid <= kGrids && grain_ > 0; ++grid) {
+      shift_ = 0.618033988749895 * grid;  // of the golden ratio: nowhere near where it was
+      findSame(same, points);
     }
   }
 
@@ -72,7 +71,8 @@ class JoinFinder {
     for (uint64_t at = 0; at < points; at += kAtOnce) {
       const size_t n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, points - at));
       readPlaces(at, n, places);
-      for (size_t i = 0; i < 3 * n; ++i) largest = std::max(largest, std::fabs(places[i]));
+      for (size_t i = 0; i < 3 * n; ++i)
+        if (std::isfinite(places[i])) largest = std::max(largest, std::fabs(places[i]));
     }
     return largest;
   }
@@ -89,12 +89,17 @@ class JoinFinder {
       for (size_t i = 0; i < 3 * n && grain_ > 0; ++i)
         places[i] = std::floor(places[i] / grain_ + shift_) + 0.0;
       for (size_t i = 0; i < n; ++i) {
-        if (isFound(at + i)) continue;
+        if (plan_.everywhere && (isFound(at + i) || !isPlace(places + 3 * i))) continue;
         Keyed row{{}, at + i};
         std::memcpy(row.key.data(), places + 3 * i, sizeof row.key);
         keyed.add(bucketOf(row, keyed.count()), row);
       }
     }
+  }
+
+  // What is none is refused later.
+  static bool isPlace(const double place[3]) {
+    return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
   }
 
   static size_t bucketOf(const Keyed& row, size_t count) {
@@ -132,8 +137,7 @@ class JoinFinder {
     return static_cast<size_t>(after - plan_.first_points.begin());
   }
 
-  // Returns how many points are others.
-  uint64_t findSame(Buckets<Same>& same, uint64_t points) {
+  void findSame(Buckets<Same>& same, uint64_t points) {
     Buckets<Keyed> keyed(same.count(), plan_.temp_dir);
     addKeys(keyed, points);
     if (plan_.everywhere && found_.size() == 0) {
@@ -142,20 +146,18 @@ class JoinFinder {
     }
     Account account;
     const uint64_t part = (points - 1) / same.count() + 1;
-    uint64_t count = 0;
     for (size_t bucket = 0; bucket < keyed.count(); ++bucket) {
       const Array<Keyed> rows = keyed.take(bucket, account);
       for (size_t first = 0, end; first < rows.size(); first = end) {
         end = endOfKey(rows, first);
         if (!mayJoin(rows, first, end)) continue;
-        for (size_t i = first + 1; i < end; ++i, ++count) {
+        for (size_t i = first + 1; i < end; ++i) {
           const uint64_t point = rows[i].point;
           same.add(static_cast<size_t>(point / part), {point, rows[first].point});
           if (plan_.everywhere) found_[point / 64] |= uint64_t{1} << point % 64;
         }
       }
     }
-    return count;
   }
 
   static size_t endOfKey(const Array<Keyed>& rows, size_t first) {
@@ -199,25 +201,6 @@ class JoinFinder {
     }
   }
 
-  void tell(uint64_t joined) const {
-    if (!plan_.note) return;
-    const char* const by = plan_.global_ids < 0 ? "coordinates" : "global ids";
-    if (plan_.everywhere)
-      plan_.note(
-          textOf("%llu of %llu points were joined with others at the same place; fields are "
-                 "the mean there (option join-points, --join-points)",
-                 static_cast<unsigned long long>(joined),
-                 static_cast<unsigned long long>(schema_.vertex_count)));
-    else if (joined > 0)
-      plan_.note(textOf("%llu points were joined with those of other pieces by their %s",
-                        static_cast<unsigned long long>(joined), by));
-    if (kept_apart_ > 0)
-      plan_.note(
-          textOf("at %llu places pieces are not joined: one of them has several points "
-                 "with the same %s there",
-                 static_cast<unsigned long long>(kept_apart_), by));
-  }
-
   IndexedSource& mesh_;
   const Schema& schema_;
   const JoinPlan& plan_;
@@ -228,124 +211,37 @@ class JoinFinder {
   Array<uint64_t> found_{account_};  // everywhere: a bit for each point that is another
 };
 
-class JoinedPoints final : public IndexedSource {
- public:
-  JoinedPoints(std::unique_ptr<IndexedSource> mesh, std::shared_ptr<PointJoin> points)
-      : mesh_(std::move(mesh)),
-        points_(std::move(points)),
-        schema_(mesh_->schema()),
-        means_(schema_.fields.size()) {
-    schema_.vertex_count = static_cast<int64_t>(points_->count());
-    if (mesh_->locked()) lock();
-  }
-
-  const Schema& schema() const override { return schema_; }
-  uint64_t firstNumber() const override { return mesh_->firstNumber(); }
-  const uint8_t* locked() const override { return locked_.size() > 0 ? locked_.data() : nullptr; }
-  bool hasOrigins() const override { return points_->plan().everywhere; }
-  void readOrigins(uint64_t first, size_t count, int64_t* out) override {
-    for (size_t i = 0; i < count; ++i)
-      out[i] = hasOrigins() ? static_cast<int64_t>(points_->oldOf(first + i))
-                            : static_cast<int64_t>(first + i);
-  }
-  void readPositions(uint64_t first, size_t count, void* out) override {
-    forRuns(first, count, 3 * sizeOf(schema_.position_type), out,
-            [&](uint64_t point, size_t n, void* to) { mesh_->readPositions(point, n, to); });
-  }
-  void readField(size_t column, uint64_t first, size_t count, void* out) override {
-    if (points_->plan().everywhere && isFloat(schema_.fields[column].type))
-      return meansOf(column).read(first, count, out);
-    forRuns(first, count, schema_.fields[column].bytesPerRow(), out,
-            [&](uint64_t point, size_t n, void* to) { mesh_->readField(column, point, n, to); });
-  }
-  void readCells(uint64_t first, size_t count, int64_t* out) override {
-    mesh_->readCells(first, count, out);
-    for (size_t i = 0; i < 4 * count; ++i) out[i] = points_->newOf(static_cast<uint64_t>(out[i]));
-    for (size_t i = 0; i < count; ++i) checkCell(first + i, out + 4 * i);
-  }
-  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
-    mesh_->readCellData(column, first, count, out);
-  }
-  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
-    mesh_->readFaces(first, count, corners, labels);
-    for (size_t i = 0; i < 3 * count; ++i)
-      corners[i] = points_->newOf(static_cast<uint64_t>(corners[i]));
-  }
-
- private:
-  template <class Read>
-  void forRuns(uint64_t first, size_t count, size_t row_bytes, void* out, Read read) {
-    for (size_t at = 0; at < count;) {
-      const uint64_t point = points_->oldOf(first + at);
-      size_t n = 1;
-      while (at + n < count && points_->oldOf(first + at + n) == point + n) ++n;
-      read(point, n, static_cast<unsigned char*>(out) + at * row_bytes);
-      at += n;
-    }
-  }
-
-  // Others have their own words for cells that have a point twice.
-  void checkCell(uint64_t cell, const int64_t* corners) const {
-    if (!points_->plan().everywhere) return;
-    for (int i = 0; i < 3; ++i)
-      if (std::find(corners + i + 1, corners + 4, corners[i]) != corners + 4)
-        fail(Status::kBadData,
-             "cell %llu has two points at the same place, which were joined (option join-points, "
-             "--join-points)",
-             static_cast<unsigned long long>(cell + mesh_->firstNumber()));
-  }
-
-  void lock() {
-    locked_.resize(static_cast<size_t>(points_->count()));
-    std::fill_n(locked_.data(), locked_.size(), uint8_t{0});
-    for (uint64_t old = 0; old < static_cast<uint64_t>(mesh_->schema().vertex_count); ++old)
-      if (mesh_->locked()[old]) locked_[static_cast<size_t>(points_->newOf(old))] = 1;
-  }
-
-  PointMeans& meansOf(size_t column) {
-    std::unique_ptr<PointMeans>& means = means_[column];
-    const auto old_points = static_cast<uint64_t>(mesh_->schema().vertex_count);
-    if (!means)
-      means = std::make_unique<PointMeans>(
-          schema_.fields[column], points_->count(), old_points, points_->plan().temp_dir,
-          [&](size_t component, auto add) { forValues(column, component, add); });
-    return *means;
-  }
-
-  // add(point as it is now, value) for each point that there was.
-  template <class Add>
-  void forValues(size_t column, size_t component, Add add) {
-    const Column& field = schema_.fields[column];
-    const auto width = static_cast<size_t>(field.components);
-    const auto old_points = static_cast<uint64_t>(mesh_->schema().vertex_count);
-    std::vector<unsigned char> rows(kAtOnce * field.bytesPerRow());
-    for (uint64_t at = 0; at < old_points; at += kAtOnce) {
-      const auto n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, old_points - at));
-      mesh_->readField(column, at, n, rows.data());
-      for (size_t i = 0; i < n; ++i) {
-        double value;
-        convertScalars(rows.data() + (i * width + component) * sizeOf(field.type), field.type,
-                       &value, ScalarType::kFloat64, 1);
-        add(static_cast<uint64_t>(points_->newOf(at + i)), value);
-      }
-    }
-  }
-
-  std::unique_ptr<IndexedSource> mesh_;
-  std::shared_ptr<PointJoin> points_;
-  Schema schema_;
-  Account account_;
-  Array<uint8_t> locked_{account_};                 // per point, if any is
-  std::vector<std::unique_ptr<PointMeans>> means_;  // of fields that were read
-};
-
 }  // namespace
 
 PointJoin::PointJoin(IndexedSource& mesh, const JoinPlan& plan)
     : plan_(plan),
       new_of_(sizeof(int64_t), plan.temp_dir),
       old_of_(sizeof(uint64_t), plan.temp_dir) {
-  JoinFinder(mesh, plan, new_of_, old_of_).find();
+  JoinFinder finder(mesh, plan, new_of_, old_of_);
+  finder.find();
+  kept_apart_ = finder.keptApart();
+}
+
+void PointJoin::tell() const {
+  if (!plan_.note) return;
+  const auto all = static_cast<unsigned long long>(new_of_.rows());
+  const auto joined = static_cast<unsigned long long>(new_of_.rows() - old_of_.rows());
+  const char* const by = plan_.global_ids < 0 ? "coordinates" : "global ids";
+  if (plan_.everywhere && joined > 0)
+    plan_.note(
+        textOf("%llu of %llu points were joined with others at the same place; fields of "
+               "floats are the mean of theirs there (option join-points, --join-points)",
+               joined, all));
+  else if (plan_.everywhere)
+    plan_.note("no two points lie at the same place: none was joined");
+  else if (joined > 0)
+    plan_.note(
+        textOf("%llu points were joined with those of other pieces by their %s", joined, by));
+  if (kept_apart_ > 0)
+    plan_.note(
+        textOf("at %llu places pieces are not joined: one of them has several points "
+               "with the same %s there",
+               static_cast<unsigned long long>(kept_apart_), by));
 }
 
 // Of a joined point, what stands there is -1 - another one, which may have been joined later.
@@ -369,11 +265,6 @@ uint64_t PointJoin::oldOf(uint64_t point) {
   uint64_t old;
   std::memcpy(&old, old_of_.row(point), sizeof old);
   return old;
-}
-
-std::unique_ptr<IndexedSource> joinPoints(std::unique_ptr<IndexedSource> mesh,
-                                          std::shared_ptr<PointJoin> points) {
-  return std::make_unique<JoinedPoints>(std::move(mesh), std::move(points));
 }
 
 }  // namespace tetstream

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "cell_points.h"
 #include "joined_points.h"
 #include "label_names.h"
 #include "memory.h"
@@ -409,6 +410,16 @@ std::unique_ptr<IndexedSource> MeshIntake::joined() {
   plan.temp_dir = options_.temp_dir;
   plan.note = [this](const std::string& text) { note(text); };
   auto points = std::make_shared<PointJoin>(*mesh_, plan);
+  if (cellThatLosesACorner(*mesh_, *points)) {
+    plan.near = false;
+    points = std::make_shared<PointJoin>(*mesh_, plan);
+  }
+  if (const std::optional<uint64_t> cell = cellThatLosesACorner(*mesh_, *points))
+    fail(Status::kBadData,
+         "%s: points cannot be joined: tetrahedron %llu has two points at the same place (option "
+         "join-points, --join-points)",
+         name_.c_str(), static_cast<unsigned long long>(*cell));
+  points->tell();
   if (!points->changed()) return std::move(mesh_);
   return joinPoints(std::move(mesh_), std::move(points));
 }

@@ -194,15 +194,21 @@ class CellKeeper {
 
   void keepParts(uint64_t cell, CellKind kind, uint64_t points, int64_t* corners) {
     const auto count = static_cast<size_t>(cornersOf(kind.shape));
+    int64_t own[kMostCorners];
+    std::copy_n(corners, count, own);
     if (plan_.first_of)
       for (size_t i = 0; i < count; ++i) corners[i] = plan_.first_of(corners[i]);
+    const auto ownOf = [&](int64_t corner) {
+      return own[std::find(corners, corners + count, corner) - corners];
+    };
     const bool face = dimensionOf(kind.shape) == 2;
     KeptCell row = {{}, cell};
     int64_t triangles[2][3], tetrahedra[kMostSplit][4];
     const size_t parts = face ? splitFace(kind.shape, corners, triangles)
                               : splitCell(kind.shape, corners, tetrahedra);
     for (size_t i = 0; i < parts; ++i) {
-      std::copy_n(face ? triangles[i] : tetrahedra[i], face ? 3 : 4, row.points);
+      std::transform(face ? triangles[i] : tetrahedra[i],
+                     face ? triangles[i] + 3 : tetrahedra[i] + 4, row.points, ownOf);
       spools_[face ? MixedCells::kTriangles : MixedCells::kTetrahedra].append(&row, 1);
     }
     if (face) return;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apart_cells.h"
+#include "cell_points.h"
 #include "face_label_column.h"
 #include "interleaved_cells.h"
 #include "joined_points.h"
@@ -121,6 +121,7 @@ class PiecedMesh final : public IndexedSource {
       for (const std::string& note : mesh_.notes) options_.note(mesh_.name + ": " + note);
   }
 
+  const MeshPieces& pieces() const { return mesh_; }
   const Schema& schema() const override { return schema_; }
   void readPositions(uint64_t first, size_t count, void* out) override {
     points_->read(first, count, out);
@@ -361,10 +362,44 @@ static int findGlobalIds(const Schema& schema, const std::string& named) {
   return usable(found) ? found : -1;
 }
 
+// Those at the same place of all pieces, or none where that would take a corner from a cell: then
+// nothing is joined that has not to be.
+static std::shared_ptr<PointJoin> joinEverywhere(PiecedMesh& mesh, JoinPlan plan, bool asked_for) {
+  std::optional<uint64_t> cell;
+  for (const bool near : {true, false}) {
+    plan.near = near;
+    auto points = std::make_shared<PointJoin>(mesh, plan);
+    cell = cellThatLosesACorner(mesh.pieces(), *points);
+    if (cell) continue;
+    points->tell();
+    return points;
+  }
+  const std::string why =
+      textOf("cell %llu has two points at the same place", static_cast<unsigned long long>(*cell));
+  if (asked_for)
+    fail(Status::kBadData, "%s: points cannot be joined: %s (option join-points, --join-points)",
+         mesh.pieces().name.c_str(), why.c_str());
+  if (plan.note) plan.note("points at the same place are not joined: " + why);
+  return nullptr;
+}
+
+// Whether all points at the same place are to be joined.
+static bool joinsEverywhere(const MeshPieces& mesh, const ReadOptions& options) {
+  const bool asked_for = options.join == PointJoining::kYes;
+  if (!asked_for && (options.join == PointJoining::kNo || !cellsAreApart(mesh))) return false;
+  // Their faces are cut by the points as they were.
+  if (!mesh.faces || !options.split || mesh.form == CellForm::kTetrahedra) return true;
+  if (asked_for)
+    fail(Status::kUnsupported,
+         "%s: points are not joined where labelled faces stand apart from cells that are split "
+         "(options join-points and split)",
+         mesh.name.c_str());
+  return false;
+}
+
 Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
   JoinPlan plan;
-  plan.everywhere = options.join == PointJoining::kYes ||
-                    (options.join == PointJoining::kAuto && cellsAreApart(mesh));
+  plan.everywhere = joinsEverywhere(mesh, options);
   if (mesh.join)
     for (const MeshPiece& piece : mesh.pieces)
       if (piece.point_count > 0) plan.first_points.push_back(piece.first_point);
@@ -372,13 +407,17 @@ Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
   Input input;
   input.has_steps = mesh.has_steps;
   auto opened = std::make_unique<PiecedMesh>(std::move(mesh), options);
-  if (!plan.everywhere) plan.global_ids = findGlobalIds(opened->schema(), global_ids);
   plan.temp_dir = options.temp_dir;
   if (options.note)
     plan.note = [name, note = options.note](const std::string& text) { note(name + ": " + text); };
   std::shared_ptr<PointJoin> joined;
-  if (plan.everywhere || plan.first_points.size() > 1)
+  if (plan.everywhere) joined = joinEverywhere(*opened, plan, options.join == PointJoining::kYes);
+  if (!joined && plan.first_points.size() > 1) {
+    plan.everywhere = false;
+    plan.global_ids = findGlobalIds(opened->schema(), global_ids);
     joined = std::make_shared<PointJoin>(*opened, plan);
+    joined->tell();
+  }
   if (joined && !joined->changed()) joined.reset();
   opened->takeCells(joined.get());
   input.indexed = std::move(opened);

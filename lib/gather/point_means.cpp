@@ -6,15 +6,15 @@ namespace tetstream {
 
 constexpr SpoolShape kMeansInSequence = {2, 256 << 10};
 
+// note: by steps that cannot overflow, and of equal values exactly that.
 double PointMeans::meanOf(const Value* values, size_t count) {
-  double sum = 0;
-  size_t finite = 0;
+  double mean = values[0].value, finite = 0;
   for (size_t i = 0; i < count; ++i) {
     if (!std::isfinite(values[i].value)) continue;
-    sum += values[i].value;
     ++finite;
+    mean = finite == 1 ? values[i].value : mean + (values[i].value / finite - mean / finite);
   }
-  return finite > 0 ? sum / static_cast<double>(finite) : values[0].value;
+  return mean;
 }
 
 void PointMeans::addComponent(Buckets<Value>& sorted, const std::string& temp_dir) {

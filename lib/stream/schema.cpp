@@ -14,9 +14,9 @@ size_t Schema::fieldComponents() const {
   return sum;
 }
 
-std::string cutName(const std::string& text) {
-  if (text.size() <= kMostNameBytes) return text;
-  size_t size = kMostNameBytes;
+std::string cutName(const std::string& text, size_t most) {
+  if (text.size() <= most) return text;
+  size_t size = most;
   while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
   return text.substr(0, size);
 }

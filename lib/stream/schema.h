@@ -14,7 +14,7 @@ constexpr int kMaxComponents = 9;  // of one column: a scalar, a vector, ... a 3
 constexpr size_t kMostNameBytes = 255;  // of an array's or a label's name
 
 // The text, cut to so many, but not in the middle of a UTF-8 character.
-std::string cutName(const std::string& text);
+std::string cutName(const std::string& text, size_t most = kMostNameBytes);
 
 // A named array: a field (one row per vertex) or cell data (one row per cell). Float fields are
 // interpolated, float cell data averaged by volume; integers are picked, never averaged.

@@ -116,6 +116,12 @@ expect 0 info steps.pvd
 contains "$err" "of 3 time steps, 0 to 2, step 2 is read, at time 0.5"
 expect_error 1 "there is no time step 3 (option step, --step): there are 0 to 2" \
   convert steps.pvd none.tets --step 3
+# What was made of a step, of joined points or of cell arrays is compared with where it came from.
+for name in step.tets step.vtu; do
+  expect 0 simplify steps.pvd $name --step 1 --ratio 0.5 --cells-to-points --quiet
+  expect 0 compare steps.pvd $name --step 1 --cells-to-points --join-points yes
+  contains "$out" "topology: kept"
+done
 for file in step100.vtu step.tets step.msh; do
   [[ $file == *.vtu ]] || expect 0 convert step100.vtu $file --quiet
   expect_error 1 "$file: there is no time step 1 (option step, --step): there are none" \

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
+#include <tuple>
 
 #include "exodus_blocks.h"
+#include "label_column.h"
 #include "mix.h"
 #include "rows_at_once.h"
 
@@ -19,8 +22,9 @@ struct Row {
   std::array<int64_t, 3> key;  // the corners, ascending
   int64_t element;             // 0: the labelled face itself
   int64_t side_or_label;
+  uint64_t rank;  // of labelled faces
   bool operator<(const Row& other) const {
-    return key != other.key ? key < other.key : element < other.element;
+    return std::tie(key, element, rank) < std::tie(other.key, other.element, other.rank);
   }
 };
 
@@ -28,11 +32,12 @@ class FaceRows {
  public:
   explicit FaceRows(const std::string& temp_dir) : buckets_(kBuckets, temp_dir) {}
   Buckets<Row>& buckets() { return buckets_; }
-  void add(std::array<int64_t, 3> corners, int64_t element, int64_t side_or_label) {
+  void add(std::array<int64_t, 3> corners, int64_t element, int64_t side_or_label,
+           uint64_t rank = 0) {
     std::sort(corners.begin(), corners.end());
     uint64_t hash = 0;
     for (const int64_t corner : corners) hash = mix(hash ^ static_cast<uint64_t>(corner));
-    buckets_.add(static_cast<size_t>(hash % kBuckets), {corners, element, side_or_label});
+    buckets_.add(static_cast<size_t>(hash % kBuckets), {corners, element, side_or_label, rank});
   }
 
  private:
@@ -59,16 +64,20 @@ class PointSet {
 uint64_t addFaces(MeshSpool& mesh, FaceRows& rows, PointSet& points) {
   int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
   uint64_t left_out = 0;
+  std::set<int64_t> known;
   for (uint64_t at = 0; at < mesh.faceCount(); at += kRowsAtOnce) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh.faceCount() - at));
     mesh.readFaces(at, n, corners, labels);
     for (size_t i = 0; i < n; ++i) {
       const int64_t* face = corners + 3 * i;
-      if (!ExodusSides::isId(labels[i])) {
+      const bool may_be_set = ExodusSides::isId(labels[i]) &&
+                              (known.size() < kMostGroups || known.count(labels[i]) > 0);
+      if (!may_be_set) {
         ++left_out;
         continue;
       }
-      rows.add({face[0], face[1], face[2]}, 0, labels[i]);
+      known.insert(labels[i]);
+      rows.add({face[0], face[1], face[2]}, 0, labels[i], at + i);
       for (int k = 0; k < 3; ++k) points.add(face[k]);
     }
   }
@@ -125,12 +134,14 @@ void ExodusSides::find(MeshSpool& mesh, RowSpool& elements, RowSpool& found) {
     const Array<Row> sorted = rows.buckets().take(bucket, account);
     for (size_t i = 0; i < sorted.size(); ++i) {
       if (sorted[i].element != 0) continue;
-      if (i + 1 == sorted.size() || sorted[i + 1].key != sorted[i].key ||
-          sorted[i + 1].element == 0) {
-        ++left_out_;  // a face of no cell, or one that is there again
+      const Row& face = sorted[i];  // the first of those with its corners
+      const auto isAgain = [&](size_t k) { return k < sorted.size() && sorted[k].key == face.key; };
+      for (; isAgain(i + 1) && sorted[i + 1].element == 0; ++i) ++left_out_;
+      if (!isAgain(i + 1)) {
+        ++left_out_;  // of no cell
         continue;
       }
-      const Found row = {sorted[i].side_or_label,
+      const Found row = {face.side_or_label,
                          {static_cast<int32_t>(sorted[i + 1].element),
                           static_cast<int32_t>(sorted[i + 1].side_or_label)}};
       found.append(&row, 1);

@@ -2,6 +2,7 @@
 // fields and other cell arrays are variables of one time step. After the same sources as the
 // reader.
 #include <algorithm>
+#include <set>
 
 #include "exodus_blocks.h"
 #include "exodus_sides.h"
@@ -25,21 +26,35 @@ struct ExodusVariable {
   std::string name;
 };
 
-std::vector<ExodusVariable> variablesOf(const std::vector<Column>& columns, size_t without) {
+// As readers have names: without blanks at their end.
+std::string withoutEndBlanks(std::string name) {
+  name.resize(name.find_last_not_of(' ') + 1);
+  return name.empty() ? "values" : name;
+}
+
+// The base, cut where that is needed, and the end.
+std::string endingWith(const std::string& base, const std::string& end) {
+  return cutName(base, kMostNameBytes - end.size()) + end;
+}
+
+std::string nameOfComponent(const Column& column, int component) {
   static constexpr const char* kAxes[] = {"_x", "_y", "_z"};
+  const std::string base = withoutEndBlanks(column.name);
+  if (column.components == 1) return base;
+  return endingWith(base, column.components == 3 ? kAxes[component] : textOf("_%d", component + 1));
+}
+
+// All but one column, each component under a name of its own; `taken` are other names.
+std::vector<ExodusVariable> variablesOf(const std::vector<Column>& columns, size_t without,
+                                        std::set<std::string> taken) {
   std::vector<ExodusVariable> variables;
-  for (size_t i = 0; i < columns.size(); ++i) {
-    if (i == without) continue;
-    const Column& column = columns[i];
-    for (int k = 0; k < column.components; ++k) {
-      std::string name = column.name;
-      if (column.components == 3)
-        name += kAxes[k];
-      else if (column.components > 1)
-        name += textOf("_%d", k + 1);
+  for (size_t i = 0; i < columns.size(); ++i)
+    for (int k = 0; i != without && k < columns[i].components; ++k) {
+      const std::string wanted = nameOfComponent(columns[i], k);
+      std::string name = wanted;
+      for (int n = 2; !taken.insert(name).second; ++n) name = endingWith(wanted, textOf("_%d", n));
       variables.push_back({i, k, name});
     }
-  }
   return variables;
 }
 
@@ -55,8 +70,8 @@ class ExodusWriter final : public MeshCollector {
     ExodusSides sides(mesh, *elements_, options().temp_dir);
     sides_ = &sides;
     const size_t no_column = SIZE_MAX;
-    fields_ = variablesOf(mesh.schema().fields, no_column);
-    arrays_ = variablesOf(mesh.schema().cell_data, block_column_.value_or(no_column));
+    fields_ = variablesOf(mesh.schema().fields, no_column, {});
+    arrays_ = variablesOf(mesh.schema().cell_data, block_column_.value_or(no_column), {kBlockId});
     real_ = realType();
     noteLosses();
     NetcdfWriter file(bytes());
@@ -78,6 +93,8 @@ class ExodusWriter final : public MeshCollector {
   uint64_t cells() const { return mesh_->cellCount(); }
 
   void checkSizes() {
+    if (points() == 0)
+      fail(Status::kUnsupported, "%s: Exodus has no mesh without points", bytes().name().c_str());
     if (points() > INT32_MAX || cells() > INT32_MAX)
       fail(Status::kUnsupported, "%s: %llu points and %llu cells: Exodus holds 2147483647 of each",
            bytes().name().c_str(), static_cast<unsigned long long>(points()),
@@ -149,17 +166,30 @@ class ExodusWriter final : public MeshCollector {
       note(std::to_string(sides_->leftOut()) +
            " labelled faces are left out: side sets have ids from 1 to 2147483647, and sides of "
            "cells");
-    std::string apart;
-    for (const auto* columns : {&schema().fields, &schema().cell_data})
-      for (const Column& c : *columns)
-        if (c.components > 1) apart += (apart.empty() ? "\"" : ", \"") + c.name + "\"";
-    if (!apart.empty()) note("each component is a variable of its own: " + apart);
+    if (findColumn(schema().cell_data, kBlockId) >= 0 && !block_column_)
+      note(
+          "the labels of \"block_id\" are no ids of blocks, 0 to 2147483647 and no more than "
+          "65536: "
+          "all cells are block 1");
+    noteNames(schema().fields, fields_);
+    noteNames(schema().cell_data, arrays_);
     std::vector<LabelName> left_out;
     for (const LabelName& name : schema().label_names)
       if (!isKept(name)) left_out.push_back(name);
     if (!left_out.empty())
       note("names of labels that are no blocks and no side sets are left out: " +
            shownLabelNames(left_out));
+  }
+
+  void noteNames(const std::vector<Column>& columns, const std::vector<ExodusVariable>& variables) {
+    for (const ExodusVariable& v : variables) {
+      const Column& column = columns[v.column];
+      if (v.component == 0 && column.components > 1)
+        note("each component of \"" + column.name + "\" is a variable of its own, \"" + v.name +
+             "\" and so on");
+      else if (column.components == 1 && v.name != column.name)
+        note("\"" + column.name + "\" is written as \"" + v.name + "\"");
+    }
   }
 
   bool isKept(const LabelName& name) const {
@@ -204,7 +234,6 @@ class ExodusWriter final : public MeshCollector {
   // ------------------------------------------------------------------------------- nodes, elements
 
   void addNodes() {
-    if (points() == 0) return;
     nodes_ = file_->addDimension("num_nodes", points());
     for (size_t k = 0; k < 3; ++k)
       file_->addVariable(
@@ -301,7 +330,7 @@ class ExodusWriter final : public MeshCollector {
   }
 
   void addNodal() {
-    if (fields_.empty() || points() == 0) return;
+    if (fields_.empty()) return;
     addNames("num_nod_var", "name_nod_var", fields_);
     for (size_t i = 0; i < fields_.size(); ++i)
       file_->addVariable("vals_nod_var" + std::to_string(i + 1), real_, {time_, nodes_}, {},

@@ -98,7 +98,7 @@ class MshReader {
     for (int64_t i = 0; i < count; ++i) {
       const auto dimension = static_cast<int>(file_.integer("the dimension of a group", 0, 3));
       const int64_t tag = file_.integer("the number of a group");
-      mesh_.names[{dimension, tag}] = file_.text("the name of a group");
+      mesh_.names.emplace(std::pair(dimension, tag), file_.text("the name of a group"));
     }
   }
 

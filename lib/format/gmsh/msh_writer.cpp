@@ -84,12 +84,17 @@ class MshWriter final : public MeshCollector {
            " labelled faces are left out: physical groups have numbers from 1 to 2147483647");
     for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data})
       for (const Column& c : *columns) {
-        if (c.name.find('"') != c.name.npos || c.name.find('\n') != c.name.npos)
-          note("the name of \"" + c.name + "\" has characters that the format cannot hold");
+        noteName(c.name);
         if (c.components != 1 && c.components != 3 && c.components != 9)
           note("Gmsh itself shows data of 1, 3 or 9 components; \"" + c.name + "\" has " +
                std::to_string(c.components));
       }
+    for (const LabelName& name : mesh_->schema().label_names) noteName(name.name);
+  }
+
+  void noteName(const std::string& name) {
+    if (plain(name) != name)
+      note("the name of \"" + name + "\" has characters that the format cannot hold");
   }
 
   // --------------------------------------------------------------------------------- the head

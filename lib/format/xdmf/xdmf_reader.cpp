@@ -44,7 +44,10 @@ class Xdmf {
     std::vector<MeshPiece> pieces;
     pieces.reserve(leaves.size());
     for (const int leaf : leaves) pieces.push_back(readPiece(leaf));
-    if (pieces.size() == 1) addOthers(leaves[0], pieces[0]);
+    if (pieces.size() == 1)
+      addOthers(leaves[0], pieces[0]);
+    else
+      noteOthers(leaves);
     takeForm(pieces);
     for (MeshPiece& piece : pieces) mesh_.add(std::move(piece));
   }
@@ -229,6 +232,12 @@ class Xdmf {
         mesh_.addNote(nameOf(grid) + " is left out: it has another mesh");
     }
     beside.finish();
+  }
+
+  void noteOthers(const std::vector<int>& leaves) {
+    for (const int grid : gridsBeside(leaves[0]))
+      if (std::find(leaves.begin(), leaves.end(), grid) == leaves.end())
+        mesh_.addNote(nameOf(grid) + " is left out: the mesh is made of several grids");
   }
 
   // Of a collection over time the grids of the same step.

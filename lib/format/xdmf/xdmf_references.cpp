@@ -7,7 +7,7 @@ namespace tetstream {
 namespace {
 
 constexpr int kMostFollowed = 16;      // from one to the next
-constexpr size_t kMostMade = 1 << 20;  // items of the whole file: a few could become any number
+constexpr size_t kMostMade = 1 << 17;  // items of the whole file: a few could become any number
 
 class References {
  public:

@@ -162,8 +162,13 @@ class XdmfTree final : XmlFeed {
   Open addNamed(Attributes attributes) {
     const std::string name = wordOf(attributes, "Name", "");
     if (name.empty() || !isRead(attributes)) return kOther;
-    names_.push_back(name);
-    return addItem(attributes, named_);
+    try {
+      const Open open = addItem(attributes, named_);
+      names_.push_back(name);
+      return open;
+    } catch (const Error&) {
+      return kOther;  // who refers to it is told that it is not there
+    }
   }
 
   Open addItem(Attributes attributes, std::vector<XdmfItem>& items) {

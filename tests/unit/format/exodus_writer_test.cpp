@@ -9,6 +9,7 @@
 #include "meshes.h"
 #include "netcdf_file.h"
 #include "netcdf_writer.h"
+#include "status.h"
 #include "vtu_mesh_testing.h"
 
 namespace tetstream {
@@ -73,8 +74,9 @@ TEST(ExodusWriter, BlocksSetsNamesAndVariablesComeBack) {
   std::vector<std::string> notes;
   const std::string file = asExodus(mesh, &notes);
   EXPECT_EQ(file.substr(0, 4), std::string("CDF\x02"));
-  EXPECT_TRUE(anyNote(notes, "each component is a variable of its own: \"v\", \"heat\""));
-  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(anyNote(notes, "component of \"v\" is a variable of its own, \"v_x\" and so on"));
+  EXPECT_TRUE(anyNote(notes, "component of \"heat\" is a variable of its own, \"heat_1\" and"));
+  ASSERT_EQ(notes.size(), 2u);
   for (const size_t step : {1, 1000}) {
     const VtuMesh back = readAs("exodus", file, step);
     EXPECT_EQ(back.positions, mesh.positions);
@@ -149,6 +151,50 @@ TEST(ExodusWriter, TellsWhatIsLeftOutOrRounded) {
   EXPECT_TRUE(back.schema.label_names.empty());
   EXPECT_EQ(back.schema.cell_data.size(), 5u);
   EXPECT_EQ(valuesAs<int32_t>(back.cell_data[0])[0], 10);  // block_id, though others have names
+}
+
+// Names that would be read as one, or not at all.
+TEST(ExodusWriter, VariablesHaveNamesOfTheirOwn) {
+  VtuMesh mesh = labelledGrid();
+  const std::string longest = std::string(254, 'n') + "\xc3\xa4";
+  mesh.schema.fields = {{"v_x", 1, ScalarType::kFloat64},
+                        {"v", 3, ScalarType::kFloat32},
+                        {longest.substr(0, 254), 3, ScalarType::kFloat32},
+                        {"f", 1, ScalarType::kFloat64},
+                        {"f ", 1, ScalarType::kFloat64}};
+  mesh.fields = {mesh.fields[0], mesh.fields[1], mesh.fields[1], mesh.fields[0], mesh.fields[0]};
+  mesh.schema.cell_data = {{"block_id", 1, ScalarType::kInt32}};
+  mesh.cell_data = {mesh.cell_data[1]};
+  std::vector<int32_t> negative(mesh.cells.size() / 4, -3);
+  mesh.cell_data[0] = packedValues(negative);
+  mesh.schema.label_names.clear();
+  std::vector<std::string> notes;
+  const VtuMesh back = readAs("exodus", asExodus(mesh, &notes));
+  std::vector<std::string> names;
+  for (const Column& field : back.schema.fields) names.push_back(field.name);
+  const std::string cut(253, 'n');
+  EXPECT_EQ(names, (std::vector<std::string>{"v_x", "v_x_2", "v_y", "v_z", cut + "_x", cut + "_y",
+                                             cut + "_z", "f", "f_2"}));
+  EXPECT_TRUE(anyNote(notes, "\"f \" is written as \"f_2\""));
+  EXPECT_TRUE(anyNote(notes, "the labels of \"block_id\" are no ids of blocks"));
+  ASSERT_EQ(back.schema.cell_data.size(), 2u);
+  EXPECT_EQ(back.schema.cell_data[1].name, "block_id_2");
+  EXPECT_EQ(valuesAs<double>(back.cell_data[1])[7], -3);
+}
+
+TEST(ExodusWriter, OfEqualFacesTheFirstIsKept) {
+  VtuMesh mesh = labelledGrid();
+  const std::vector<int64_t> first(mesh.faces.end() - 3, mesh.faces.end());
+  mesh.faces.insert(mesh.faces.end(), {first[2], first[0], first[1]});
+  mesh.face_labels.push_back(3);
+  const VtuMesh back = readAs("exodus", asExodus(mesh));
+  EXPECT_EQ(labelsOfFaces(back), labelsOfFaces(labelledGrid()));
+}
+
+TEST(ExodusWriter, RefusesAMeshWithoutPoints) {
+  VtuMesh mesh;
+  mesh.schema.vertex_count = mesh.schema.cell_count = 0;
+  EXPECT_THROW(asExodus(mesh), Error);
 }
 
 // Where an array is too large for 32-bit sizes.

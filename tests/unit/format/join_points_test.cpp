@@ -101,11 +101,14 @@ TEST(JoinPoints, FieldsAreMeans) {
 // As a program has them that computes each cell's corners by themselves.
 TEST(JoinPoints, PlacesMayDifferByRounding) {
   const SmallMesh grid = gridMesh(9, 9, 9);
-  for (const double noise : {1e-16, 1e-14}) {
-    const VtuMesh mesh =
-        readVtu(makeVtu({apart(grid, "Float64", noise)}, {VtuCoding::kAppendedRaw}));
-    expectGrid(mesh, grid);
-  }
+  for (const double noise : {1e-16, 2e-15})
+    for (const double first : {0.0, 0x1p-40})  // across a line of the grid, all with some
+      for (const double all : {0.0, 1e-16}) {
+        VtuTestPiece piece = apart(grid, "Float64", noise);
+        for (size_t i = 0; i < piece.points_element[0].reals.size(); ++i)
+          piece.points_element[0].reals[i] += first + all * static_cast<double>(i % 7);
+        expectGrid(readVtu(makeVtu({piece}, {VtuCoding::kAppendedRaw})), grid);
+      }
   const VtuMesh far = readVtu(makeVtu({apart(grid, "Float64", 1e-6)}, {VtuCoding::kAppendedRaw}));
   EXPECT_GT(far.schema.vertex_count, static_cast<int64_t>(2 * grid.vertexCount()));
 }
@@ -250,14 +253,87 @@ TEST(JoinPoints, LocksAreKept) {
   EXPECT_EQ(locked, (std::vector<uint8_t>{0, 0, 1, 0, 0}));
 }
 
-TEST(JoinPoints, CellsThatLoseACornerAreNamed) {
-  SmallMesh grid = gridMesh(3, 4, 2);
+// By themselves nothing is joined then, and if it is asked for, that is an error.
+TEST(JoinPoints, NoCellLosesACorner) {
+  const SmallMesh grid = gridMesh(3, 4, 2);
   VtuTestPiece piece = apart(grid, "Float64");
   for (size_t k = 0; k < 3; ++k)  // the first two corners of cell 20
     piece.points_element[0].reals[3 * 81 + k] = piece.points_element[0].reals[3 * 80 + k];
-  const std::string problem = vtuFailure(makeVtu({piece}, {}));
-  EXPECT_TRUE(has(problem, "cell 20 has two points at the same place, which were joined"))
-      << problem;
+  const std::string file = makeVtu({piece}, {});
+  const VtuMesh mesh = readVtu(file);
+  EXPECT_EQ(mesh.schema.vertex_count, 576);
+  EXPECT_TRUE(hasNote(mesh, "points at the same place are not joined: cell 20 has two points"));
+  try {
+    readVtu(file, 1000, joining(PointJoining::kYes));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::kBadData);
+    EXPECT_TRUE(has(error.text(), "points cannot be joined: cell 20 has two points"));
+  }
+}
+
+// A mesh so small, for where it is, that places nearer than the grid are different ones.
+TEST(JoinPoints, PlacesThatAreNotTheSameStayApart) {
+  const SmallMesh grid = gridMesh(3, 4, 2);
+  VtuTestPiece small = apart(grid, "Float64"), gap = small;
+  for (double& x : small.points_element[0].reals) x = 1 + x * 0x1p-44;
+  EXPECT_EQ(readVtu(makeVtu({small}, {VtuCoding::kAppendedRaw})).schema.vertex_count, 60);
+  // Two halves, 1e-11 of the largest coordinate from each other.
+  std::vector<double>& places = gap.points_element[0].reals;
+  for (size_t cell = 0; cell < grid.cellCount(); ++cell) {
+    double height = 0;
+    for (size_t j = 0; j < 4; ++j) height += places[12 * cell + 3 * j + 2];
+    for (size_t j = 0; j < 4 && height * 3 > 4; ++j) places[12 * cell + 3 * j + 2] += 2e-11;
+  }
+  EXPECT_EQ(readVtu(makeVtu({gap}, {VtuCoding::kAppendedRaw})).schema.vertex_count, 80);
+}
+
+// Of three blocks in turn, or with points in any order.
+TEST(JoinPoints, PointsMayComeInAnyOrder) {
+  const SmallMesh grid = gridMesh(3, 4, 2);
+  VtuTestPiece piece = apart(grid, "Float32");
+  std::vector<int64_t>& names = piece.cells_element[0].integers;
+  VtuTestPiece shuffled = piece;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const auto to = static_cast<int64_t>(i * 25 % names.size());
+    shuffled.cells_element[0].integers[i] = to;
+    for (size_t k = 0; k < 3; ++k)
+      shuffled.points_element[0].reals[3 * static_cast<size_t>(to) + k] =
+          piece.points_element[0].reals[3 * i + k];
+    shuffled.point_data[2].integers[static_cast<size_t>(to)] = piece.point_data[2].integers[i];
+    for (size_t k = 0; k < 3; ++k)
+      shuffled.point_data[1].reals[3 * static_cast<size_t>(to) + k] =
+          piece.point_data[1].reals[3 * i + k];
+  }
+  expectGrid(readVtu(makeVtu({shuffled}, {})), grid);
+}
+
+// A face that both of its cells have labelled is there once.
+TEST(JoinPoints, FacesThatBecomeOneAreThereOnce) {
+  const std::string file =
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n8\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+      "1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 0\nTriangles\n3\n2 3 4 9\n7 6 5 8\n1 2 3 7\n"
+      "Tetrahedra\n2\n1 2 3 4 0\n5 6 7 8 0\nEnd\n";
+  std::vector<std::string> notes;
+  Input joined = openText(openMedit, file, joining(PointJoining::kYes), &notes);
+  const std::vector<TestFace> faces = facesOf(joined);
+  ASSERT_EQ(faces.size(), 2u);
+  for (const TestFace& face : faces) EXPECT_EQ(face.label, face.a + face.b + face.c == 6 ? 9 : 7);
+  EXPECT_TRUE(anyNote(notes, "1 labelled faces have become one with others"));
+}
+
+// What a ghost says of a point is somebody else's.
+TEST(JoinPoints, PointsOfGhostsDoNotCount) {
+  const SmallMesh grid = gridMesh(3, 4, 2);
+  VtuTestPiece piece = apart(grid, "Float64");
+  std::vector<int64_t> ghosts(piece.cells, 0);
+  ghosts[0] = 1;
+  piece.cell_data = {{"UInt8", "vtkGhostType", 1, {}, ghosts}};
+  for (size_t i = 0; i < 4; ++i) piece.point_data[0].reals[i] = 1e6;
+  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  EXPECT_EQ(mesh.schema.cell_count, 143);
+  EXPECT_EQ(mesh.schema.vertex_count, 60);
+  for (const double f : valuesAs<double>(mesh.fields[0])) EXPECT_LT(f, 100);
 }
 
 // Claims that lie are found as ever, by the reader's own words.

@@ -120,6 +120,18 @@ TEST(LabelNamesOfFiles, ArePhysicalNamesOfMsh) {
     }
 }
 
+TEST(LabelNamesOfFiles, OfOneGroupTheFirstCountsAndQuotesAreTold) {
+  Stream s = namedStream({{"region", 5, "a \"b\""}});
+  std::vector<std::string> notes;
+  std::string file = asMsh(s, false, true, &notes);
+  EXPECT_TRUE(anyNote(notes, "the name of \"a \"b\"\" has characters that the format cannot hold"));
+  EXPECT_NE(file.find("3 5 \"a _b_\"\n"), std::string::npos);
+  file.replace(file.find("$PhysicalNames\n1\n3 5 \"a _b_\""), 28,
+               "$PhysicalNames\n2\n3 5 \"one\"\n3 5 \"two\"");
+  EXPECT_EQ(openText(openMsh, file).schema().label_names,
+            (std::vector<LabelName>{{"region", 5, "one"}}));
+}
+
 // Of a mesh of 20 cells: ids, ranks, the label of each.
 Stream labelledStream(std::vector<Column> arrays) {
   Wanted wanted;

@@ -213,6 +213,27 @@ TEST(XdmfBeside, QuadrilateralsAreSplitAsTheirCellsAre) {
 }
 
 // As dolfinx writes it: the mesh, its labels and then functions over time on the mesh.
+TEST(XdmfBeside, FacesAreLabelledByNumbersThatAreWholeInFloat64) {
+  for (const char* labels : {"16777217.4 2", "9007199254740995 2", "0.5 2"}) {
+    const VtuMesh mesh =
+        readAs("xdmf", besideTwoCells("walls", xdmfTopology("Triangle", "2 3", "0 1 2 1 2 3"),
+                                      xdmfValues("w", "2", labels)));
+    EXPECT_TRUE(mesh.face_labels.empty()) << labels;
+    EXPECT_TRUE(hasNote(mesh, "is no label of faces: it has not one integer to each")) << labels;
+  }
+}
+
+TEST(XdmfBeside, BesideAMeshOfSeveralGridsItIsLeftOut) {
+  const std::string one = xdmfGrid("a", kXdmfTwoCells + kXdmfFivePoints);
+  const VtuMesh mesh =
+      readAs("xdmf",
+             xdmfFile("<Grid Name=\"all\" GridType=\"Collection\" CollectionType=\"Spatial\">" +
+                      one + one + "</Grid>" +
+                      xdmfGrid("walls", kXdmfSamePoints + xdmfTopology("Triangle", "1 3", "0 1 2") +
+                                            xdmfValues("w", "1", "7"))));
+  EXPECT_TRUE(hasNote(mesh, "grid \"walls\" is left out: the mesh is made of several grids"));
+}
+
 TEST(XdmfBeside, LabelsStandBesideACollectionOverTime) {
   const std::string include =
       "<xi:include xpointer=\"xpointer(/Xdmf/Domain/Grid[@GridType='Uniform'][1]/*[self::Topology "

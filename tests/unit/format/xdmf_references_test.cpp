@@ -151,7 +151,8 @@ TEST_F(XdmfReferences, SaysWhatIsWrong) {
       has(failure(replaced(kNamedCells, "2 4", "200000 4"), ofDomain("cells")), "BAD_DATA"));
   std::string ones = "2 4";
   for (int i = 0; i < 40; ++i) ones += " 1";
-  EXPECT_TRUE(has(failure(replaced(kNamedCells, "2 4", ones), ofDomain("cells")), "are none"));
+  EXPECT_TRUE(has(failure(replaced(kNamedCells, "2 4", ones), ofDomain("cells")),
+                  "there is no DataItem \"cells\""));
 }
 
 TEST_F(XdmfReferences, DoNotRunInCircles) {
@@ -248,6 +249,15 @@ TEST_F(XdmfReferences, EntitiesInTextAreFoundWhereverTheyStand) {
                   .cells,
               kTwoCells)
         << blanks;
+}
+
+TEST_F(XdmfReferences, ItemsThatNobodyRefersToMayBeAnything) {
+  const std::string odd = "<DataItem Name=\"odd\" Dimensions=\"two\">1 2</DataItem>";
+  const std::string grid = gridOf(ofDomain("cells"), ofDomain("vertices"));
+  EXPECT_EQ(failureAs("xdmf", xdmfFile(odd + kNamedCells + kNamedPoints + grid)), "");
+  EXPECT_TRUE(has(
+      failureAs("xdmf", xdmfFile(odd + kNamedCells + gridOf(ofDomain("cells"), ofDomain("odd")))),
+      "there is no DataItem \"odd\" in the Domain"));
 }
 
 TEST_F(XdmfReferences, SurvivesEveryCutAndEveryFlippedBit) {
