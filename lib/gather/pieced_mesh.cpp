@@ -389,11 +389,11 @@ static bool joinsEverywhere(const MeshPieces& mesh, const ReadOptions& options) 
   if (!asked_for && (options.join == PointJoining::kNo || !cellsAreApart(mesh))) return false;
   // Their faces are cut by the points as they were.
   if (!mesh.faces || !options.split || mesh.form == CellForm::kTetrahedra) return true;
-  if (asked_for)
-    fail(Status::kUnsupported,
-         "%s: points are not joined where labelled faces stand apart from cells that are split "
-         "(options join-points and split)",
-         mesh.name.c_str());
+  const char* const why =
+      "points are not joined where labelled faces stand apart from cells that are split (options "
+      "join-points and split)";
+  if (asked_for) fail(Status::kUnsupported, "%s: %s", mesh.name.c_str(), why);
+  if (options.note) options.note(mesh.name + ": " + why);
   return false;
 }
 

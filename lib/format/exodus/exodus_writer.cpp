@@ -39,7 +39,7 @@ std::string endingWith(const std::string& base, const std::string& end) {
 
 std::string nameOfComponent(const Column& column, int component) {
   static constexpr const char* kAxes[] = {"_x", "_y", "_z"};
-  const std::string base = withoutEndBlanks(column.name);
+  std::string base = withoutEndBlanks(column.name);
   if (column.components == 1) return base;
   return endingWith(base, column.components == 3 ? kAxes[component] : textOf("_%d", component + 1));
 }

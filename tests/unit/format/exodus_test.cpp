@@ -119,6 +119,15 @@ TEST(Exodus, OtherBlocksAreSplitIfAskedFor) {
   EXPECT_TRUE(hasNote(mesh, "1 cells that are no tetrahedra are split"));
   EXPECT_TRUE(hasNote(mesh, "1 cells of lower dimension are left out"));
   for (const int32_t id : valuesAs<int32_t>(mesh.cell_data[0])) EXPECT_EQ(id, 20);
+  // Sides are cut by the points as they are, and so are cells only if these stay.
+  options.join = PointJoining::kYes;
+  try {
+    readAs("exodus", m.make(), 1000, options);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_TRUE(has(error.text(), "points are not joined where labelled faces stand apart"));
+  }
+  options.join = PointJoining::kAuto;
   m.variables.erase(m.variables.begin() + 12, m.variables.begin() + 18);  // no side sets
   const VtuMesh labelled = readAs("exodus", m.make(), 1, options);
   EXPECT_EQ(labelled.face_labels, (std::vector<int64_t>{30}));
