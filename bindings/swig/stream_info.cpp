@@ -9,6 +9,7 @@ StreamInfo::StreamInfo(const tetstream_stream_info& info)
       is_indexed((info.flags & TETSTREAM_STREAM_INDEXED) != 0),
       vertex_count(info.vertex_count),
       cell_count(info.cell_count),
+      face_count(info.face_count),
       front_width(info.front_width),
       front_span(info.front_span),
       front_cells(info.front_cells) {
@@ -93,6 +94,7 @@ tetstream_stream_info StreamInfo::info() const {
   out.cell_data = cell_data_.data();
   out.vertex_count = vertex_count;
   out.cell_count = cell_count;
+  out.face_count = face_count;
   out.front_width = front_width;
   out.front_span = front_span;
   out.front_cells = front_cells;

@@ -42,7 +42,7 @@ class StreamInfo {
 
   int32_t position_type = TETSTREAM_TYPE_FLOAT64;
   bool is_indexed = false;
-  int64_t vertex_count = -1, cell_count = -1;
+  int64_t vertex_count = -1, cell_count = -1, face_count = -1;
   int64_t front_width = -1, front_span = -1, front_cells = -1;
 
   const tetstream_column& field(int32_t index) const;

@@ -19,6 +19,7 @@ assert (first.label_names, names);
 tetstream_simplify_file (first, at ("second.msh"), "ratio", 0.5);
 assert (! isempty (strfind (fileread (at ("second.msh")), "\"inlet\"")));
 assert (tetstream_info (at ("second.msh")).label_names, names);
+assert (tetstream_info (mesh).face_count, rows (bottom));
 notes = tetstream_convert (mesh, at ("third.vtu"));
 assert (! isempty (strfind ([notes{:}], "faces 7 \"inlet\"")), "%s", notes{:});
 assert (isempty (tetstream_info (at ("third.vtu")).label_names));

@@ -1,7 +1,7 @@
 ## info = tetstream_info (source, ...)
 ##
-## Reads everything and tells what a mesh is, of a file or in a struct: vertex_count, cell_count; fields
-## and cell_data: structs of name to the number of components; box: 2 x 3, least and largest
+## Reads everything and tells what a mesh is, of a file or in a struct: vertex_count, cell_count,
+## face_count (labelled faces); fields and cell_data: structs of name to the number of components; box: 2 x 3, least and largest
 ## coordinates; ranges: a struct of field to its least and largest values, 2 x k; label_names: what
 ## labels mean, as in tetstream_read; front: how coherent its order is, width and span in vertices,
 ## cells that touch them; notes. An indexed mesh's front is that of the order in which it is
@@ -19,7 +19,7 @@ function info = tetstream_info (source, varargin)
   [reader, kept] = made_reader (caller, source);
   found = reader.inspect (options, own.progress);
   info = struct ("vertex_count", double (found.vertex_count),
-                 "cell_count", double (found.cell_count),
+                 "cell_count", double (found.cell_count), "face_count", double (found.face_count),
                  "fields", struct (), "cell_data", struct (), "box", [], "ranges", struct (),
                  "indexed", found.is_indexed, "front", reader.get_front ());
   limits = [found.box_min(); found.box_max()];

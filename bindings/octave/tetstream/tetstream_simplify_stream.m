@@ -15,7 +15,8 @@
 ##
 ## Further pairs:
 ##   "cell_count"    how many cells will come; a ratio is met early only where it is known
-##   "vertex_count", "front_width", "front_span", "front_cells"   as far as they are known
+##   "vertex_count", "face_count", "front_width", "front_span", "front_cells"   as far as they are
+##                   known; face_count: labelled faces
 ##   "indexed"       true: points are never finalized; the mesh is collected and ordered first
 ##   "weights", "progress", and every option of `tetstream simplify`.
 ##
@@ -32,8 +33,8 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
              class (given{1}));
     endif
   endfor
-  own = struct ("cell_count", -1, "vertex_count", -1, "front_width", -1, "front_span", -1,
-                "front_cells", -1, "indexed", false, "weights", [], "progress", []);
+  own = struct ("cell_count", -1, "vertex_count", -1, "face_count", -1, "front_width", -1,
+                "front_span", -1, "front_cells", -1, "indexed", false, "weights", [], "progress", []);
   [options, own] = parsed (caller, own, varargin);
   tetstream_core;
   state = containers.Map ("KeyType", "char", "ValueType", "any");  # what the writer is told when it begins
@@ -44,7 +45,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   batch = complete_mesh (caller, next_batch (reader));
   info = announced (caller, batch);
   info.is_indexed = logical (own.indexed);
-  for name = {"cell_count", "vertex_count", "front_width", "front_span", "front_cells"}
+  for name = {"cell_count", "vertex_count", "face_count", "front_width", "front_span", "front_cells"}
     info.(name{1}) = own.(name{1});
   endfor
   simplifier.begin (info);

@@ -117,6 +117,7 @@ class StreamInfo(Record):
     label_names: dict[str | None, dict[int, str]]
     vertex_count: int
     cell_count: int
+    face_count: int
     front_width: int
     front_span: int
     front_cells: int
@@ -254,8 +255,8 @@ class Reader:
     def batches(cls, batches: _Batches, points: DTypeLike = "float64",
                 fields: _Columns | None = None, cell_data: _Columns | None = None, *,
                 indexed: bool = False, vertex_count: int = -1, cell_count: int = -1,
-                front_width: int = -1, front_span: int = -1, front_cells: int = -1,
-                label_names: _LabelNames | None = None) -> Reader: ...
+                face_count: int = -1, front_width: int = -1, front_span: int = -1,
+                front_cells: int = -1, label_names: _LabelNames | None = None) -> Reader: ...
     def info(self) -> StreamInfo: ...
     @property
     def notes(self) -> list[str]: ...
@@ -291,8 +292,9 @@ def simplify_file(source: _Source, target: _Target, *, weights: Mapping[str, flo
 def simplify_batches(batches: _Batches, points: DTypeLike = "float64",
                      fields: _Columns | None = None, cell_data: _Columns | None = None, *,
                      weights: Mapping[str, float] | None = None, vertex_count: int = -1,
-                     cell_count: int = -1, front_width: int = -1, front_span: int = -1,
-                     front_cells: int = -1, label_names: _LabelNames | None = None,
+                     cell_count: int = -1, face_count: int = -1, front_width: int = -1,
+                     front_span: int = -1, front_cells: int = -1,
+                     label_names: _LabelNames | None = None,
                      **options: Unpack[_OptionsWithRegions]) -> Generator[Batch, None, Report]: ...
 def layout(source: _Source, target: _Target, *, progress: _Told = None,
            **options: Unpack[_OptionsWithRegions]) -> LayoutReport: ...

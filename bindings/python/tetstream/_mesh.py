@@ -180,4 +180,5 @@ def batches_of(mesh):
                           fields={c.name: (c.rows.dtype, c.components) for c in fields},
                           cell_data={c.name: (c.rows.dtype, c.components) for c in cell_data},
                           vertex_count=len(points), cell_count=len(cells),
+                          face_count=0 if mesh.faces is None else len(mesh.faces),
                           label_names=mesh.label_names)

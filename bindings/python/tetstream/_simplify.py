@@ -160,8 +160,8 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
 
 @_options.documented()
 def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, weights=None,
-                     vertex_count=-1, cell_count=-1, front_width=-1, front_span=-1, front_cells=-1,
-                     label_names=None, **options):
+                     vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
+                     front_cells=-1, label_names=None, **options):
     """Simplifies a stream as a generator: takes Batches, gives Batches, while the input runs.
 
         for batch in tetstream.simplify_batches(solver(), fields={"p": "float64"}, ratio=0.1):
@@ -179,8 +179,8 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
         A Report, as the generator's value.
     """
     schema = _streams._Schema.announced(points, fields, cell_data, label_names, {
-        "vertex_count": vertex_count, "cell_count": cell_count, "front_width": front_width,
-        "front_span": front_span, "front_cells": front_cells})
+        "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
+        "front_width": front_width, "front_span": front_span, "front_cells": front_cells})
     ready = []
     writer = _streams.Writer.batches(ready.append)
     simplifier = core.Simplifier(_made_options(options, weights)._handle, writer._handle, None)

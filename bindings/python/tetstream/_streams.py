@@ -257,20 +257,22 @@ class Reader:
 
     @classmethod
     def batches(cls, batches, points="float64", fields=None, cell_data=None, *, indexed=False,
-                vertex_count=-1, cell_count=-1, front_width=-1, front_span=-1, front_cells=-1,
-                label_names=None):
+                vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
+                front_cells=-1, label_names=None):
         """A stream out of an iterable, such as a generator, of Batches or of dicts with a Batch's
         arguments.
 
         points: the type of the points, float32 or float64.
         fields, cell_data: dicts of name to dtype or to (dtype, components).
         indexed: nothing is finalized; the library orders the mesh before it is streamed.
-        Counts and the front are told if they are known; the front sets the window.
+        Counts and the front are told if they are known; the front sets the window, and labelled
+            faces that are announced find room where the memory is limited.
         label_names: as of a Mesh.
         """
         schema = _Schema.announced(points, fields, cell_data, label_names, {
-            "vertex_count": vertex_count, "cell_count": cell_count, "front_width": front_width,
-            "front_span": front_span, "front_cells": front_cells}, indexed)
+            "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
+            "front_width": front_width, "front_span": front_span,
+            "front_cells": front_cells}, indexed)
         iterator = iter(batches)
         kept = []
 
@@ -312,6 +314,7 @@ def stream_info(info, **more):
                       cell_data={name: (dtype, n) for name, dtype, n in schema.cell_data},
                       label_names=_labels.of(info),
                       vertex_count=info.vertex_count, cell_count=info.cell_count,
+                      face_count=info.face_count,
                       front_width=info.front_width, front_span=info.front_span,
                       front_cells=info.front_cells, indexed=info.is_indexed,
                       box=None if box is None else box[:, :3], ranges=ranges, **more)
