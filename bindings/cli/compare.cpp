@@ -20,23 +20,30 @@ static Comparison createComparison(const Arguments& arguments) {
   return comparison;
 }
 
-// What makes a mesh out of ORIGINAL may be done already, or not be there, in what came of it:
-// options of the reading count for SIMPLIFIED where it takes them.
-static Reader openSimplified(const Arguments& arguments) {
-  OptionWords plain = arguments.options;
-  std::erase_if(plain.values, [](const auto& value) {
-    return value.first == "step" || value.first == "join-points" ||
-           value.first == "cells-to-points";
+// The options without a step, and without what makes a mesh out of a file.
+static OptionWords without(OptionWords words, bool step, bool making) {
+  std::erase_if(words.values, [=](const auto& value) {
+    const bool makes = value.first == "join-points" || value.first == "cells-to-points";
+    return (step && value.first == "step") || (making && makes && value.second == "yes");
   });
-  const Options without = makeOptions(plain), all = makeOptions(arguments.options);
-  if (arguments.second.isStandard() || plain.values.size() == arguments.options.values.size())
-    return openReader(arguments.second, without.get());
-  try {
-    return openReader(arguments.second, all.get());
-  } catch (const Failure& failure) {
-    if (failure.code != kUsage && failure.code != kUnsupported) throw;
+  return words;
+}
+
+// What an option of the reading makes of ORIGINAL may be made already in SIMPLIFIED, as its only
+// step or as a stream: it counts there if it is of a kind that takes it.
+static Reader openSimplified(const Arguments& arguments) {
+  const bool is_once = arguments.second.isStandard();
+  for (const auto& [step, making] : {std::pair(false, false), {true, false}, {false, true}}) {
+    if (is_once) break;
+    try {
+      const Options options = makeOptions(without(arguments.options, step, making));
+      return openReader(arguments.second, options.get());
+    } catch (const Failure& failure) {
+      if (failure.code != kUnsupported) throw;
+    }
   }
-  return openReader(arguments.second, without.get());
+  const Options options = makeOptions(without(arguments.options, true, true));
+  return openReader(arguments.second, options.get());
 }
 
 ExitCode compare(const Arguments& arguments) {

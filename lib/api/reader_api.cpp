@@ -70,7 +70,7 @@ static void openBytes(tetstream_reader& reader, const Format& format,
          name.c_str());
   if (run.cells_to_points == "yes") takeCellsToPoints(reader.input, run.temp_dir, name);
   if (options.step > 0 && !reader.input.has_steps)
-    fail(Status::kBadArgument,
+    fail(Status::kUnsupported,
          "%s: there is no time step %lld (option step, --step): there are none to choose from",
          name.c_str(), static_cast<long long>(options.step));
   const std::string unmeasured = unmeasuredNote(reader.input);

@@ -1,10 +1,12 @@
 #include "cell_points.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "memory.h"
 #include "rows_at_once.h"
+#include "vtk_cells.h"
 
 namespace tetstream {
 
@@ -43,26 +45,44 @@ class PieceCells {
   PieceCells(const MeshPieces& mesh, const MeshPiece& piece) : form_(mesh.form) {
     if (form_ == CellForm::kOffsets && piece.offsets)
       ends_.emplace(*piece.offsets, piece.cell_count);
+    if (form_ != CellForm::kTetrahedra && piece.types)
+      types_.emplace(*piece.types, piece.cell_count);
     if (piece.connectivity) names_.emplace(*piece.connectivity, namesOf(piece));
   }
 
-  // False: there is no further one that is whole.
+  // The next one of three dimensions that is whole; false: there is none.
   bool next(std::vector<int64_t>& points) {
-    points.clear();
-    if (!names_ || names_->ended()) return false;
-    int64_t count = 4;
-    if (form_ == CellForm::kInterleaved) count = names_->next();
-    if (form_ == CellForm::kOffsets) {
-      const int64_t end = ends_->next();
-      count = end - end_;
-      end_ = end;
+    for (;;) {
+      points.clear();
+      if (!names_ || names_->ended() || (types_ && types_->ended())) return false;
+      const bool is_solid = !types_ || isSolid(types_->next());
+      int64_t count = countOfNext();
+      ++cells_;
+      if (count < 0) return false;
+      const bool is_wanted = is_solid && count <= kMostPoints;
+      for (; count > 0 && !names_->ended(); --count) {
+        const int64_t point = names_->next();
+        if (is_wanted) points.push_back(point);
+      }
+      if (count > 0) return false;
+      if (is_wanted) return true;
     }
-    if (count < 0 || count > kMostPoints) return false;
-    for (; count > 0 && !names_->ended(); --count) points.push_back(names_->next());
-    return count == 0;
   }
+  uint64_t cells() const { return cells_; }  // that were passed
 
  private:
+  static bool isSolid(int64_t type) {
+    const VtkCell& cell = vtkCell(type);
+    return cell.fate == VtkCell::kKnown && dimensionOf(cell.kind.shape) == 3;
+  }
+
+  int64_t countOfNext() {
+    if (form_ == CellForm::kInterleaved) return names_->next();
+    if (form_ == CellForm::kTetrahedra) return 4;
+    const int64_t begin = std::exchange(end_, ends_->next());
+    return end_ - begin;
+  }
+
   uint64_t namesOf(const MeshPiece& piece) const {
     if (form_ == CellForm::kTetrahedra) return 4 * piece.cell_count;
     if (form_ == CellForm::kInterleaved) return piece.connectivity_size;
@@ -74,8 +94,9 @@ class PieceCells {
   }
 
   CellForm form_;
-  std::optional<Integers> ends_, names_;
+  std::optional<Integers> ends_, names_, types_;
   int64_t end_ = 0;
+  uint64_t cells_ = 0;
 };
 
 bool isApart(const MeshPieces& mesh, const MeshPiece& piece, Account& account) {
@@ -83,9 +104,7 @@ bool isApart(const MeshPieces& mesh, const MeshPiece& piece, Account& account) {
   std::fill_n(named.data(), named.size(), uint64_t{0});
   PieceCells cells(mesh, piece);
   std::vector<int64_t> points;
-  uint64_t count = 0;
-  while (cells.next(points)) {
-    ++count;
+  while (cells.next(points))
     for (const int64_t point : points) {
       if (point < 0 || static_cast<uint64_t>(point) >= piece.point_count) return false;
       uint64_t& word = named[static_cast<size_t>(point / 64)];
@@ -93,12 +112,13 @@ bool isApart(const MeshPieces& mesh, const MeshPiece& piece, Account& account) {
       if ((word & bit) != 0) return false;
       word |= bit;
     }
-  }
-  return count == piece.cell_count;
+  return cells.cells() == piece.cell_count;
 }
 
-// Whether two of a cell's points are one.
+// Whether two of a cell's points become one, which it does not name twice already.
 bool losesACorner(std::vector<int64_t>& points, PointJoin& joined) {
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
   for (int64_t& point : points) point = joined.firstOf(point);
   std::sort(points.begin(), points.end());
   return std::adjacent_find(points.begin(), points.end()) != points.end();
@@ -120,11 +140,11 @@ std::optional<uint64_t> cellThatLosesACorner(const MeshPieces& mesh, PointJoin& 
   for (const MeshPiece& piece : mesh.pieces) {
     if (piece.cell_count == 0) continue;
     PieceCells cells(mesh, piece);
-    for (uint64_t cell = piece.first_cell; cells.next(points); ++cell) {
+    while (cells.next(points)) {
       const auto count = static_cast<int64_t>(piece.point_count);
       std::erase_if(points, [count](int64_t point) { return point < 0 || point >= count; });
       for (int64_t& point : points) point += static_cast<int64_t>(piece.first_point);
-      if (losesACorner(points, joined)) return cell;
+      if (losesACorner(points, joined)) return piece.first_cell + cells.cells() - 1;
     }
   }
   return {};

@@ -24,6 +24,8 @@ constexpr size_t kAtOnce = 2048;  // points
 // rounding may lie on both sides of a line: so in several grids, of which each is moved.
 constexpr double kGrain = 0x1p-40;
 constexpr int kGrids = 4;
+// Cells name points in any order: those of some million points stay in memory.
+constexpr SpoolShape kInAnyOrder = {1024, 32 << 10};
 
 struct Keyed {
   std::array<uint64_t, 3> key;  // bits of the coordinates, or of places in a grid, or the global id
@@ -215,7 +217,7 @@ class JoinFinder {
 
 PointJoin::PointJoin(IndexedSource& mesh, const JoinPlan& plan)
     : plan_(plan),
-      new_of_(sizeof(int64_t), plan.temp_dir),
+      new_of_(sizeof(int64_t), plan.temp_dir, plan.everywhere ? kInAnyOrder : SpoolShape()),
       old_of_(sizeof(uint64_t), plan.temp_dir) {
   JoinFinder finder(mesh, plan, new_of_, old_of_);
   finder.find();

@@ -343,7 +343,7 @@ void MeshIntake::forFaces(Visit visit) {
 }
 
 // Of faces that no cell has, most have points that no cell has either.
-void MeshIntake::dropStrayFaces() {
+void MeshIntake::dropStrayFaces(PointJoin* joined) {
   if (mesh_->faceCount() == 0) return;
   mesh_->finishFaces();
   Account account;
@@ -352,11 +352,13 @@ void MeshIntake::dropStrayFaces() {
   std::fill_n(unused.data(), words, uint64_t{0});
   const auto word = [&](int64_t p) -> uint64_t& { return unused[static_cast<uint64_t>(p) / 64]; };
   const auto bit = [](int64_t p) { return uint64_t{1} << static_cast<uint64_t>(p) % 64; };
+  const auto pointOf = [joined](int64_t p) { return joined ? joined->firstOf(p) : p; };
   uint64_t left = 0;
   forFaces([&](const int64_t* face) {
     for (int k = 0; k < 3; ++k) {
-      left += (word(face[k]) & bit(face[k])) == 0;
-      word(face[k]) |= bit(face[k]);
+      const int64_t point = pointOf(face[k]);
+      left += (word(point) & bit(point)) == 0;
+      word(point) |= bit(point);
     }
   });
   constexpr size_t kCells = 4 * kRowsAtOnce;  // each time
@@ -365,13 +367,14 @@ void MeshIntake::dropStrayFaces() {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kCells, mesh_->cellCount() - at));
     mesh_->readCells(at, n, rows.data());
     for (size_t i = 0; i < 4 * n; ++i) {
-      if ((word(rows[i]) & bit(rows[i])) == 0) continue;
-      word(rows[i]) &= ~bit(rows[i]);
+      const int64_t point = pointOf(rows[i]);
+      if ((word(point) & bit(point)) == 0) continue;
+      word(point) &= ~bit(point);
       --left;
     }
   }
   if (left == 0) return;
-  const auto isUsed = [&](int64_t p) { return (word(p) & bit(p)) == 0; };
+  const auto isUsed = [&](int64_t p) { return (word(pointOf(p)) & bit(pointOf(p))) == 0; };
   const uint64_t gone = mesh_->keepFaces(
       [&](const int64_t* face) { return isUsed(face[0]) && isUsed(face[1]) && isUsed(face[2]); });
   leaveOut("triangles that are no faces of cells", gone);
@@ -388,22 +391,23 @@ std::unique_ptr<IndexedSource> MeshIntake::finish() {
     if (!labels.any) mesh_->removeField(labels.column);
   mesh_->finish();
   checkCorners();
-  dropStrayFaces();
+  const std::shared_ptr<PointJoin> joined = joinPoints();
+  dropStrayFaces(joined.get());
   if (mesh_->cellCount() == 0 && mesh_->pointCount() > 0)
     fail(Status::kUnsupported, "%s: there are points, but no tetrahedron", name_.c_str());
   if (quadratic_ > 0) note(plural(quadratic_, kHigherOrderNote));
   if (split_ > 0) note(plural(split_, kSplitNote));
   for (const auto& [things, count] : left_out_) note(plural(count, things + " are left out"));
-  if (options_.join == PointJoining::kYes) return joined();
-  return std::move(mesh_);
+  if (!joined) return std::move(mesh_);
+  return tetstream::joinPoints(std::move(mesh_), joined);
 }
 
-std::unique_ptr<IndexedSource> MeshIntake::joined() {
+std::shared_ptr<PointJoin> MeshIntake::joinPoints() {
+  if (options_.join != PointJoining::kYes) return nullptr;
   if (split_ > 0)
     fail(Status::kUnsupported,
          "%s: points are joined after cells were split, which then do not agree (options "
-         "join-points "
-         "and split)",
+         "join-points and split)",
          name_.c_str());
   JoinPlan plan;
   plan.everywhere = true;
@@ -420,8 +424,7 @@ std::unique_ptr<IndexedSource> MeshIntake::joined() {
          "join-points, --join-points)",
          name_.c_str(), static_cast<unsigned long long>(*cell));
   points->tell();
-  if (!points->changed()) return std::move(mesh_);
-  return joinPoints(std::move(mesh_), std::move(points));
+  return points->changed() ? points : nullptr;
 }
 
 }  // namespace tetstream

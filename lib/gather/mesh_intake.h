@@ -12,6 +12,7 @@
 #include "cell_kinds.h"
 #include "file_scan.h"
 #include "format_rows.h"
+#include "joined_points.h"
 #include "mesh_spool.h"
 #include "placed_cells.h"
 #include "placed_numbers.h"
@@ -130,10 +131,10 @@ class MeshIntake {
   }
   void writeHeld();
   void checkCorners();
-  std::unique_ptr<IndexedSource> joined();
+  std::shared_ptr<PointJoin> joinPoints();
   template <class Visit>
   void forFaces(Visit visit);
-  void dropStrayFaces();
+  void dropStrayFaces(PointJoin* joined);
   void copyData();
   void copyRows(Data& data, size_t column, uint64_t count);
   void appendData(const Data& data, size_t column, const void* rows, size_t count);

@@ -22,7 +22,7 @@ uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options
   mesh.has_steps = true;
   const uint64_t step = options.step == kLastStep ? count - 1 : static_cast<uint64_t>(options.step);
   if (step >= count)
-    fail(Status::kBadArgument,
+    fail(count == 1 ? Status::kUnsupported : Status::kBadArgument,
          "%s: there is no time step %llu (option step, --step): there are 0 "
          "to %llu",
          mesh.name.c_str(), static_cast<unsigned long long>(step),

@@ -116,6 +116,11 @@ expect 0 info steps.pvd
 contains "$err" "of 3 time steps, 0 to 2, step 2 is read, at time 0.5"
 expect_error 1 "there is no time step 3 (option step, --step): there are 0 to 2" \
   convert steps.pvd none.tets --step 3
+# A step that one of several steps is not is an error in either mesh.
+expect_error 1 "there is no time step 3" compare steps.pvd steps.pvd --step 3
+sed '/file="step100/d' steps.pvd >step.two.pvd
+expect_error 1 "there is no time step 2" compare steps.pvd step.two.pvd --step 2
+
 # What was made of a step, of joined points or of cell arrays is compared with where it came from.
 for name in step.tets step.vtu; do
   expect 0 simplify steps.pvd $name --step 1 --ratio 0.5 --cells-to-points --quiet
@@ -124,7 +129,7 @@ for name in step.tets step.vtu; do
 done
 for file in step100.vtu step.tets step.msh; do
   [[ $file == *.vtu ]] || expect 0 convert step100.vtu $file --quiet
-  expect_error 1 "$file: there is no time step 1 (option step, --step): there are none" \
+  expect_error 6 "$file: there is no time step 1 (option step, --step): there are none" \
     info $file --step 1
   expect 0 info $file --step first
   expect 0 info $file --step 0

@@ -253,7 +253,9 @@ class ExodusWriter final : public MeshCollector {
     if (blocks_.empty()) return;
     file_->addDimension("num_elem", cells());
     const size_t count = file_->addDimension("num_el_blk", blocks_.size());
-    addIds("eb", count, blocks_, block_column_ ? schema().cell_data[*block_column_].name : "");
+    std::optional<std::string> array;
+    if (block_column_) array = schema().cell_data[*block_column_].name;
+    addIds("eb", count, blocks_, array);
     uint64_t first = 0;
     size_t number = 1;
     for (const auto& [label, elements] : blocks_) {
@@ -268,9 +270,10 @@ class ExodusWriter final : public MeshCollector {
     }
   }
 
-  // The status, ids and names of blocks or sets; `array`: whose labels the names are of.
+  // The status, ids and names of blocks or sets; `array`: whose labels the names are of, "" of
+  // faces'.
   void addIds(const std::string& kind, size_t count, const std::map<int64_t, uint64_t>& groups,
-              const std::string& array) {
+              const std::optional<std::string>& array) {
     const auto forGroups = [&groups](auto visit) {
       return [&groups, visit](NetcdfValues& values) {
         for (const auto& group : groups) visit(values, group.first);
@@ -282,7 +285,7 @@ class ExodusWriter final : public MeshCollector {
                        forGroups([](NetcdfValues& values, int64_t id) { values.put(id); }));
     file_->addVariable(kind + "_names", NetcdfType::kChar, {count, names_}, {},
                        forGroups([this, array](NetcdfValues& values, int64_t id) {
-                         values.text(nameOf(array, id), name_bytes_);
+                         values.text(array ? nameOf(*array, id) : "", name_bytes_);
                        }));
   }
 

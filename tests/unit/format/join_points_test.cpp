@@ -308,6 +308,53 @@ TEST(JoinPoints, PointsMayComeInAnyOrder) {
   expectGrid(readVtu(makeVtu({shuffled}, {})), grid);
 }
 
+// Triangles use the cells' points, and a long line some twice.
+TEST(JoinPoints, CellsOfOtherDimensionsDoNotMatter) {
+  const SmallMesh grid = gridMesh(3, 4, 2);
+  VtuTestPiece piece = apart(grid, "Float64");
+  std::vector<int64_t>&names = piece.cells_element[0].integers,
+  &ends = piece.cells_element[1].integers, &types = piece.cells_element[2].integers;
+  const std::vector<int64_t> cells = names;
+  names = {0, 1, 2};
+  for (int64_t i = 0; i < 70; ++i) names.push_back(i % 69);
+  names.insert(names.end(), cells.begin(), cells.end());
+  for (int64_t& end : ends) end += 73;
+  ends.insert(ends.begin(), {3, 73});
+  types.insert(types.begin(), {5, 4});
+  piece.cells += 2;
+  piece.cell_data = {{"Int32", "wall", 1, {}, std::vector<int64_t>(piece.cells, 7)}};
+  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  expectGrid(mesh, grid);
+  EXPECT_EQ(mesh.face_labels, (std::vector<int64_t>{7}));
+}
+
+// A wedge as a hexahedron names points twice; that is no joining's doing.
+TEST(JoinPoints, CellsThatNameAPointTwiceMayStay) {
+  VtuTestPiece piece;
+  piece.points = 6;
+  piece.cells = 1;
+  piece.points_element = {
+      {"Float64", "Points", 3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1}, {}}};
+  piece.cells_element = {{"Int64", "connectivity", 1, {}, {0, 1, 2, 2, 3, 4, 5, 5}},
+                         {"Int64", "offsets", 1, {}, {8}},
+                         {"UInt8", "types", 1, {}, {12}}};
+  ReadOptions options;
+  options.split = true;
+  const VtuMesh before = readVtu(makeVtu({piece}, {}), 1000, options);
+  options.join = PointJoining::kYes;
+  const VtuMesh mesh = readVtu(makeVtu({piece}, {}), 1000, options);
+  EXPECT_EQ(mesh.cells, before.cells);
+  EXPECT_TRUE(hasNote(mesh, "no two points lie at the same place"));
+}
+
+TEST(JoinPoints, LabelledFacesWithPointsOfTheirOwnAreKept) {
+  const std::string file =
+      "MeshVersionFormatted 2\nDimension 3\nVertices\n7\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+      "1 0 0 0\n0 1 0 0\n0 0 1 0\nTriangles\n1\n5 6 7 9\nTetrahedra\n1\n1 2 3 4 0\nEnd\n";
+  Input joined = openText(openMedit, file, joining(PointJoining::kYes));
+  EXPECT_EQ(facesOf(joined), (std::vector<TestFace>{{1, 2, 3, 9}}));
+}
+
 // A face that both of its cells have labelled is there once.
 TEST(JoinPoints, FacesThatBecomeOneAreThereOnce) {
   const std::string file =
