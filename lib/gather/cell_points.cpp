@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "memory.h"
+#include "point_set.h"
 #include "rows_at_once.h"
 #include "vtk_cells.h"
 
@@ -100,17 +100,13 @@ class PieceCells {
 };
 
 bool isApart(const MeshPieces& mesh, const MeshPiece& piece, Account& account) {
-  Array<uint64_t> named(account, static_cast<size_t>(piece.point_count / 64 + 1));
-  std::fill_n(named.data(), named.size(), uint64_t{0});
+  PointSet named(account, piece.point_count);
   PieceCells cells(mesh, piece);
   std::vector<int64_t> points;
   while (cells.next(points))
     for (const int64_t point : points) {
-      if (point < 0 || static_cast<uint64_t>(point) >= piece.point_count) return false;
-      uint64_t& word = named[static_cast<size_t>(point / 64)];
-      const uint64_t bit = uint64_t{1} << (point % 64);
-      if ((word & bit) != 0) return false;
-      word |= bit;
+      const auto number = static_cast<uint64_t>(point);
+      if (number >= piece.point_count || !named.add(number)) return false;
     }
   return cells.cells() == piece.cell_count;
 }
@@ -162,6 +158,22 @@ std::optional<uint64_t> cellThatLosesACorner(IndexedSource& mesh, PointJoin& joi
     }
   }
   return {};
+}
+
+std::shared_ptr<PointJoin> joinKeepingCorners(IndexedSource& mesh, JoinPlan plan,
+                                              const FindLosing& find, uint64_t* losing) {
+  plan.everywhere = true;
+  for (const bool near : {true, false}) {
+    plan.near = near;
+    auto points = std::make_shared<PointJoin>(mesh, plan);
+    const std::optional<uint64_t> cell = find(*points);
+    if (!cell) {
+      points->tell();
+      return points;
+    }
+    *losing = *cell;
+  }
+  return nullptr;
 }
 
 }  // namespace tetstream

@@ -3,6 +3,8 @@
 // mesh_pieces.h, joined_points.h.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "joined_points.h"
@@ -19,5 +21,11 @@ bool cellsAreApart(const MeshPieces& mesh);
 std::optional<uint64_t> cellThatLosesACorner(const MeshPieces& mesh, PointJoin& points);
 // The same of tetrahedra.
 std::optional<uint64_t> cellThatLosesACorner(IndexedSource& mesh, PointJoin& points);
+
+// Those at the same place as one, near ones too unless that takes a corner from a cell; null, and
+// which cell, where it does all the same. Tells how many there are. find: as above.
+using FindLosing = std::function<std::optional<uint64_t>(PointJoin&)>;
+std::shared_ptr<PointJoin> joinKeepingCorners(IndexedSource& mesh, JoinPlan plan,
+                                              const FindLosing& find, uint64_t* losing);
 
 }  // namespace tetstream

@@ -1,9 +1,11 @@
 // A mesh whose points were joined: rows of those that are left, and means.
 #include <algorithm>
+#include <optional>
 
 #include "joined_points.h"
 #include "memory.h"
 #include "point_means.h"
+#include "point_set.h"
 #include "side_faces.h"
 #include "status.h"
 
@@ -30,9 +32,8 @@ class JoinedPoints final : public IndexedSource {
   const uint8_t* locked() const override { return locked_.size() > 0 ? locked_.data() : nullptr; }
   bool hasOrigins() const override { return points_->plan().everywhere; }
   void readOrigins(uint64_t first, size_t count, int64_t* out) override {
-    for (size_t i = 0; i < count; ++i)
-      out[i] = hasOrigins() ? static_cast<int64_t>(points_->oldOf(first + i))
-                            : static_cast<int64_t>(first + i);
+    if (!hasOrigins()) return IndexedSource::readOrigins(first, count, out);
+    for (size_t i = 0; i < count; ++i) out[i] = static_cast<int64_t>(points_->oldOf(first + i));
   }
   void readPositions(uint64_t first, size_t count, void* out) override {
     forRuns(first, count, 3 * sizeOf(schema_.position_type), out,
@@ -115,17 +116,14 @@ class JoinedPoints final : public IndexedSource {
   // Those of cells that are left out, ghosts for example, do not count.
   void findUsed() {
     int64_t corners[4 * kRowsOfMesh];
-    used_.resize(static_cast<size_t>(mesh_->schema().vertex_count / 64 + 1));
-    std::fill_n(used_.data(), used_.size(), uint64_t{0});
+    used_.emplace(account_, static_cast<uint64_t>(mesh_->schema().vertex_count));
     const auto cells = static_cast<uint64_t>(schema_.cell_count);
     for (uint64_t at = 0; at < cells; at += kRowsOfMesh) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsOfMesh, cells - at));
       mesh_->readCells(at, n, corners);
-      for (size_t i = 0; i < 4 * n; ++i)
-        used_[static_cast<size_t>(corners[i] / 64)] |= uint64_t{1} << (corners[i] % 64);
+      for (size_t i = 0; i < 4 * n; ++i) used_->add(static_cast<uint64_t>(corners[i]));
     }
   }
-  bool isUsed(uint64_t point) const { return (used_[point / 64] >> (point % 64) & 1) != 0; }
 
   // add(point as it is now, value) for each point of cells that there was.
   template <class Add>
@@ -133,13 +131,13 @@ class JoinedPoints final : public IndexedSource {
     const Column& field = schema_.fields[column];
     const auto width = static_cast<size_t>(field.components);
     const auto old_points = static_cast<uint64_t>(mesh_->schema().vertex_count);
-    if (used_.size() == 0) findUsed();
+    if (!used_) findUsed();
     std::vector<unsigned char> rows(kRowsOfMesh * field.bytesPerRow());
     for (uint64_t at = 0; at < old_points; at += kRowsOfMesh) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsOfMesh, old_points - at));
       mesh_->readField(column, at, n, rows.data());
       for (size_t i = 0; i < n; ++i) {
-        if (!isUsed(at + i)) continue;
+        if (!used_->has(at + i)) continue;
         double value;
         convertScalars(rows.data() + (i * width + component) * sizeOf(field.type), field.type,
                        &value, ScalarType::kFloat64, 1);
@@ -152,9 +150,9 @@ class JoinedPoints final : public IndexedSource {
   std::shared_ptr<PointJoin> points_;
   Schema schema_;
   Account account_;
-  Array<uint8_t> locked_{account_};   // per point, if any is
-  Array<uint64_t> used_{account_};    // a bit for each point that there was, once it is asked for
-  std::unique_ptr<SideFaces> faces_;  // that are left, if several have become one
+  Array<uint8_t> locked_{account_};  // per point, if any is
+  std::optional<PointSet> used_;  // by cells, of the points that there were, once it is asked for
+  std::unique_ptr<SideFaces> faces_;                // that are left, if several have become one
   std::vector<std::unique_ptr<PointMeans>> means_;  // of fields that were read
 };
 

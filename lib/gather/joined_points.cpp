@@ -7,10 +7,12 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "buckets.h"
 #include "memory.h"
 #include "mix.h"
+#include "point_set.h"
 #include "status.h"
 
 namespace tetstream {
@@ -79,9 +81,7 @@ class JoinFinder {
     return largest;
   }
 
-  bool isFound(uint64_t point) const {
-    return found_.size() > 0 && (found_[point / 64] >> point % 64 & 1) != 0;
-  }
+  bool isFound(uint64_t point) const { return found_ && found_->has(point); }
 
   void addKeys(Buckets<Keyed>& keyed, uint64_t points) {
     double places[3 * kAtOnce];
@@ -142,10 +142,7 @@ class JoinFinder {
   void findSame(Buckets<Same>& same, uint64_t points) {
     Buckets<Keyed> keyed(same.count(), plan_.temp_dir);
     addKeys(keyed, points);
-    if (plan_.everywhere && found_.size() == 0) {
-      found_.resize(static_cast<size_t>(points / 64 + 1));
-      std::fill_n(found_.data(), found_.size(), uint64_t{0});
-    }
+    if (plan_.everywhere && !found_) found_.emplace(account_, points);
     Account account;
     const uint64_t part = (points - 1) / same.count() + 1;
     for (size_t bucket = 0; bucket < keyed.count(); ++bucket) {
@@ -156,7 +153,7 @@ class JoinFinder {
         for (size_t i = first + 1; i < end; ++i) {
           const uint64_t point = rows[i].point;
           same.add(static_cast<size_t>(point / part), {point, rows[first].point});
-          if (plan_.everywhere) found_[point / 64] |= uint64_t{1} << point % 64;
+          if (found_) found_->add(point);
         }
       }
     }
@@ -210,7 +207,7 @@ class JoinFinder {
   uint64_t kept_apart_ = 0;
   double grain_ = 0, shift_ = 0;  // of the grid; 0: exact
   Account account_;
-  Array<uint64_t> found_{account_};  // everywhere: a bit for each point that is another
+  std::optional<PointSet> found_;  // everywhere: those that are others
 };
 
 }  // namespace

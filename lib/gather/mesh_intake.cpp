@@ -5,9 +5,8 @@
 #include <cstring>
 
 #include "cell_points.h"
-#include "joined_points.h"
 #include "label_names.h"
-#include "memory.h"
+#include "point_set.h"
 #include "rows_at_once.h"
 #include "status.h"
 
@@ -347,34 +346,23 @@ void MeshIntake::dropStrayFaces(PointJoin* joined) {
   if (mesh_->faceCount() == 0) return;
   mesh_->finishFaces();
   Account account;
-  const auto words = static_cast<size_t>(mesh_->pointCount() / 64 + 1);
-  Array<uint64_t> unused(account, words);  // a bit for each of the faces' points that is
-  std::fill_n(unused.data(), words, uint64_t{0});
-  const auto word = [&](int64_t p) -> uint64_t& { return unused[static_cast<uint64_t>(p) / 64]; };
-  const auto bit = [](int64_t p) { return uint64_t{1} << static_cast<uint64_t>(p) % 64; };
-  const auto pointOf = [joined](int64_t p) { return joined ? joined->firstOf(p) : p; };
+  PointSet unused(account, mesh_->pointCount());  // of the faces' points
+  const auto pointOf = [joined](int64_t p) {
+    return static_cast<uint64_t>(joined ? joined->firstOf(p) : p);
+  };
   uint64_t left = 0;
   forFaces([&](const int64_t* face) {
-    for (int k = 0; k < 3; ++k) {
-      const int64_t point = pointOf(face[k]);
-      left += (word(point) & bit(point)) == 0;
-      word(point) |= bit(point);
-    }
+    for (int k = 0; k < 3; ++k) left += unused.add(pointOf(face[k]));
   });
   constexpr size_t kCells = 4 * kRowsAtOnce;  // each time
   std::vector<int64_t> rows(4 * kCells);
   for (uint64_t at = 0; at < mesh_->cellCount() && left > 0; at += kCells) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kCells, mesh_->cellCount() - at));
     mesh_->readCells(at, n, rows.data());
-    for (size_t i = 0; i < 4 * n; ++i) {
-      const int64_t point = pointOf(rows[i]);
-      if ((word(point) & bit(point)) == 0) continue;
-      word(point) &= ~bit(point);
-      --left;
-    }
+    for (size_t i = 0; i < 4 * n; ++i) left -= unused.remove(pointOf(rows[i]));
   }
   if (left == 0) return;
-  const auto isUsed = [&](int64_t p) { return (word(pointOf(p)) & bit(pointOf(p))) == 0; };
+  const auto isUsed = [&](int64_t p) { return !unused.has(pointOf(p)); };
   const uint64_t gone = mesh_->keepFaces(
       [&](const int64_t* face) { return isUsed(face[0]) && isUsed(face[1]) && isUsed(face[2]); });
   leaveOut("triangles that are no faces of cells", gone);
@@ -410,20 +398,16 @@ std::shared_ptr<PointJoin> MeshIntake::joinPoints() {
          "join-points and split)",
          name_.c_str());
   JoinPlan plan;
-  plan.everywhere = true;
   plan.temp_dir = options_.temp_dir;
   plan.note = [this](const std::string& text) { note(text); };
-  auto points = std::make_shared<PointJoin>(*mesh_, plan);
-  if (cellThatLosesACorner(*mesh_, *points)) {
-    plan.near = false;
-    points = std::make_shared<PointJoin>(*mesh_, plan);
-  }
-  if (const std::optional<uint64_t> cell = cellThatLosesACorner(*mesh_, *points))
+  uint64_t cell = 0;
+  const auto find = [this](PointJoin& points) { return cellThatLosesACorner(*mesh_, points); };
+  auto points = joinKeepingCorners(*mesh_, plan, find, &cell);
+  if (!points)
     fail(Status::kBadData,
          "%s: points cannot be joined: tetrahedron %llu has two points at the same place (option "
          "join-points, --join-points)",
-         name_.c_str(), static_cast<unsigned long long>(*cell));
-  points->tell();
+         name_.c_str(), static_cast<unsigned long long>(cell));
   return points->changed() ? points : nullptr;
 }
 

@@ -364,18 +364,13 @@ static int findGlobalIds(const Schema& schema, const std::string& named) {
 
 // Those at the same place of all pieces, or none where that would take a corner from a cell: then
 // nothing is joined that has not to be.
-static std::shared_ptr<PointJoin> joinEverywhere(PiecedMesh& mesh, JoinPlan plan, bool asked_for) {
-  std::optional<uint64_t> cell;
-  for (const bool near : {true, false}) {
-    plan.near = near;
-    auto points = std::make_shared<PointJoin>(mesh, plan);
-    cell = cellThatLosesACorner(mesh.pieces(), *points);
-    if (cell) continue;
-    points->tell();
-    return points;
-  }
+static std::shared_ptr<PointJoin> joinEverywhere(PiecedMesh& mesh, const JoinPlan& plan,
+                                                 bool asked_for) {
+  uint64_t cell = 0;
+  const auto find = [&](PointJoin& points) { return cellThatLosesACorner(mesh.pieces(), points); };
+  if (auto points = joinKeepingCorners(mesh, plan, find, &cell)) return points;
   const std::string why =
-      textOf("cell %llu has two points at the same place", static_cast<unsigned long long>(*cell));
+      textOf("cell %llu has two points at the same place", static_cast<unsigned long long>(cell));
   if (asked_for)
     fail(Status::kBadData, "%s: points cannot be joined: %s (option join-points, --join-points)",
          mesh.pieces().name.c_str(), why.c_str());

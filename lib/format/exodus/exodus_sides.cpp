@@ -10,6 +10,7 @@
 #include "exodus_blocks.h"
 #include "label_column.h"
 #include "mix.h"
+#include "point_set.h"
 #include "rows_at_once.h"
 
 namespace tetstream {
@@ -44,22 +45,6 @@ class FaceRows {
   Buckets<Row> buckets_;
 };
 
-// A bit a point.
-class PointSet {
- public:
-  PointSet(Account& account, uint64_t points)
-      : words_(account, static_cast<size_t>(points / 64 + 1)) {
-    std::fill_n(words_.data(), words_.size(), uint64_t{0});
-  }
-  void add(int64_t point) { words_[wordOf(point)] |= bitOf(point); }
-  bool has(int64_t point) const { return (words_[wordOf(point)] & bitOf(point)) != 0; }
-
- private:
-  static size_t wordOf(int64_t point) { return static_cast<size_t>(point / 64); }
-  static uint64_t bitOf(int64_t point) { return uint64_t{1} << (point % 64); }
-  Array<uint64_t> words_;
-};
-
 // Returns how many are left out.
 uint64_t addFaces(MeshSpool& mesh, FaceRows& rows, PointSet& points) {
   int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
@@ -78,7 +63,7 @@ uint64_t addFaces(MeshSpool& mesh, FaceRows& rows, PointSet& points) {
       }
       known.insert(labels[i]);
       rows.add({face[0], face[1], face[2]}, 0, labels[i], at + i);
-      for (int k = 0; k < 3; ++k) points.add(face[k]);
+      for (int k = 0; k < 3; ++k) points.add(static_cast<uint64_t>(face[k]));
     }
   }
   return left_out;
@@ -96,7 +81,9 @@ void addSides(MeshSpool& mesh, RowSpool& elements, FaceRows& rows, const PointSe
         int places[4];
         exodusSide(CellShape::kTetra, side, places);
         const std::array<int64_t, 3> face = {cell[places[0]], cell[places[1]], cell[places[2]]};
-        if (!points.has(face[0]) || !points.has(face[1]) || !points.has(face[2])) continue;
+        if (std::any_of(face.begin(), face.end(),
+                        [&](int64_t corner) { return !points.has(static_cast<uint64_t>(corner)); }))
+          continue;
         const auto element = *static_cast<const int64_t*>(elements.row(at + i));
         rows.add(face, element + 1, side);
       }

@@ -19,7 +19,7 @@ struct ExodusSide {
 // element comes first. Memory is bounded but for a bit a point.
 class ExodusSides {
  public:
-  // element(cell): its number, from 1. Faces whose label is no id are not looked at.
+  // `elements`: of each cell, as int64 from 0. Faces whose label is no id are not looked at.
   ExodusSides(MeshSpool& mesh, RowSpool& elements, const std::string& temp_dir);
 
   const std::map<int64_t, uint64_t>& counts() const { return counts_; }  // by label

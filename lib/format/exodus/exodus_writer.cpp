@@ -168,9 +168,9 @@ class ExodusWriter final : public MeshCollector {
            "cells");
     if (findColumn(schema().cell_data, kBlockId) >= 0 && !block_column_)
       note(
-          "the labels of \"block_id\" are no ids of blocks, 0 to 2147483647 and no more than "
-          "65536: "
-          "all cells are block 1");
+          "the labels of \"block_id\" are no ids of blocks, which are 0 to 2147483647, or more "
+          "than "
+          "65536: all cells are block 1");
     noteNames(schema().fields, fields_);
     noteNames(schema().cell_data, arrays_);
     std::vector<LabelName> left_out;
@@ -235,10 +235,10 @@ class ExodusWriter final : public MeshCollector {
 
   void addNodes() {
     nodes_ = file_->addDimension("num_nodes", points());
+    static constexpr const char* kCoordinates[] = {"coordx", "coordy", "coordz"};
     for (size_t k = 0; k < 3; ++k)
-      file_->addVariable(
-          std::string("coord") + "xyz" [k], real_, { nodes_ }, {},
-          [this, k](NetcdfValues& values) { putPositions(values, k); });
+      file_->addVariable(kCoordinates[k], real_, {nodes_}, {},
+                         [this, k](NetcdfValues& values) { putPositions(values, k); });
   }
 
   void putPositions(NetcdfValues& values, size_t k) {
