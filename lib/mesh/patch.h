@@ -42,13 +42,6 @@ class Patch {
   void cornersOf(uint32_t c, uint32_t corners[4]) const {
     for (uint32_t j = 0; j < 4; ++j) corners[j] = vertexOf(c, j);
   }
-  // Whether it lives and all its vertices are owned.
-  bool isInside(uint32_t c) const {
-    typedef uint16_t Corners __attribute__((vector_size(8)));
-    Corners corners;
-    std::memcpy(&corners, &corner_[4 * size_t{c}], sizeof corners);
-    return std::bit_cast<int64_t>(corners < (Corners{} + static_cast<uint16_t>(owned_))) == -1;
-  }
   StarCell starCell(uint32_t corner) const {
     const uint8_t* t = kOpposite[corner % 4];
     const uint32_t c = corner / 4;

@@ -2,6 +2,7 @@
 // fixed order, no contraction: the same answers from every build.
 #include "orient.h"
 #include "star_kernels.h"
+#include "wide.h"
 #ifdef __AVX2__
 #include <immintrin.h>
 #endif
@@ -145,8 +146,7 @@ inline unsigned thinLanes(const Corner<LanesOf<double>>& p, const Corner<LanesOf
 template <int first>
 inline Corner<LanesOf<double>> halfOf(const Corner<LanesOf<float>>& c) {
   const auto half = [](LanesOf<float> v) {
-    return __builtin_convertvector(
-        __builtin_shufflevector(v, v, first, first + 1, first + 2, first + 3), LanesOf<double>);
+    return toDoubles(__builtin_shufflevector(v, v, first, first + 1, first + 2, first + 3));
   };
   return {half(c.x), half(c.y), half(c.z)};
 }

@@ -3,12 +3,14 @@
 // numbers from every build.
 #include "orient.h"
 #include "thinness.h"
+#include "wide.h"
 
 namespace tetstream {
 namespace {
 
 // One number of each cell.
-typedef double CellLanes __attribute__((vector_size(kThinLanes * sizeof(double))));
+using CellLanes = FourDoubles;
+static_assert(sizeof(CellLanes) == kThinLanes * sizeof(double));
 struct VectorLanes {
   CellLanes x, y, z;
 };
@@ -19,7 +21,7 @@ inline CellLanes rowAt(const S* p) {
   typedef S Row __attribute__((vector_size(kThinLanes * sizeof(S))));
   Row row;
   __builtin_memcpy(&row, p, sizeof row);
-  return __builtin_convertvector(row, CellLanes);
+  return toDoubles(row);
 }
 
 // Of each cell its corner k.

@@ -151,7 +151,8 @@ template <class S, int N>
 inline void addToCorners(const Double4* a, size_t stride, const uint32_t* rows_of, int n,
                          S* quadrics) {
   using Four = typename Lanes<S>::Four;
-  const int size = Fields::size(n) - 1, fours = (size + 3) / 4, whole = size / 4;
+  // Behind the numbers of a cell each row has the error, to which 0 may be added.
+  const int size = Fields::size(n) - 1, fours = (size + 3) / 4, whole = (size + 1) / 4;
   Four rows[kQuadricRoom<Fields, N> / 4][4];
   for (int b = 0; b < fours; ++b) {
     for (int k = 0; k < 4; ++k)
@@ -184,8 +185,7 @@ bool addCellFields(const VertexTable<S>& table, S* quadrics, const uint32_t* cor
   for (int j = 0; j < 3; ++j) {
     loadCorner(table, corners, j + 1, n, end);
     for (int i = 0; i < n; ++i)
-      edges[j][i] =
-          __builtin_convertvector(end[i] - origin[i], Double4) * static_cast<double>(scale[i]);
+      edges[j][i] = toDoubles(end[i] - origin[i]) * static_cast<double>(scale[i]);
   }
   const Double4 det = cells.determinant();
   const Double4 size = squaredSize(cells.e1, cells.e2, cells.e3);

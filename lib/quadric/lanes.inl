@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels.h"
+#include "wide.h"
 
 namespace tetstream {
 namespace {
@@ -16,9 +17,9 @@ template <int N>
 constexpr int kRoom = N > 0 ? N : kMaxDimension;
 
 typedef float Float8 __attribute__((vector_size(32)));
-typedef float Float4 __attribute__((vector_size(16)));
+using Float4 = FourFloats;
 typedef double Double8 __attribute__((vector_size(64)));
-typedef double Double4 __attribute__((vector_size(32)));
+using Double4 = FourDoubles;
 
 template <class S>
 struct Lanes;

@@ -8,7 +8,7 @@
 
 namespace tetstream {
 
-constexpr uint32_t kAlways = 0xffffffffu, kAtSeam = kAlways - 1;  // marks above all others
+constexpr uint32_t kAlways = 0xffffffffu;  // a mark above all others
 // Within a patch edges are taken at bounds rising to the pass's, nearly in order of their error.
 constexpr float kFirstLevel = 1.0f / 256, kLevelStep = 2;
 
@@ -24,7 +24,7 @@ PatchSweep<S>::PatchSweep(Core<S>& core, Account& account)
       neighbours_(account),
       seen_(account),
       looks_(account),
-      changed_(account),
+      marks_(account),
       spared_(account),
       seam_values_(account),
       seam_quadrics_(account),
@@ -263,55 +263,48 @@ float PatchSweep<S>::leastAcrossSeam(uint32_t v) {
   return static_cast<float>(least * static_cast<S>(unit_));
 }
 
-// Seen, from now on, are all but the free vertices of other patches; those of this one that share a
-// cell with such a vertex are marked.
-template <class S>
-void PatchSweep<S>::findSeams() {
-  std::fill_n(seen_.data(), patch_.ownedEnd(), kAlways);
-  for (uint32_t x = patch_.ownedEnd(); x < patch_.vertexEnd(); ++x)
-    if (patch_.isFreeElsewhere(x)) seen_[x] = 0;
-  for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
-    if (patch_.isInside(c) || !patch_.isLive(c)) continue;
-    bool at_seam = false;
-    for (uint32_t j = 0; j < 4; ++j) at_seam |= seen_[patch_.vertexOf(c, j)] == 0;
-    if (!at_seam) continue;
-    for (uint32_t j = 0; j < 4; ++j)
-      if (patch_.vertexOf(c, j) < patch_.ownedEnd()) seen_[patch_.vertexOf(c, j)] = kAtSeam;
-  }
-}
+// Marks of vertices when they are settled, in the lower bits what they are, in the upper ones what
+// is round them: vertices that were merged, and free ones of other patches, across a seam.
+constexpr uint8_t kMerged = 1, kElsewhere = 2;
+constexpr uint8_t kNearMerged = kMerged << 2, kAtSeam = kElsewhere << 2;
 
-// Marks the vertices whose cells have changed; those of other patches in the window.
+// Seen, from now on, are all but the free vertices of other patches.
 template <class S>
-void PatchSweep<S>::findChanged() {
-  if (changed_.size() < patch_.vertexEnd()) changed_.resize(patch_.vertexEnd() + 1024);
-  std::fill_n(changed_.data(), patch_.vertexEnd(), uint8_t{0});
+void PatchSweep<S>::markSurroundings() {
+  const uint32_t owned = patch_.ownedEnd(), end = patch_.vertexEnd();
+  if (marks_.size() < end) marks_.resize(end + 1024);
+  uint8_t* const marks = marks_.data();
+  std::fill_n(seen_.data(), owned, kAlways);
+  for (uint32_t v = 0; v < owned; ++v) marks[v] = solutions_.hasMoved(v) ? kMerged : 0;
+  for (uint32_t x = owned; x < end; ++x) {
+    marks[x] = patch_.isFreeElsewhere(x) ? kElsewhere : 0;
+    if (marks[x] != 0) seen_[x] = 0;
+  }
   for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {
     if (!patch_.isLive(c)) continue;
     uint32_t v[4];
     patch_.cornersOf(c, v);
-    bool has_moved = false;
-    for (uint32_t x : v) has_moved |= x < patch_.ownedEnd() && solutions_.hasMoved(x);
-    if (!has_moved) continue;
-    for (uint32_t x : v) changed_[x] = 1;
+    const int round = (marks[v[0]] | marks[v[1]] | marks[v[2]] | marks[v[3]]) << 2;
+    for (uint32_t x : v) marks[x] |= static_cast<uint8_t>(round & (kNearMerged | kAtSeam));
   }
-  for (uint32_t x = patch_.ownedEnd(); x < patch_.vertexEnd(); ++x)
-    if (changed_[x] && patch_.isFreeElsewhere(x)) outdate(core_.window, patch_.slotOf(x));
 }
 
 // What is known now is kept for the next sweep, in the window.
 template <class S>
 void PatchSweep<S>::settleAll() {
   choices_.reconsider();
-  findSeams();
-  findChanged();
+  markSurroundings();
+  for (uint32_t x = patch_.ownedEnd(); x < patch_.vertexEnd(); ++x)
+    if ((marks_[x] & kElsewhere) && (marks_[x] & kNearMerged))
+      outdate(core_.window, patch_.slotOf(x));
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v) {
     if (!patch_.isFree(v)) continue;
-    if (changed_[v]) {
+    if (marks_[v] & kNearMerged) {
       outdate(core_.window, patch_.slotOf(v));
       continue;
     }
     float least = choices_.least(v);
-    if (seen_[v] == kAtSeam && looks_[v]) least = std::min(least, leastAcrossSeam(v));
+    if ((marks_[v] & kAtSeam) && looks_[v]) least = std::min(least, leastAcrossSeam(v));
     const bool spared = spared_[v] < std::numeric_limits<float>::infinity();
     settle(core_.window, patch_.slotOf(v),
            {std::min(least, spared_[v]), choices_.hasRefused(v), spared});

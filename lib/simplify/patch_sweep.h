@@ -53,8 +53,7 @@ class PatchSweep {
   bool mustStop() const { return goal_.isMet(patch_.liveCells()) || collapser_.errorReached(); }
   void copySeamRow(uint32_t slot, size_t row);
   float leastAcrossSeam(uint32_t v);
-  void findSeams();
-  void findChanged();
+  void markSurroundings();
   void addEdges(uint32_t v);
   float sweepLevel(float level, float most);
   void sweepSpared(float level);
@@ -83,7 +82,7 @@ class PatchSweep {
   Array<S> errors_;
   Array<uint32_t> neighbours_, seen_;     // seen_: per vertex, the mark_ of its last listing
   Array<uint8_t> looks_;                  // of an owned vertex: at all its edges
-  Array<uint8_t> changed_;                // per vertex, when it is settled
+  Array<uint8_t> marks_;                  // per vertex, when it is settled
   Array<float> spared_;                   // and the least price of those that were spared
   Array<S> seam_values_, seam_quadrics_;  // rows of the window: a vertex, its neighbours
   std::vector<S> z_;

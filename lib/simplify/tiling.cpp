@@ -248,8 +248,12 @@ void Tiling<S>::sortCells(uint32_t first, uint32_t end, bool whole, Part& part) 
   for (uint32_t c = first; c < end; ++c) {
     if (!mesh.isLive(c)) continue;
     const uint32_t* v = mesh.corners(c);
-    if (of[v[0]] == of[v[1]] && of[v[0]] == of[v[2]] && of[v[0]] == of[v[3]]) {
-      if (of[v[0]] != 0) part.cells.add(of[v[0]] - 1, c);  // most are in one tile or in none
+    const uint32_t last = std::max({of[v[0]], of[v[1]], of[v[2]], of[v[3]]});
+    if (last == 0) continue;
+    bool others = false;
+    for (int j = 0; j < 4; ++j) others |= (of[v[j]] != last) & (of[v[j]] != 0);
+    if (!others) {  // as of most
+      part.cells.add(last - 1, c);
       continue;
     }
     const size_t count = tilesOf(c, tiles);
