@@ -329,8 +329,8 @@ typedef struct tetstream_reader_callbacks {
   /* Required. Called once, first. Fills *info, which comes with struct_size set, the counts -1 and
    * the rest zero. What it points to is copied. */
   int32_t (*open)(void *user, tetstream_stream_info *info);
-  /* Required. Called until it gives a batch with no vertex, cell or finalization. *batch comes
-   * with struct_size set and the rest zero. Its arrays are read before the next call. */
+  /* Required. Called until it gives a batch with nothing in it. *batch comes with struct_size set
+   * and the rest zero. Its arrays are read before the next call. */
   int32_t (*next)(void *user, tetstream_batch *batch);
   /* Optional, may be NULL. Called once if open was called, whatever happened since. */
   void (*close)(void *user);

@@ -32,7 +32,7 @@ bool CallbackSource::next(BatchView& batch) {
   filled.struct_size = sizeof filled;
   callBack("reader", "next", [&] { return callbacks_.next(callbacks_.user, &filled); });
   batch = checker_->view(filled);
-  ended_ = batch.vertex_count == 0 && batch.cell_count == 0 && batch.finalized_count == 0;
+  ended_ = batch.isEmpty();
   return !ended_;
 }
 

@@ -57,6 +57,7 @@ struct tetstream_simplifier : tetstream::Handle {
   std::optional<tetstream::BatchChecker> batches;  // of a push stream
   std::optional<tetstream::Rounding> rounding;     // of a push stream
   mutable tetstream::Report report;
+  mutable bool reported = false;  // the report is the one of the stream as it is
 };
 
 struct tetstream_diagram : tetstream::Handle {

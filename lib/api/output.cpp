@@ -1,6 +1,7 @@
 #include "output.h"
 
 #include <iterator>
+#include <utility>
 
 #include "compressed_bytes.h"
 #include "label_names.h"
@@ -145,6 +146,7 @@ void Output::complete() {
 void Output::stop(State state) noexcept {
   if (state_ == State::kBroken || state_ == State::kDestroyed) return;
   state_ = state;
+  if (const auto rest = std::exchange(rest_, nullptr)) rest();
   sink_.reset();
   bytes_.reset();
   files_.forget();

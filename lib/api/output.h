@@ -2,6 +2,7 @@
 // still uses it. Depends on registry.h, callbacks.h.
 #pragma once
 
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -50,6 +51,8 @@ class Output final : public Sink {
   void put(const BatchView& batch) override { sink().put(batch); }
   void finish() override { sink().finish(); }
   bool staysWithCaller() const override { return stays_with_caller_; }
+  // `rest` is called before what is put into goes while the output runs: nobody may put meanwhile.
+  void onStop(std::function<void()> rest) { rest_ = std::move(rest); }
   // The files that get their names when the output is complete: its own, and its run's others.
   JointFiles& files() { return files_; }
   void complete();                  // throws kIo
@@ -71,6 +74,7 @@ class Output final : public Sink {
   mutable std::mutex noting_;  // notes may come while the caller looks at them
   std::list<std::string> notes_;
   std::unique_ptr<Sink> sink_;
+  std::function<void()> rest_;
 };
 
 }  // namespace tetstream

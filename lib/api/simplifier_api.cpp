@@ -8,6 +8,7 @@ using namespace tetstream;
 // --------------------------------------------------------------------- what the functions share
 
 static void closeRun(tetstream_simplifier& s) noexcept {
+  s.output->onStop(nullptr);
   s.run.reset();
   s.map.reset();
   s.log.reset();
@@ -17,7 +18,7 @@ static void closeRun(tetstream_simplifier& s) noexcept {
 static void dropRun(tetstream_simplifier& s) noexcept {
   if (!s.run) return;
   try {
-    s.report = s.run->report();
+    if (!s.reported) s.report = s.run->report();
   } catch (...) {
     // note: without memory for two sentences, the report of the last call stays.
   }
@@ -28,6 +29,7 @@ static void dropRun(tetstream_simplifier& s) noexcept {
 template <class Body>
 static tetstream_status inStream(tetstream_simplifier& s, Body&& body) {
   const Busy busy(s);
+  s.reported = false;
   try {
     return statusOf(body);
   } catch (...) {
@@ -43,6 +45,7 @@ static void startRun(tetstream_simplifier& s) {
   s.run =
       std::make_unique<SimplifyRun>(s.options, *s.output, progressOf(s.progress, s.progress_user));
   s.run->trace({s.map.get(), s.log.get()});
+  s.output->onStop([&s] { dropRun(s); });
 }
 
 static Status endRun(tetstream_simplifier& s) {
@@ -195,7 +198,9 @@ tetstream_status tetstream_simplifier_get_report(const tetstream_simplifier* sim
   return guard(__func__, simplifier, [&](const tetstream_simplifier& s) {
     checkStruct(report, "report");
     if (s.state == State::kFailed) failState(s.kNoun, s.state);
-    if (s.run) s.report = s.run->report();
+    // What it points to stays while the stream does not go on.
+    if (s.run && !s.reported) s.report = s.run->report();
+    s.reported = true;
     writeStruct(report, publicReport(s.report));
   });
 }

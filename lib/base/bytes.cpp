@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "final_place.h"
 #include "io_error.h"
 #include "joint_files.h"
 
@@ -313,6 +314,11 @@ class MemorySink final : public ByteSink {
 }  // namespace
 
 std::unique_ptr<ByteSink> createFile(const std::string& path, JointFiles* joint) {
+  if (const int own = finalPlaceOf(path).descriptor; own >= 0) {
+    const int fd = ::fcntl(own, F_DUPFD_CLOEXEC, 0);
+    if (fd < 0) failIo(path, "open");
+    return std::make_unique<DescriptorSink>(fd, true, path);
+  }
   struct stat info;
   if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode)) {
     const int fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);

@@ -75,7 +75,8 @@ class ByteSink {
 };
 
 // Writes to a temporary file beside `path`, which takes that name only at commit. A path that is
-// there and is no regular file (a device, a pipe) is written directly.
+// there and is no regular file (a device, a pipe), and a name of one of the process's descriptors
+// (/dev/stdout), are written directly, from where they are.
 // With `joint`, which is borrowed, the name is taken when all of those are committed.
 std::unique_ptr<ByteSink> createFile(const std::string& path, JointFiles* joint = nullptr);
 std::unique_ptr<ByteSink> createDescriptor(int fd, const std::string& name);  // does not close it

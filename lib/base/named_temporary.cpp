@@ -6,10 +6,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 
+#include "final_place.h"
 #include "io_error.h"
 
 namespace tetstream {
@@ -18,10 +18,14 @@ static bool isLockedBySomebody(int fd) {
   return ::flock(fd, LOCK_EX | LOCK_NB) != 0;  // as is one that cannot be locked at all
 }
 
-// ".<process>-<attempt>", hexadecimal.
+// Behind the name of what is written; no file of somebody else's ends like that.
+constexpr const char* kMark = ".tetstream-";
+
+// The mark and "<process>-<attempt>", hexadecimal.
 static bool isSuffix(const char* text) {
   constexpr const char* kDigits = "0123456789abcdef";
-  if (*text++ != '.') return false;
+  if (std::strncmp(text, kMark, std::strlen(kMark)) != 0) return false;
+  text += std::strlen(kMark);
   const size_t process = std::strspn(text, kDigits);
   if (process == 0 || text[process] != '-') return false;
   text += process + 1;
@@ -60,7 +64,7 @@ constexpr unsigned kAttempts = 1000;
 void NamedTemporary::create(const std::string& stem) {
   // note: not mkstemp, which would not give the file the mode that the user's umask allows.
   for (unsigned attempt = 0; attempt < kAttempts; ++attempt) {
-    temporary_ = textOf("%s.%lx-%x", stem.c_str(), static_cast<long>(::getpid()), attempt);
+    temporary_ = textOf("%s%s%lx-%x", stem.c_str(), kMark, static_cast<long>(::getpid()), attempt);
     fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd_ < 0 && errno == EEXIST) continue;
     if (fd_ < 0) failIo(path_, "create");
@@ -73,30 +77,19 @@ void NamedTemporary::create(const std::string& stem) {
   fail(Status::kIo, "%s: no temporary file beside it stays there", path_.c_str());
 }
 
-// Empty where there is none.
-static std::string realPath(const std::string& path) {
-  const std::unique_ptr<char, void (*)(void*)> real(::realpath(path.c_str(), nullptr), std::free);
-  return real ? real.get() : "";
-}
-
-// The file that a name is, or would be, of.
-static std::string targetOf(const std::string& path) {
-  std::string there = realPath(path);
-  if (!there.empty()) return there;
-  const size_t slash = path.find_last_of('/') + 1;
-  const std::string folder = realPath(slash ? path.substr(0, slash) : ".");
-  return folder.empty() ? path : folder + "/" + path.substr(slash);
-}
-
-NamedTemporary::NamedTemporary(const std::string& path) : path_(path), target_(targetOf(path)) {
+NamedTemporary::NamedTemporary(const std::string& path)
+    : path_(path), target_(finalPlaceOf(path).path) {
   // A name has 255 bytes at most: a long one leaves no room for a suffix.
   const size_t slash = target_.find_last_of('/') + 1;
   const std::string stem =
-      target_.size() - slash > 220 ? target_.substr(0, slash) + ".tetstream" : target_;
+      target_.size() - slash > 220 ? target_.substr(0, slash) + ".longer" : target_;
+  struct stat old;
+  const bool replaces = ::stat(target_.c_str(), &old) == 0;
+  if (replaces && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
+    failIo(path_, "write");
   removeAbandoned(stem);
   create(stem);
-  struct stat old;  // what is replaced keeps its mode
-  if (::stat(target_.c_str(), &old) == 0) ::fchmod(fd_, old.st_mode & 07777);
+  if (replaces) ::fchmod(fd_, old.st_mode & 07777);  // it keeps its mode
 }
 
 NamedTemporary::~NamedTemporary() {

@@ -10,7 +10,8 @@ namespace tetstream {
 // process that was killed has left beside the same name has no lock, and is removed by the next.
 class NamedTemporary {
  public:
-  // Throws kIo. A link stays one: what it points to is replaced.
+  // Throws kIo, also where what is there may not be written. A link stays one: what it leads to is
+  // replaced, or made.
   explicit NamedTemporary(const std::string& path);
   ~NamedTemporary();  // without commit, nothing is left
   NamedTemporary(const NamedTemporary&) = delete;

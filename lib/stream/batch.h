@@ -39,6 +39,11 @@ struct BatchView {
   const uint8_t* face_locks = nullptr;    // [face_count], non-zero: its vertices are never moved
   size_t edge_count = 0;
   const int64_t* locked_edges = nullptr;  // [edge_count][2], of cells so far: never moved
+
+  bool isEmpty() const {
+    return vertex_count == 0 && cell_count == 0 && finalized_count == 0 && face_count == 0 &&
+           edge_count == 0;
+  }
 };
 
 // An owned batch, filled row by row or column by column. Capacity is kept from fill to fill, so

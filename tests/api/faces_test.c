@@ -161,6 +161,56 @@ static void labels_survive_in_indexed_meshes_that_are_pushed(void) {
   labels_survive_and_locks_hold(1);
 }
 
+/* The mesh, its labelled faces and its locked edge, each in a batch of its own; then nothing. */
+static int32_t open_in_parts(void* user, tetstream_stream_info* info) {
+  (void)user;
+  *info = info_of_mesh(TETSTREAM_STREAM_INDEXED);
+  info->face_count = -1;
+  return 0;
+}
+
+static int32_t next_part(void* user, tetstream_batch* part) {
+  const tetstream_batch all = whole_mesh();
+  int* at = user;
+  if (*at == 0) {
+    *part = all;
+    part->last_uses = NULL;
+  }
+  part->face_count = *at == 1 ? all.face_count : 0;
+  part->faces = all.faces;
+  part->face_labels = all.face_labels;
+  part->locked_faces = all.locked_faces;
+  part->locked_edge_count = *at == 2;
+  part->locked_edges = all.locked_edges;
+  ++*at;
+  return 0;
+}
+
+static void labels_survive_in_batches_of_their_own(void) {
+  int at = 0;
+  taken t = {0};
+  tetstream_reader_callbacks reads = {0};
+  tetstream_writer_callbacks writes = {0};
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  reads.struct_size = sizeof reads;
+  reads.user = &at;
+  reads.open = open_in_parts;
+  reads.next = next_part;
+  writes.struct_size = sizeof writes;
+  writes.user = &t;
+  writes.put = take;
+  CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create(&writes, &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(at, 4);
+  CHECK_EQUAL(t.of_50 + t.of_60, face_count);
+  CHECK_EQUAL(t.wrong, 0);
+  free(t.places);
+  tetstream_reader_destroy(reader);
+  tetstream_writer_destroy(writer);
+}
+
 static void inspections_tell_the_labels(void) {
   tetstream_reader* reader = in_memory();
   tetstream_stream_info info = {0};
@@ -394,6 +444,7 @@ int main(void) {
   make_faces();
   RUN_CASE(labels_survive_in_meshes_in_memory);
   RUN_CASE(labels_survive_in_indexed_meshes_that_are_pushed);
+  RUN_CASE(labels_survive_in_batches_of_their_own);
   RUN_CASE(inspections_tell_the_labels);
   RUN_CASE(comparisons_tell_areas);
   RUN_CASE(faces_of_unknown_vertices_are_refused);

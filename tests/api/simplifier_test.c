@@ -85,6 +85,26 @@ static void report_structs_of_other_sizes_are_respected(void) {
   rig_destroy(r);
 }
 
+/* The texts of the first are still there. */
+static void a_stream_that_stands_has_one_report(void) {
+  rig r = rig_create("tets");
+  whole w = whole_of(mesh);
+  tetstream_report first = {0}, second = {0};
+  first.struct_size = second.struct_size = sizeof first;
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_get_report(r.simplifier, &first), TETSTREAM_OK);
+  CHECK_EQUAL(first.cells_in, 0);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_get_report(r.simplifier, &first), TETSTREAM_OK);
+  CHECK_EQUAL(first.cells_in, mesh->cell_count);
+  CHECK_EQUAL(tetstream_simplifier_get_report(r.simplifier, &second), TETSTREAM_OK);
+  CHECK(first.order == second.order && first.balance == second.balance);
+  tetstream_writer_destroy(r.writer);
+  r.writer = NULL;
+  CHECK_EQUAL(strcmp(first.order, second.order), 0);
+  rig_destroy(r);
+}
+
 /* ------------------------------------------------------------------------------ the progress */
 
 typedef struct watcher {
@@ -353,6 +373,7 @@ int main(void) {
   RUN_CASE(a_report_says_what_was_done_so_far);
   RUN_CASE(a_failed_push_breaks_the_simplifier_alone);
   RUN_CASE(fields_that_do_not_exist_are_told_when_the_stream_begins);
+  RUN_CASE(a_stream_that_stands_has_one_report);
   RUN_CASE(handles_are_destroyed_in_any_order);
   RUN_CASE(a_simplifier_without_its_writer_can_only_be_destroyed);
   RUN_CASE(null_is_refused_everywhere);

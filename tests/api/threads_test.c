@@ -75,7 +75,59 @@ static void runs_at_once_give_the_bytes_of_runs_alone(void) {
   free(alone[1].bytes);
 }
 
+/* A stream that is handed on, batch by batch, to a simplifier that has threads. */
+typedef struct relay {
+  tetstream_simplifier* simplifier;
+  int batches_left; /* then no more is handed on */
+} relay;
+
+static int32_t begin_there(void* user, const tetstream_stream_info* info) {
+  relay* r = user;
+  CHECK_EQUAL(tetstream_simplifier_begin(r->simplifier, info), TETSTREAM_OK);
+  return 0;
+}
+
+static int32_t push_there(void* user, const tetstream_batch* batch) {
+  relay* r = user;
+  CHECK_EQUAL(tetstream_simplifier_push(r->simplifier, batch), TETSTREAM_OK);
+  return --r->batches_left > 0 ? 0 : 1;
+}
+
+/* What is put into the file meanwhile, by another thread, is not pulled away from under it. */
+static void a_writer_may_go_while_its_stream_is_written_behind(void) {
+  for (int round = 0; round < 24; ++round) {
+    tetstream_options* options = NULL;
+    tetstream_writer *writer = NULL, *handing_on = NULL;
+    tetstream_reader* reader = NULL;
+    tetstream_report report = {0};
+    relay r = {NULL, 8 + round};
+    tetstream_writer_callbacks hands_on = {0};
+    hands_on.struct_size = sizeof hands_on;
+    hands_on.user = &r;
+    hands_on.open = begin_there;
+    hands_on.put = push_there;
+    report.struct_size = sizeof report;
+    CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, 0.9), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_options_set_int64(options, TETSTREAM_OPTION_THREADS, 4), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_options_set_int64(options, TETSTREAM_OPTION_WINDOW, 1), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_writer_create_memory("vtu", &writer), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_create(options, writer, &r.simplifier), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_reader_generate("fluid", 200000, 1, &reader), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_writer_create(&hands_on, &handing_on), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_convert(reader, handing_on, NULL, NULL, NULL), TETSTREAM_CALLBACK);
+    tetstream_writer_destroy(writer);
+    CHECK_EQUAL(tetstream_simplifier_get_report(r.simplifier, &report), TETSTREAM_OK);
+    CHECK(report.cells_in > 0);
+    tetstream_simplifier_destroy(r.simplifier);
+    tetstream_reader_destroy(reader);
+    tetstream_writer_destroy(handing_on);
+    tetstream_options_destroy(options);
+  }
+}
+
 int main(void) {
   RUN_CASE(runs_at_once_give_the_bytes_of_runs_alone);
+  RUN_CASE(a_writer_may_go_while_its_stream_is_written_behind);
   return check_end();
 }

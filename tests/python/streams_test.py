@@ -64,6 +64,19 @@ class Generators(unittest.TestCase):
         source = Reader.batches(give(), fields={"f": None}, indexed=True)
         self.same(self.simplified(source), tetstream.simplify(points, cells, {"f": field}, ratio=0.2))
 
+    def test_labelled_faces_may_come_in_batches_of_their_own(self):
+        points = numpy.eye(4, 3, -1)
+        faces = dict(faces=numpy.array([[0, 1, 2], [1, 2, 3]], "i4"), face_labels=[7, 8])
+        for parts in ([dict(points=points), faces, dict(cells=[[0, 1, 2, 3]])],
+                      [dict(points=points, cells=[[0, 1, 2, 3]]), faces]):
+            taken = []
+            source = Reader.batches((dict(part) for part in parts), indexed=True)
+            tetstream.convert(source, Writer.batches(taken.append))
+            labels = {tuple(sorted(map(tuple, points[face]))): label for batch in taken
+                      if batch.faces is not None
+                      for face, label in zip(batch.faces, batch.face_labels)}
+            self.assertEqual(sorted(labels.values()), [7, 8])
+
     def test_a_writer_may_be_a_function_or_a_generator(self):
         expected = self.simplified(reader(*self.mesh))
         taken, told = [], []

@@ -277,8 +277,9 @@ class Reader:
         kept = []
 
         def is_empty(target):
-            return all(array is None for array in (target.positions(), target.cells(),
-                                                   target.finalized()))
+            return all(array is None for array in (
+                target.positions(), target.cells(), target.finalized(), target.faces(),
+                target.locked_edges()))
 
         def give(target):
             # note: an empty batch ends the library's stream; an iterable may give some.

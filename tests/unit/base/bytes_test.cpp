@@ -348,18 +348,22 @@ TEST(CreateFile, KeepsTheModeOfWhatItReplaces) {
 // Nobody holds a lock on it any more: removed. Somebody does, or it has another name: not.
 TEST(CreateFile, RemovesWhatAKilledProcessLeft) {
   const Folder folder;
-  for (const char* left : {"out.1a2b-0", "out.1a2b-1", "out.bak-x", "out.1a2b", "about.1-0"})
-    writeFile(folder.file(left), "left");
-  const int fd = ::open(folder.file("out.1a2b-1").c_str(), O_RDWR);
+  const Names others = {"out.tetstream-x", "out.tetstream-1", "about.tetstream-1-0",
+                        "out.20261127-153000"};  // dates are no numbers of processes
+  Names before = others;
+  before.insert({"out.tetstream-1a2b-0", "out.tetstream-1a2b-1"});
+  for (const std::string& left : before) writeFile(folder.file(left), "left");
+  const int fd = ::open(folder.file("out.tetstream-1a2b-1").c_str(), O_RDWR);
   ASSERT_EQ(::flock(fd, LOCK_EX), 0);
   writeFile(folder.file("out"), "new");
-  const Names others = {"out", "out.bak-x", "out.1a2b", "about.1-0"};
   Names expected = others;
-  expected.insert("out.1a2b-1");
+  expected.insert("out");
+  const Names after = expected;
+  expected.insert("out.tetstream-1a2b-1");
   EXPECT_EQ(folder.names(), expected);
   ::close(fd);
   writeFile(folder.file("out"), "newer");
-  EXPECT_EQ(folder.names(), others);
+  EXPECT_EQ(folder.names(), after);
 }
 
 // Two of the same name at once: neither takes the other's for abandoned.
@@ -381,6 +385,46 @@ TEST(CreateFile, WritesThroughALink) {
   struct stat info;
   ASSERT_EQ(::lstat(folder.file("link").c_str(), &info), 0);
   EXPECT_TRUE(S_ISLNK(info.st_mode));
+}
+
+TEST(CreateFile, MakesWhatALinkLeadsTo) {
+  const Folder folder;
+  ASSERT_EQ(::symlink("second", folder.file("first").c_str()), 0);
+  ASSERT_EQ(::symlink("file", folder.file("second").c_str()), 0);
+  writeFile(folder.file("first"), "new");
+  EXPECT_EQ(folder.names(), (Names{"first", "second", "file"}));
+  EXPECT_EQ(contents(folder.file("file")), "new");
+}
+
+// The file stays, with what it has: nothing else could be told by those who have it open.
+TEST(CreateFile, WritesToDescriptorsFromWhereTheyAre) {
+  const Folder folder;
+  writeFile(folder.file("log"), "before ");
+  const int fd = ::open(folder.file("log").c_str(), O_WRONLY | O_APPEND);
+  ASSERT_GE(fd, 0);
+  ASSERT_EQ(::symlink(("/dev/fd/" + std::to_string(fd)).c_str(), folder.file("link").c_str()), 0);
+  writeFile("/dev/fd/" + std::to_string(fd), "between ");
+  writeFile(folder.file("link"), "after");
+  EXPECT_EQ(contents(folder.file("log")), "before between after");
+  EXPECT_EQ(::close(fd), 0);
+  EXPECT_EQ(thrownBy([&] { createFile(folder.file("link")); }).first, Status::kIo);
+}
+
+// By somebody whom it stops, which the superuser is not.
+TEST(CreateFile, LeavesWhatMayNotBeWritten) {
+  const Folder folder;
+  writeFile(folder.file("done"), "old");
+  ASSERT_EQ(::chmod(folder.path.c_str(), 0777), 0);
+  ASSERT_EQ(::chmod(folder.file("done").c_str(), 0444), 0);
+  const uid_t before = ::geteuid();
+  const uid_t other = before == 0 ? 65534 : before;
+  ASSERT_EQ(::seteuid(other), 0);
+  const auto [status, text] = thrownBy([&] { createFile(folder.file("done")); });
+  ASSERT_EQ(::seteuid(before), 0);
+  EXPECT_EQ(status, Status::kIo);
+  EXPECT_NE(text.find("/done: cannot write: Permission denied"), std::string::npos) << text;
+  EXPECT_EQ(folder.names(), Names{"done"});
+  EXPECT_EQ(contents(folder.file("done")), "old");
 }
 
 // ----------------------------------------------------------------------------- read again
