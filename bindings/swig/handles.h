@@ -47,8 +47,8 @@ class Reader {
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
   ~Reader();
-  static Reader* openFile(const char* path, const char* format);
-  static Reader* openMemory(const ArrayView& bytes, const char* format);
+  static Reader* openFile(const char* path, const char* format, const Options& options);
+  static Reader* openMemory(const ArrayView& bytes, const char* format, const Options& options);
   static Reader* openMesh(const StreamInfo& info, StreamBatch& mesh);
   static Reader* generate(const char* kind, int64_t cells, int64_t seed);
   // `next` is called with an empty StreamBatch to fill.

@@ -41,17 +41,17 @@ Reader* Reader::made(std::unique_ptr<Reader> reader, Create&& create) {
   return reader.release();
 }
 
-Reader* Reader::openFile(const char* path, const char* format) {
+Reader* Reader::openFile(const char* path, const char* format, const Options& options) {
   return made(std::unique_ptr<Reader>(new Reader), [&](tetstream_reader** handle) {
-    return tetstream_reader_open_file(path, format, handle);
+    return tetstream_reader_open_file_with(path, format, options.handle(), handle);
   });
 }
 
-Reader* Reader::openMemory(const ArrayView& bytes, const char* format) {
+Reader* Reader::openMemory(const ArrayView& bytes, const char* format, const Options& options) {
   if (bytes.data && bytes.type != kBytes) failArgument("bytes: an array of uint8 is wanted");
   const auto size = static_cast<size_t>(bytes.rows) * static_cast<size_t>(bytes.columns);
   return made(std::unique_ptr<Reader>(new Reader), [&](tetstream_reader** handle) {
-    return tetstream_reader_open_memory(bytes.data, size, format, handle);
+    return tetstream_reader_open_memory_with(bytes.data, size, format, options.handle(), handle);
   });
 }
 

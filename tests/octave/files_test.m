@@ -48,6 +48,28 @@ assert (dir (at ("plain.vtu")).bytes > dir (at ("packed.vtu")).bytes);
 figures = tetstream_compare (mesh, mesh);
 assert (figures.fields.von_mises.largest_percent, 0, 1e-9);
 
+## Options of the reading count where a file is opened, and only there.
+file = fopen (at ("cube.vtk"), "w");
+fprintf (file, ["# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n" ...
+                "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\n" ...
+                "CELL_TYPES 1\n12\n"]);
+fclose (file);
+cube = tetstream_read (at ("cube.vtk"), "split", "yes");
+assert (any (rows (cube.cells) == [5, 6]));
+assert (tetstream_info (at ("cube.vtk"), "split", "yes").cell_count, rows (cube.cells));
+tetstream_convert (at ("cube.vtk"), at ("cube.tets"), "split", "yes");
+figures = tetstream_compare (at ("cube.vtk"), at ("cube.tets"), "split", "yes");
+assert (figures.simplified.cells, rows (cube.cells));
+assert (tetstream_compare (at ("cube.vtk"), cube, "split", "yes").original.cells, rows (cube.cells));
+fails ("tetstream:unsupported", "split", @() tetstream_read (at ("cube.vtk")));
+fails ("tetstream:unsupported", "recover", ...
+       @() tetstream_read (at ("cube.vtk"), "split", "yes", "recover", "yes"));
+fails ("tetstream:bad-argument", "step", @() tetstream_info (cube, "step", "7"));
+fails ("tetstream:bad-argument", "step", ...
+       @() tetstream_simplify (cube.points, cube.cells, [], "cells", 5, "step", "7"));
+fails ("tetstream:bad-argument", "split", ...
+       @() tetstream_simplify_stream (@() [], @(batch) 0, "cells", 5, "split", "yes"));
+
 fails ("tetstream:io", "nothing.vtu", @() tetstream_info (at ("nothing.vtu")));
 fails ("tetstream:bad-argument", "not a double", @() tetstream_convert (mesh, 3));
 fails ("tetstream:bad-argument", "\"compress\" is a text", ...

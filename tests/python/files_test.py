@@ -55,6 +55,46 @@ class Files(unittest.TestCase):
         for kind in ("tets", "tetmap", "tetlog"):
             self.same_bytes("a." + kind, "b." + kind)
 
+    def test_options_of_the_reading_count_where_a_file_is_opened(self):
+        path = self.path("cube.vtk")
+        path.write_text("# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+                        "POINTS 8 double\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1\n"
+                        "CELLS 1 9\n8 0 1 2 3 4 5 6 7\nCELL_TYPES 1\n12\n")
+        with self.assertRaisesRegex(tetstream.Unsupported, "split"):
+            tetstream.read(path)
+        mesh = tetstream.read(path, split="yes")
+        self.assertIn(len(mesh.cells), (5, 6))
+        many, out = dict(split="yes"), self.path("out.tets")
+        self.assertEqual(tetstream.info(path, **many).cell_count, len(mesh.cells))
+        self.assertEqual(tetstream.diagram(path, **many).cell_count, len(mesh.cells))
+        self.assertEqual(tetstream.simplify_file(path, out, cells=5, **many).cells_in,
+                         len(mesh.cells))
+        tetstream.convert(path, out, **many)
+        tetstream.layout(path, out, **many)
+        self.assertEqual(tetstream.compare(path, out, **many).simplified.cells, len(mesh.cells))
+        for reader in (tetstream.Reader.file(path, **many),
+                       tetstream.Reader.memory(path.read_bytes(), "vtk", **many)):
+            self.assertEqual(tetstream.info(reader).cell_count, len(mesh.cells))
+        for option in (dict(step="7"), dict(recover="yes")):
+            with self.assertRaises(tetstream.Unsupported):
+                tetstream.read(path, **many, **option)
+            for source in (mesh, tetstream.Reader.mesh(mesh)):
+                with self.assertRaisesRegex(tetstream.BadArgument, next(iter(option))):
+                    tetstream.info(source, **option)
+            with self.assertRaises(tetstream.BadArgument):
+                tetstream.simplify(mesh.points, mesh.cells, cells=5, **option)
+            with self.assertRaises(tetstream.BadArgument):
+                next(tetstream.simplify_batches([], cells=5, **option))
+
+    def test_what_a_result_does_not_take_is_for_the_original_alone(self):
+        mesh = tetstream.Mesh(self.points, self.cells, {"f": self.field})
+        mesh.write(self.path("steps.exo"))
+        tetstream.convert(mesh, self.path("result.tets"))
+        for result in (self.path("result.tets"), mesh):
+            found = tetstream.compare(self.path("steps.exo"), result, step="0",
+                                      cells_to_points="yes")
+            self.assertLess(found.fields["f"].largest_percent, 1e-5)
+
     def test_names_that_are_not_utf8_go_through(self):
         named = self.path("named.vtk")
         tetstream.Mesh(self.points, self.cells, {"NAME": self.field}).write(named)

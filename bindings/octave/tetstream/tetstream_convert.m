@@ -14,7 +14,7 @@ function notes = tetstream_convert (source, target, varargin)
   endif
   caller = "tetstream_convert";
   [options, own] = parsed (caller, struct ("progress", [], "properties", []), varargin);
-  [reader, kept] = made_reader (caller, source);
+  [reader, kept] = made_reader (caller, source, options);
   writer = made_writer (target, own.properties);
   writer.convert (reader, options, own.progress);
   notes = notes_of (reader, writer);

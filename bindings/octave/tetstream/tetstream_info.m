@@ -7,7 +7,8 @@
 ## cells that touch them; notes. An indexed mesh's front is that of the order in which it is
 ## streamed.
 ##
-## Pairs: "window", "memory", "order", "axis", "tmpdir"; "progress", a function.
+## Pairs: "window", "memory", "order", "axis", "tmpdir"; of files "step", "split", "recover",
+## "join-points", "cells-to-points"; "progress", a function.
 ##
 ## See also: tetstream_compare, tetstream_read.
 function info = tetstream_info (source, varargin)
@@ -16,7 +17,7 @@ function info = tetstream_info (source, varargin)
   endif
   caller = "tetstream_info";
   [options, own] = parsed (caller, struct ("progress", []), varargin);
-  [reader, kept] = made_reader (caller, source);
+  [reader, kept] = made_reader (caller, source, options);
   found = reader.inspect (options, own.progress);
   info = struct ("vertex_count", double (found.vertex_count),
                  "cell_count", double (found.cell_count), "face_count", double (found.face_count),

@@ -52,7 +52,7 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
   tetstream_core;
   options.set_text (tetstream_core.OPTION_REGIONS, label);
 
-  [reader, kept] = made_reader (caller, mesh);
+  [reader, kept] = made_reader (caller, mesh, options);
   type = tetstream_core.TYPE_INT64;
   if (isa (cells, "int32"))
     type = tetstream_core.TYPE_INT32;

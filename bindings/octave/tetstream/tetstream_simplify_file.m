@@ -22,7 +22,7 @@ function report = tetstream_simplify_file (source, target, varargin)
   need_target (caller, varargin);
   own = struct ("weights", [], "progress", [], "map_file", [], "log_file", [], "properties", []);
   [options, own] = parsed (caller, own, varargin);
-  [reader, kept] = made_reader (caller, source);
+  [reader, kept] = made_reader (caller, source, options);
   writer = made_writer (target, own.properties);
   tetstream_core;
   simplifier = tetstream_core.Simplifier (options, writer, own.progress);

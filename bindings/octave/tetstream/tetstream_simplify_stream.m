@@ -3,8 +3,8 @@
 ## Simplifies a mesh while it is being made: `reader` gives it in batches, `writer` takes the result in
 ## batches, in final form.
 ##
-## reader: a function without arguments; each call gives the next batch, a struct; one without points,
-##   cells and finalized points, or [], ends the stream. Members of a batch, all optional:
+## reader: a function without arguments; each call gives the next batch, a struct; one with nothing
+##   in it, or [], ends the stream. Members of a batch, all optional:
 ##   points (n x 3), fields (struct of n x k), locked (n logicals); cells (m x 4, numbers of points
 ##   from 1 on, counted through all batches), cell_data (struct of m x k), last_uses (m x 4 logicals:
 ##   no later cell uses that point), finalized (points that no later cell uses); faces, face_labels,
@@ -36,6 +36,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   own = struct ("cell_count", -1, "vertex_count", -1, "face_count", -1, "front_width", -1,
                 "front_span", -1, "front_cells", -1, "indexed", false, "weights", [], "progress", []);
   [options, own] = parsed (caller, own, varargin);
+  refuse_reading (caller, options, "a stream");
   tetstream_core;
   state = containers.Map ("KeyType", "char", "ValueType", "any");  # what the writer is told when it begins
   core_writer = tetstream_core.Writer_create (@(info) begun (state, info),
@@ -49,13 +50,20 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
     info.(name{1}) = own.(name{1});
   endfor
   simplifier.begin (info);
-  while (! isempty (batch.points) || ! isempty (batch.cells) || ! isempty (batch.finalized))
+  while (has_any (batch))
     [events, kept] = filled_batch (caller, batch, Inf);
     simplifier.push (events);
     batch = complete_mesh (caller, next_batch (reader));
   endwhile
   simplifier.finish ();
   report = reported (simplifier, core_writer);
+endfunction
+
+function any_there = has_any (batch)
+  any_there = false;
+  for name = {"points", "cells", "finalized", "faces", "locked_edges"}
+    any_there = any_there || ! isempty (batch.(name{1}));
+  endfor
 endfunction
 
 function batch = next_batch (reader)

@@ -1,45 +1,47 @@
 """What is done with meshes besides simplifying them."""
-from . import _options, _progress, _streams, core
+from . import _mesh, _options, _progress, _streams, core
 from ._records import LayoutReport, Record
+from .errors import Unsupported
 
 
-@_options.documented("order", "axis", "memory", "tmpdir")
+@_options.documented("order", "axis", "memory", "tmpdir", *_options.READING)
 def layout(source, target, *, progress=None, **options):
     """Brings a mesh into an order and writes it as a stream, in bounded memory. Sources, targets
     and progress as in simplify_file. Returns a LayoutReport."""
     made = _options.made(options)
-    reader, writer = _streams.reader_of(source), _streams.writer_of(target)
+    reader, writer = _streams.reader_of(source, made), _streams.writer_of(target)
     with _progress.told(progress) as tell:
         report = writer._handle.layout(reader._handle, made._handle, tell)
     return _streams.noted(LayoutReport.copied(report), reader, writer)
 
 
-@_options.documented("order", "axis", "memory", "tmpdir")
+@_options.documented("order", "axis", "memory", "tmpdir", *_options.READING)
 def convert(source, target, *, progress=None, **options):
     """Reads everything and writes it; an indexed mesh is brought into an order. Sources, targets
     and progress as in simplify_file. Returns the notes of both."""
     made = _options.made(options)
-    reader, writer = _streams.reader_of(source), _streams.writer_of(target)
+    reader, writer = _streams.reader_of(source, made), _streams.writer_of(target)
     with _progress.told(progress) as tell:
         writer._handle.convert(reader._handle, made._handle, tell)
     return reader.notes + writer.notes
 
 
-def read(source, *, cell_type="int64", progress=None):
+@_options.documented("order", "axis", "memory", "tmpdir", *_options.READING)
+def read(source, *, cell_type="int64", progress=None, **options):
     """A Mesh of everything a file, or a Reader, has. A stream keeps its order; the cells of an
     indexed mesh come in that of a sweep, points as they are used first, those of no cell left
     out."""
     writer = _streams.Writer.arrays(cell_type)
-    convert(source, writer, progress=progress)
+    convert(source, writer, progress=progress, **options)
     return writer.getmesh()
 
 
-@_options.documented("window", "memory", "order", "axis", "tmpdir")
+@_options.documented("window", "memory", "order", "axis", "tmpdir", *_options.READING)
 def info(source, *, progress=None, **options):
     """Reads everything and tells what it is: a StreamInfo, complete. An indexed mesh's front is that
     of the order in which it is streamed."""
     made = _options.made(options)
-    reader = _streams.reader_of(source)
+    reader = _streams.reader_of(source, made)
     with _progress.told(progress) as tell:
         found = reader._handle.inspect(made._handle, tell)
     front = Record.copied(reader._handle.get_front())
@@ -81,7 +83,7 @@ class Diagram(Record):
                 f"span {self.front_span}>")
 
 
-@_options.documented("memory", "order", "axis", "tmpdir")
+@_options.documented("memory", "order", "axis", "tmpdir", *_options.READING)
 def diagram(source, *, columns=1200, rows=800, sweep=False, progress=None, **options):
     """The layout diagram of a stream: a Diagram, to plot on an axis of matplotlib's or to write
     into a picture.
@@ -93,7 +95,7 @@ def diagram(source, *, columns=1200, rows=800, sweep=False, progress=None, **opt
         progress: as in simplify.
     """
     made = _options.made(options)
-    reader = _streams.reader_of(source)
+    reader = _streams.reader_of(source, made)
     page = core.PAGE_SWEEP if sweep else core.PAGE_LAYOUT
     drawn = core.Diagram(made._handle, _options.whole("columns", columns, 32),
                          _options.whole("rows", rows, 32))
@@ -128,19 +130,35 @@ class Comparison(Record):
                 f"RMS errors: {errors or 'no fields'}>")
 
 
+def _simplified_reader(source, options):
+    """What an option of the reading makes of the original may be made already in the result, as its
+    only step or as a stream."""
+    if isinstance(source, (_streams.Reader, _mesh.Mesh)):
+        options = {name: value for name, value in options.items() if name not in _options.READING}
+    for dropped in ((), ("step",), ("join_points", "cells_to_points")):
+        kept = {name: value for name, value in options.items() if name not in dropped}
+        try:
+            return _streams.reader_of(source, _options.made(kept))
+        except Unsupported:
+            pass
+    kept.pop("step", None)
+    return _streams.reader_of(source, _options.made(kept))
+
+
 @_options.documented("samples", "boundary_samples", "seed", "cut", "box", "regions", "memory",
-                     "tmpdir")
+                     "tmpdir", *_options.READING)
 def compare(original, simplified, *, weights=None, progress=None, **options):
     """Compares two meshes: a Comparison.
 
     Args:
-        original, simplified: each a path, a Reader or a Mesh.
+        original, simplified: each a path, a Reader or a Mesh. Options of the reading are for the
+            original, and for the other where it is a file that takes them.
         weights: dict of field to weight: only these are compared, those of weight 0 left out. None:
             all float fields that both have.
         progress: as in simplify.
     """
     made = _options.made(options, weights)
-    readers = _streams.reader_of(original), _streams.reader_of(simplified)
+    readers = _streams.reader_of(original, made), _simplified_reader(simplified, options)
     compared = core.Comparison(made._handle)
     with _progress.told(progress) as tell:
         compared.read(readers[0]._handle, readers[1]._handle, tell)

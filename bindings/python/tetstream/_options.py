@@ -103,6 +103,17 @@ for _row in ROWS.values():
     _add_property(_row)
 
 
+# What is made of a file when it is opened.
+READING = ("split", "recover", "step", "join_points", "cells_to_points")
+
+
+def refuse_reading(options, source):
+    """For a source that is open already, or was never a file."""
+    for name in READING:
+        if getattr(options, name) != ROWS[name].default:
+            raise BadArgument(f"{name} says how a file is read, and the source is {source}")
+
+
 def made(values, weights=None):
     """Options from keyword arguments and a dict of fields' weights."""
     options = Options(**values)

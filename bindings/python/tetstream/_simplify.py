@@ -59,6 +59,7 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
     """tetstream.simplify of a Mesh."""
     labelled, options = _with_regions(mesh, regions, options)
     made = _made_options(options, weights)
+    _options.refuse_reading(made, "arrays")
     points, cells, columns, cell_columns = _streams.mesh_columns(labelled)
     collector = core.MeshCollector(_arrays.TYPES[cells.dtype])
     reader = _streams.Reader._of_columns(labelled, points, cells, columns, cell_columns)
@@ -154,7 +155,8 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
             simplifier.set_log_file(log_file, None)
 
     # The options first, then the source: nothing is created where one of them is refused.
-    made, reader = _made_options(options, weights), _streams.reader_of(source)
+    made = _made_options(options, weights)
+    reader = _streams.reader_of(source, made)
     return _run(made, reader, _streams.writer_of(target), progress, prepare, 4)
 
 
@@ -183,7 +185,9 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
         "front_width": front_width, "front_span": front_span, "front_cells": front_cells})
     ready = []
     writer = _streams.Writer.batches(ready.append)
-    simplifier = core.Simplifier(_made_options(options, weights)._handle, writer._handle, None)
+    made = _made_options(options, weights)
+    _options.refuse_reading(made, "a stream")
+    simplifier = core.Simplifier(made._handle, writer._handle, None)
     return _pushed(schema, simplifier, writer, ready, batches)
 
 

@@ -3,7 +3,7 @@ import os
 
 import numpy
 
-from . import _arrays, _labels, _mesh, core
+from . import _arrays, _labels, _mesh, _options, core
 from ._records import Record, StreamInfo
 from .errors import BadArgument
 
@@ -191,15 +191,20 @@ class Reader:
         self._handle, self._kept = handle, kept  # arrays that the library reads where they lie
 
     @classmethod
-    def file(cls, path, format=None):
-        """A file; `format` is a name such as "vtu", or None: by the path's ending."""
-        return cls(core.Reader.open_file(path, format))
+    def file(cls, path, format=None, **options):
+        """A file; `format` is a name such as "vtu", or None: by the path's ending. Options of the
+        reading, such as `step` or `split`, count here alone."""
+        return cls._opened(path, format, _options.made(options))
 
     @classmethod
-    def memory(cls, data, format):
-        """The bytes of a file: a bytes object or another buffer."""
+    def _opened(cls, path, format, options):
+        return cls(core.Reader.open_file(path, format, options._handle))
+
+    @classmethod
+    def memory(cls, data, format, **options):
+        """The bytes of a file: a bytes object or another buffer. Options as of Reader.file."""
         array = numpy.frombuffer(data, numpy.uint8)
-        return cls(core.Reader.open_memory(array, format), array)
+        return cls(core.Reader.open_memory(array, format, _options.made(options)._handle), array)
 
     @classmethod
     def mesh(cls, mesh):
@@ -422,14 +427,13 @@ def _closing(generator, finish):
     return end
 
 
-def reader_of(source):
+def reader_of(source, options):
     """A Reader of what somebody calls a source."""
-    if isinstance(source, Reader):
-        return source
-    if isinstance(source, _mesh.Mesh):
-        return Reader.mesh(source)
+    if isinstance(source, (Reader, _mesh.Mesh)):
+        _options.refuse_reading(options, f"a {type(source).__name__}")
+        return source if isinstance(source, Reader) else Reader.mesh(source)
     if isinstance(source, (str, bytes, os.PathLike)):
-        return Reader.file(source)
+        return Reader._opened(source, None, options)
     raise TypeError(f"a path, a Mesh or a Reader is wanted, not {type(source).__name__}")
 
 

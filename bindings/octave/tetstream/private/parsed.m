@@ -36,20 +36,6 @@ function [options, own] = parsed (caller, own, arguments)
   endif
 endfunction
 
-## The library's table of options, by name.
-function rows = table ()
-  persistent known;
-  if (isempty (known))
-    tetstream_core;
-    known = struct ();
-    for i = 0:(tetstream_core.option_count () - 1)
-      row = tetstream_core.option_at (i);
-      known.(strrep (row.name, "-", "_")) = row;
-    endfor
-  endif
-  rows = known;
-endfunction
-
 ## A text is read as on a command line: "2G", "1e6".
 function set_option (caller, options, row, value)
   tetstream_core;
