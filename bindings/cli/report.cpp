@@ -49,22 +49,27 @@ static std::string volumeRow(const tetstream_report& r) {
                               percent < 0 ? "less" : "more"));
 }
 
+static std::string errorText(double percent) {
+  if (std::isnan(percent)) return "no field is measured";
+  return textOf("%.3g %% of the range (RMS, estimated)", percent);
+}
+
 std::string reportText(const tetstream_report& r) {
   std::string ratio;
   if (r.cells_in > 0)
     ratio =
         textOf(", ratio %.4g", static_cast<double>(r.cells_out) / static_cast<double>(r.cells_in));
   const std::string target = r.target_cells > 0 ? ", target " + countText(r.target_cells) : "";
-  std::string text =
-      row("cells", reductionText(r.cells_in, r.cells_out) + ratio + target) +
-      row("vertices", reductionText(r.vertices_in, r.vertices_out)) +
-      row("time", rateText(r.cells_in, r.seconds)) + row("memory", memoryText(r)) +
-      row("window", countText(r.window_cells) + " cells at most") + row("front", frontText(r)) +
-      row("collapses", countText(r.collapses)) + row("rejected", rejectionText(r)) +
-      row("error", textOf("%.3g %% of the range (RMS, estimated)", r.estimated_error)) +
-      row("largest error", textOf("%.6g", r.largest_error)) +
-      row("order", oneLine(r.order ? r.order : "")) +
-      row("regions", oneLine(r.regions ? r.regions : ""));
+  std::string text = row("cells", reductionText(r.cells_in, r.cells_out) + ratio + target) +
+                     row("vertices", reductionText(r.vertices_in, r.vertices_out)) +
+                     row("time", rateText(r.cells_in, r.seconds)) + row("memory", memoryText(r)) +
+                     row("window", countText(r.window_cells) + " cells at most") +
+                     row("front", frontText(r)) + row("collapses", countText(r.collapses)) +
+                     row("rejected", rejectionText(r)) +
+                     row("error", errorText(r.estimated_error)) +
+                     row("largest error", textOf("%.6g", r.largest_error)) +
+                     row("order", oneLine(r.order ? r.order : "")) +
+                     row("regions", oneLine(r.regions ? r.regions : ""));
   text += volumeRow(r);
   if (r.balance && *r.balance) text += row("balance", oneLine(r.balance));
   if (r.locked_cells > 0)

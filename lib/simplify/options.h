@@ -70,7 +70,8 @@ struct Report {
   int64_t locked_cells = 0, unused_vertices = 0;
   double largest_error = 0;
   double volume_in = 0, volume_out = 0;  // sums of the cells' volumes without signs
-  double estimated_error = 0;  // RMS, percent of the range, not less than the true one as a rule
+  double estimated_error = 0;  // RMS, percent of the range, not less than the true one as a rule;
+                               // NaN where no field is measured
   double seconds = 0;
   uint64_t peak_window_bytes = 0;
   std::string order;       // how the input was ordered

@@ -64,6 +64,11 @@ Plan makePlan(const Schema& schema, const SimplifyOptions& options) {
     fail(Status::kUnsupported,
          "%d field components are measured, %d are possible: name the fields that matter",
          plan.dimension - 3, kMaxDimension - 3);
+  if (options.error > 0 && !plan.measures())
+    fail(Status::kBadArgument,
+         "an error of %g %% is asked for (option error), and no field is measured; the stream has: "
+         "%s",
+         options.error, namesOf(schema.fields).c_str());
   for (const Column& c : schema.cell_data) {
     int& end = isFloat(c.type) ? plan.cell_means : plan.cell_picks;
     plan.cell_data.push_back({isFloat(c.type) ? Treatment::kCarried : Treatment::kPicked, end});

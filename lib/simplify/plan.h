@@ -24,6 +24,7 @@ struct Plan {
   Schema schema;
   bool double_window = false;  // positions or a float field are float64
   int dimension = 3;           // 3 + measured components: the quadric's
+  bool measures() const { return dimension > 3; }
   QuadricLayout layout = QuadricLayout::kFields;
   int values = 3;  // 3 + measured + carried components
   int picks = 0;

@@ -345,7 +345,8 @@ class WindowedEngine final : public Simplifier::Engine {
     r.rejected_locked = t.rejected_locked;
     r.rejected_other = t.rejected_other;
     r.largest_error = t.largest_error;
-    r.estimated_error = percentOf(core_, t.error);
+    r.estimated_error =
+        plan_.measures() ? percentOf(core_, t.error) : std::numeric_limits<double>::quiet_NaN();
     r.cells_in = static_cast<int64_t>(intake_.cellsRead());
     r.vertices_in = static_cast<int64_t>(core_.front.introduced());
     r.cells_out = static_cast<int64_t>(release_.cellsWritten());

@@ -51,6 +51,14 @@ json=$out
 [[ $(member "$json" reached) == '"ratio"' ]] || fail "wrong reached"
 (($(member "$json" peak_resident_bytes) > 0)) || fail "no peak memory"
 
+# Where nothing is measured there is no error to tell, or to ask for.
+expect 0 simplify in.tets out.tets --ratio 0.5 --field density:0 --quiet --report json
+[[ $(member "$out" estimated_error) == null ]] || fail "an error of nothing: $out"
+expect 0 simplify in.tets out.tets --ratio 0.5 --field density:0
+contains "$out" "no field is measured"
+expect 1 simplify in.tets out.tets --error 1 --field density:0
+contains "$err" "no field is measured; the stream has: density"
+
 # The target that was reached first is named.
 expect 0 simplify in.tets out.tets --ratio 0.5 --cells 1000 --quiet --report json
 [[ $(member "$out" reached) == '"ratio"' ]] || fail "the ratio was reached first: $out"

@@ -37,6 +37,11 @@ TestMesh wavyMesh(ScalarType type) {
   return mesh;
 }
 
+TestMesh withConstant(TestMesh mesh) {
+  addPositionField(mesh, {"f", 1, k32}, [](double, double, double) { return 3; });
+  return mesh;
+}
+
 int64_t fourFrontsOfBox() {
   return int64_t{24} * boxSide() * boxSide();
 }
@@ -170,7 +175,8 @@ TEST(SimplifierErrorBound, IsSpentOnFewerCellsTheLargerItIs) {
 
 // Whoever bounds the error has missed no number of cells, whatever stops the run.
 TEST(SimplifierErrorBound, AloneIsNeverMissed) {
-  std::vector<TestMesh> meshes = {wavyMesh(k64), boxOf(k32), oneCell(), apart(2)};
+  std::vector<TestMesh> meshes = {wavyMesh(k64), withConstant(boxOf(k32)), withConstant(oneCell()),
+                                  withConstant(apart(2))};
   for (TestMesh& mesh : meshes)
     for (double percent : {1e-9, 1.0, 100.0})
       for (int64_t window : {0, 600}) {
@@ -182,6 +188,22 @@ TEST(SimplifierErrorBound, AloneIsNeverMissed) {
         EXPECT_TRUE(result.report.reached == "error" || result.report.reached.empty());
         EXPECT_LE(result.report.estimated_error, percent);
       }
+}
+
+// Of shapes and the boundary alone there is no range that it could be a share of.
+TEST(SimplifierErrorBound, IsRefusedWhereNoFieldIsMeasured) {
+  SimplifyOptions options = toError(1);
+  const auto refusal = [&options](const TestMesh& mesh) {
+    return thrownBy([&] { simplified(mesh, options); });
+  };
+  const auto [status, text] = refusal(boxOf(k64));
+  EXPECT_EQ(status, Status::kBadArgument);
+  EXPECT_NE(text.find("no field is measured; the stream has: none"), std::string::npos) << text;
+  options.fields = {{"f", 0}};
+  EXPECT_NE(refusal(wavyMesh(k64)).second.find("the stream has: f"), std::string::npos);
+  options.error = 0;
+  options.ratio = 0.5;
+  EXPECT_TRUE(std::isnan(simplified(wavyMesh(k64), options).report.estimated_error));
 }
 
 // ------------------------------------------------------------------------- several targets
@@ -298,7 +320,7 @@ TEST(SimplifierTargets, OfTheErrorAreForTheSweepOnly) {
   for (auto [mode, name] : {std::pair(Mode::kPaper, "paper"), std::pair(Mode::kQueue, "queue")}) {
     SimplifyOptions options = toRatio(0.5, 0, mode);
     options.error = 1;
-    const TestMesh mesh = oneCell();
+    const TestMesh mesh = withConstant(oneCell());
     const auto [status, text] = thrownBy([&] { simplified(mesh, options); });
     EXPECT_EQ(status, Status::kUnsupported);
     EXPECT_NE(text.find(name), std::string::npos) << text;
