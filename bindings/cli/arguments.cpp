@@ -94,6 +94,7 @@ class Parser {
   std::string textOfCommand() const;
   std::string helpOf(const std::string& command) const;
   std::string chosenCommand() const;
+  std::string unexpectedText() const;
   void settleFormats();
 
   CLI::App app_{"Simplifies tetrahedral meshes with fields as a stream.", "tetstream"};
@@ -183,7 +184,7 @@ void Parser::addOut(CLI::App* command) {
             text)
         ->option_text(values);
   };
-  addProperty("--compress", "compress", "yes|no", "Compress OUT (tets, vtu)");
+  addProperty("--compress", "compress", "yes|no", "Compress OUT (tets, vtu, vtkhdf)");
   addProperty("--vertex-order", "order", "pre|post",
               "Vertices before or after their cells (sva, svb)");
   addProperty("--encoding", "encoding", "binary|text", "Numbers of OUT (msh)");
@@ -417,6 +418,15 @@ std::string Parser::chosenCommand() const {
   return chosen.empty() ? "" : chosen.front()->get_name();
 }
 
+// What the command has no place for: an option that it does not know, before what follows that.
+std::string Parser::unexpectedText() const {
+  const std::vector<std::string> words = app_.remaining(true);
+  for (const std::string& word : words)
+    if (word.size() > 1 && word[0] == '-') return "there is no option " + word;
+  return words.empty() ? "there are more words than arguments"
+                       : "one argument too many: " + words.front();
+}
+
 Arguments Parser::parse(int argc, const char* const* argv) {
   try {
     app_.parse(argc, argv);
@@ -429,7 +439,8 @@ Arguments Parser::parse(int argc, const char* const* argv) {
                        chosenCommand());
   } catch (const CLI::ParseError& error) {
     if (chosenCommand().empty() && argv[1][0] != '-') throw unknownCommand(argv[1]);
-    throw usageFailure(error.what(), chosenCommand());
+    const bool has_more = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    throw usageFailure(has_more ? unexpectedText() : error.what(), chosenCommand());
   }
   if (version_) {
     arguments_.text = versionText();

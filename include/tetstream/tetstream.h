@@ -478,7 +478,8 @@ TETSTREAM_API tetstream_status tetstream_writer_create_memory(const char *format
 TETSTREAM_API tetstream_status tetstream_writer_get_memory(const tetstream_writer *writer,
                                                            const void **data, size_t *size);
 /* A property of the format, before the stream begins: "compress" ("yes", "no"; .tets, .vtu,
- * .vtkhdf), "order" ("pre", "post"; .sva, .svb). BAD_ARGUMENT if there is none such. Since 0.1. */
+ * .vtkhdf), "order" ("pre", "post"; .sva, .svb), "encoding" ("binary", "text"; .msh), "version"
+ * ("4.1", "2.2"; .msh). BAD_ARGUMENT if there is none such. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_writer_set(tetstream_writer *writer, const char *property,
                                                     const char *value);
 /* Since 0.1. */

@@ -95,6 +95,7 @@ class SpoolFile {
   void readAt(uint64_t offset, void* out, size_t size);  // throws when there are fewer bytes
   uint64_t size() const { return size_; }
   int descriptor() const { return fd_; }
+  const std::string& name() const { return name_; }  // for messages
 
  private:
   int fd_ = -1;

@@ -144,8 +144,10 @@ const Format* formatOfPath(const std::string& wrapped_path) {
   const size_t slash = path.find_last_of('/');
   const size_t dot = path.find_last_of('.');
   if (dot == std::string::npos || (slash != std::string::npos && dot < slash)) return nullptr;
+  std::string extension = path.substr(dot);
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   for (const Format& f : kFormats)
-    if (listHas(f.extensions, path.substr(dot))) return &f;
+    if (listHas(f.extensions, extension)) return &f;
   return nullptr;
 }
 

@@ -22,7 +22,9 @@ static void check(const Schema& schema, const OrderOptions& options) {
     fail(Status::kBadArgument, "axis \"%s\": auto, x, y and z are possible", options.axis.c_str());
   constexpr int64_t kMostPoints = std::numeric_limits<uint32_t>::max() - 1;
   if (schema.vertex_count > kMostPoints)
-    fail(Status::kUnsupported, "a mesh of %lld points: %lld can be ordered",
+    fail(Status::kUnsupported,
+         "an indexed mesh of %lld points: %lld can be ordered; more are read as a stream, from .tets "
+         "for example",
          static_cast<long long>(schema.vertex_count), static_cast<long long>(kMostPoints));
 }
 

@@ -12,6 +12,10 @@ for format in "${formats[@]:1}"; do
   [[ $(cells_in "mesh.$format") == "$cells" ]] || fail "$format has other cells"
 done
 
+# Endings as other systems write them.
+expect 0 convert mesh.tets UPPER.VTU
+[[ $(cells_in UPPER.VTU) == "$cells" ]] || fail "an ending in capitals is not known"
+
 # Those that share everything with .vtu but their bytes: into and out of .tets is enough.
 for in in "${formats[@]}"; do
   for out_format in "${formats[@]}"; do

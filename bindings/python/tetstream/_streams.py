@@ -351,7 +351,8 @@ class Writer:
     @classmethod
     def file(cls, path, format=None, **properties):
         """A file, which takes its name when it is complete. `format` as in Reader.file; `properties`
-        of the format: compress="yes" or "no" (.tets, .vtu), order="pre" or "post" (.sva, .svb)."""
+        of the format: compress="yes" or "no" (.tets, .vtu, .vtkhdf), order="pre" or "post" (.sva,
+        .svb), encoding="binary" or "text" and version="4.1" or "2.2" (.msh)."""
         return cls(core.Writer.create_file(path, format))._with(properties)
 
     @classmethod

@@ -20,7 +20,6 @@ namespace {
 
 constexpr size_t kKindsAtOnce = 1024;  // cells whose types and offsets are made
 constexpr size_t kCopiedAtOnce = 1 << 16;
-constexpr const char* kSpoolName = "a temporary file";
 
 class SpoolStorage final : public Hdf5Storage {
  public:
@@ -29,30 +28,18 @@ class SpoolStorage final : public Hdf5Storage {
   size_t readAt(uint64_t offset, void* out, size_t size) override {
     const uint64_t left = size_ - std::min(size_, offset);
     const size_t n = static_cast<size_t>(std::min<uint64_t>(size, left));
-    size_t done = 0;
-    while (done < n) {
-      const ssize_t got = ::pread(spool_.descriptor(), static_cast<char*>(out) + done, n - done,
-                                  static_cast<off_t>(offset + done));
-      if (got < 0 && errno != EINTR) failIo(kSpoolName, "read");
-      if (got == 0) break;
-      if (got > 0) done += static_cast<size_t>(got);
-    }
-    return done;
+    spool_.readAt(offset, out, n);
+    return n;
   }
 
   void writeAt(uint64_t offset, const void* data, size_t size) override {
-    for (size_t done = 0; done < size;) {
-      const ssize_t put = ::pwrite(spool_.descriptor(), static_cast<const char*>(data) + done,
-                                   size - done, static_cast<off_t>(offset + done));
-      if (put < 0 && errno != EINTR) failIo(kSpoolName, "write");
-      if (put > 0) done += static_cast<size_t>(put);
-    }
+    spool_.writeAt(offset, data, size);
     size_ = std::max(size_, offset + size);
   }
 
   void resize(uint64_t size) override {
     if (::ftruncate(spool_.descriptor(), static_cast<off_t>(size)) != 0)
-      failIo(kSpoolName, "set the size");
+      failIo(spool_.name(), "set the size");
     size_ = size;
   }
   uint64_t size() const override { return size_; }
@@ -186,8 +173,7 @@ class VtkHdfWriter final : public Sink {
     Hdf5Storage& storage = file_->storage();
     for (uint64_t at = 0; at < storage.size();) {
       const size_t n = static_cast<size_t>(std::min<uint64_t>(kCopiedAtOnce, storage.size() - at));
-      if (storage.readAt(at, bytes.data(), n) < n)
-        fail(Status::kIo, "%s ends at byte %llu", kSpoolName, static_cast<unsigned long long>(at));
+      storage.readAt(at, bytes.data(), n);
       bytes_->write(bytes.data(), n);
       at += n;
     }
