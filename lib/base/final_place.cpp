@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <memory>
 
+#include "status.h"
+
 namespace tetstream {
 
 constexpr int kMostLinks = 40;  // as the system follows
@@ -39,8 +41,11 @@ FinalPlace finalPlaceOf(const std::string& path) {
     if (const int descriptor = descriptorOf(folder, name); descriptor >= 0)
       return {path, descriptor};
     const std::string link = linkAt(at);
-    if (link.empty()) return {folder.empty() ? at : folder + "/" + name, -1};
-    at = link[0] == '/' ? link : folder + "/" + link;
+    const auto inFolder = [&folder](const std::string& there) {
+      return textOf("%s/%s", folder.c_str(), there.c_str());
+    };
+    if (link.empty()) return {folder.empty() ? at : inFolder(name), -1};
+    at = link[0] == '/' ? link : inFolder(link);
   }
   return {path, -1};
 }

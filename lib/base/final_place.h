@@ -1,4 +1,4 @@
-// base: where a path that is to be written leads. Depends on nothing.
+// base: where a path that is to be written leads.
 #pragma once
 
 #include <string>

@@ -23,7 +23,8 @@ static void check(const Schema& schema, const OrderOptions& options) {
   constexpr int64_t kMostPoints = std::numeric_limits<uint32_t>::max() - 1;
   if (schema.vertex_count > kMostPoints)
     fail(Status::kUnsupported,
-         "an indexed mesh of %lld points: %lld can be ordered; more are read as a stream, from .tets "
+         "an indexed mesh of %lld points: %lld can be ordered; more are read as a stream, from "
+         ".tets "
          "for example",
          static_cast<long long>(schema.vertex_count), static_cast<long long>(kMostPoints));
 }

@@ -1,0 +1,48 @@
+// simplify/collapse: whether a collapse would push the boundary through itself. Depends on mesh.
+#pragma once
+
+#include <vector>
+
+#include "crossing_faces.h"
+#include "link_edges.h"
+#include "patch.h"
+
+namespace tetstream {
+
+// Cells that all have their right orientation overlap only where the boundary of their union
+// crosses itself. Only a place in front of a face on the boundary that goes can make it do so; one
+// that is by more than a little has the new faces held against each other and against those round
+// the vertices of their rim: of a patch against those that it has a cell of, and where it does not
+// have all, not if the place is far in front. Parts of the boundary that are farther apart along it
+// are not compared, nor are those round a vertex of many cells.
+template <class Mesh>
+class BoundaryCrossing {
+ public:
+  using S = typename Mesh::Scalar;
+
+  BoundaryCrossing(Mesh& mesh, Account& account) : mesh_(mesh), star_(account, 32) {}
+
+  // Whether more pairs of faces would cross than do, of an edge with its stars, whole, whose ends
+  // are merged at `place`. `scale` brings edges near 1.
+  bool find(uint32_t u, uint32_t v, const Stars& stars, const S* place, double scale);
+
+ private:
+  using Faces = std::vector<PlacedFace>;
+
+  void listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
+  double listGone(uint32_t u, uint32_t v, const Stars& stars);
+  void listMade(uint32_t u, uint32_t v);
+  void listRim(uint32_t u, uint32_t v);
+  bool knowsBeside() const;
+  void listBeside(uint32_t u, uint32_t v);
+  size_t crossings(const Faces& faces) const;
+
+  Mesh& mesh_;
+  Star star_;
+  double origin_[3] = {}, scale_ = 1;  // of the coordinates of faces: the merged vertex's place
+  LinkEdges link_;
+  Faces gone_, made_, beside_;
+  std::vector<uint32_t> rim_, seen_;
+};
+
+}  // namespace tetstream

@@ -1,0 +1,66 @@
+// simplify/intake: what taking vertices out of the mesh as it comes would cost, from their stars.
+// Depends on balance.h, sheet_quadrics.h.
+#pragma once
+
+#include "balance.h"
+#include "sheet_quadrics.h"
+
+namespace tetstream {
+
+// Used while the quadrics have what they have from cells alone, nothing of sheets.
+template <class S>
+class BalanceSample {
+ public:
+  explicit BalanceSample(Core<S>& core);
+
+  static constexpr size_t kSampled = 128;  // vertices of each group
+  // A face of the sheet at a vertex, by its other two.
+  struct Face {
+    uint32_t a, b;
+  };
+  // A vertex goes to one of its neighbours, on a sheet along that.
+  void addInside(uint32_t v, const Star& star);
+  void addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind);
+  // Of an interface between two regions.
+  void addBend(uint32_t v, const std::vector<Face>& faces);
+  // A neighbour of each of these on the interface, each once; then the faces there.
+  std::vector<uint32_t> partners();
+  void addPartner(uint32_t v, const std::vector<Face>& faces);
+
+  RemovalCosts& costs() { return costs_; }
+
+  // A quarter of the volume of a vertex's cells, normalised; 0 for one without.
+  static double volumeAt(Core<S>& core, uint32_t v) {
+    const int weight = quadricSize(QuadricLayout::kFields, core.plan.dimension) - 2;
+    return static_cast<double>(core.window.quadric(v)[weight]);
+  }
+
+ private:
+  double fieldErrorTowards(uint32_t v, uint32_t other);
+  double errorTowards(const S* quadric, uint32_t v, uint32_t other);
+  static double usual(std::vector<double>& costs) { return usualCost(costs.data(), costs.size()); }
+  void keepUnique();
+
+  // Of the faces at a vertex of an interface, in normalised units.
+  struct Bend {
+    double normal[3] = {0, 0, 0};  // their mean, of length 1
+    double height = 0;             // that the mean of the vertices round it has above it
+    double edges = 0;              // mean square of the edges to them
+    bool is_closed = false;        // no edge of the interface
+  };
+  Bend bendAt(uint32_t v, const std::vector<Face>& faces);
+  struct Pair {
+    uint32_t partner;
+    Bend bend;
+  };
+
+  Core<S>& core_;
+  RemovalCosts costs_;
+  std::vector<S> sheet_, nowhere_, difference_;
+  const std::vector<S> nothing_;
+  std::vector<uint32_t> others_;
+  std::vector<double> field_costs_, sheet_costs_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace tetstream

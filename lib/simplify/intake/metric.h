@@ -1,0 +1,60 @@
+// simplify/intake: the units of the metric, and the quadrics of what was read. Depends on core.h.
+//
+// No unit of the user's may change the result. Lengths are divided by a power of two near the
+// first cells' edges, so that no product over- or underflows. A field is brought to the extent of
+// the mesh (paper, section 3: "normalised to the geometry range"). Where the stream does not say
+// its box, extent and ranges are those met so far; when they grow, the quadrics in the window are
+// carried over into the new units. Several fields are weighed against each other (field_weights.h).
+#pragma once
+
+#include "core.h"
+
+namespace tetstream {
+
+template <class S>
+class Metric {
+ public:
+  explicit Metric(Core<S>& core);
+
+  // Cells [first, end) of the window are new. First the units are chosen.
+  void prepare(uint32_t first, uint32_t end);
+  // Then all of them, some at a time: their orientation is settled, flat ones are marked, and their
+  // quadrics are added. A thread that follows waits for it: it cannot fail.
+  void addCells(uint32_t first, uint32_t end) noexcept;
+  // Then the same: how thin they are is looked at, which another thread may do beside it.
+  void sampleAngles(uint32_t first, uint32_t end);
+  // In the end the vertices of flat ones are locked, and the floor is chosen.
+  void settle(uint32_t first, uint32_t end);
+
+ private:
+  void growBox(uint32_t first, uint32_t end);
+  double rangeOf(size_t component) const;  // of the field it belongs to
+  double weightOf(size_t component) const;
+  double extent() const;
+  double fieldsTogether() const;
+  bool canWeighFields(uint32_t cells) const;
+  std::vector<double> ranges() const;
+  void chooseLengthUnit(uint32_t first, uint32_t end);
+  void updateScales();
+  void keepRange();
+  void rescaleQuadrics(const std::vector<S>& factor);
+  double addCell(uint32_t cell, double volume);
+  bool addLanes(uint32_t first, double* volume);
+  double volumeOf(uint32_t cell, double determinant);
+  void lockFlat(uint32_t cell);
+  bool isRegular(uint32_t cell) const;
+  void chooseFloor();
+
+  Core<S>& core_;
+  std::vector<ThinAngle> floors_;  // falling
+  std::vector<ThinAngle> near_;    // each so many times its floor
+  std::vector<ThinAngle> dear_;
+  std::vector<int64_t> below_, below_near_, below_dear_;  // of the cells sampled
+  int64_t sampled_ = 0, seen_ = 0;                        // cells
+  bool box_known_, unit_known_ = false;
+  double length_unit_ = 1, fields_together_ = 1;
+  std::vector<double> low_, high_;  // x y z, then measured components
+  std::vector<double> used_range_;  // that the scales were made for; [0]: the extent
+};
+
+}  // namespace tetstream

@@ -1,0 +1,26 @@
+// simplify/intake: which integer cell arrays label regions. Depends on core.h.
+#pragma once
+
+#include "core.h"
+
+namespace tetstream {
+
+// Decides once, on the first window's cells, which picks of a cell are its labels: "none": none; a
+// name: that array; "auto": every integer array, but for those whose values are nearly all
+// different, which are ids, and those that tell by their names how a mesh was divided for a run.
+// Says in the report what was taken. Throws kBadArgument for a name that is no integer cell array.
+template <class S>
+class Regions {
+ public:
+  explicit Regions(Core<S>& core);
+  void decide();  // with the first cells in the window
+ private:
+  bool looksLikeIds(int offset, int components) const;
+
+  Core<S>& core_;
+  bool decided_ = false;
+  std::vector<int> columns_;  // candidates, by column
+  std::string partitions_;    // names of arrays that are none
+};
+
+}  // namespace tetstream

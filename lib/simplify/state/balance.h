@@ -1,0 +1,73 @@
+// simplify/state: how much the shapes of sheets should count beside the fields. Depends on
+// schema.h.
+//
+// One weight of the boundary does not suit all: where it bends more than the fields do, nearly all
+// vertices that are left lie on it, and few more inside would halve the fields' error. The weight
+// with the least product of the RMS errors of the fields and of the sheet is looked for, downwards
+// from the one that was asked for, with errors foretold from a sample of the mesh as it comes:
+//   What is added by taking a vertex out, c, grows with the length of edges, s times that of the
+//   input: inside as s^7 (a squared error, s^4, times a volume), on a sheet as s^6 (s^4 times an
+//   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that
+//   s = (t / c)^(1/7) or (t / c)^(1/6), where that is more than 1; t is what leaves the ratio of
+//   vertices that is asked for. Errors are the sums of what was added for those that are left.
+// Interfaces that are rough, as where cells have the label of the side that their centres lie on,
+// or where all vertices were moved by chance, are another matter: what bends there is noise of the
+// size of the input's cells, and no cell of the output is small enough for it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "schema.h"
+
+namespace tetstream {
+
+// Times the weight of all sheets, and that of interfaces besides; 1 where it is not known.
+struct Balance {
+  double outer = 1, interfaces = 1;
+  std::vector<double> fields;  // times each one's weight (field_weights.h); or none
+  bool knows_outer = false, knows_interfaces = false;
+  bool rough_interfaces = false;
+};
+
+// What counts for more or less than it was given, for the report; or nothing. Interfaces are named
+// only where there are any.
+std::string inWords(const Balance& balance, bool has_interfaces, const std::vector<Column>& fields);
+
+// What taking a vertex out adds to the error of the fields and, with its weight, to that of the
+// sheet that it lies on.
+struct Removal {
+  double field, sheet;
+};
+
+// Of what going to each of a vertex's neighbours costs, that where a third of them cost less: what
+// it may be expected to cost. The cheapest would be too cheap: along a cylinder half of all
+// vertices go for nothing, then none. What is no number counts as nothing. Reorders them.
+double usualCost(double* costs, size_t count);
+
+// Of vertices inside regions, on the boundary, and on interfaces.
+struct RemovalCosts {
+  struct Group {
+    std::vector<Removal> sample;
+    double vertices = 0;  // that it stands for
+  };
+  Group inside, outer, interfaces;
+  // Of neighbours on the interface between two regions: how far each lies off the mean of those
+  // round it, along the normal. Sums of the squares, of the products, and of the squared edges.
+  struct Jitter {
+    size_t pairs = 0;
+    double square = 0, product = 0, edges = 0;
+  };
+  Jitter jitter;
+  double least_field = 0;  // error of the fields, of all, that counts as none
+};
+
+// Chooses what is not known of sheets, where they and the inside have enough vertices and samples,
+// for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
+// vertices too many are edges and corners, and where none is inside nothing starves.
+constexpr double kLeastVertices = 256;
+constexpr size_t kLeastPairs = 32;  // tell whether interfaces are rough
+void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);
+
+}  // namespace tetstream

@@ -1,0 +1,49 @@
+// simplify/state: what became of edges that were tried, and what was done. Depends on nothing.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace tetstream {
+
+// kOrientation: a cell would be turned over, or flat; kThin: more cells would be thin; kCrossing:
+// the boundary would pass through itself where it does not; kTooLarge: the error, for the target.
+enum class Outcome {
+  kDone,
+  kLocked,
+  kTooMany,
+  kTooFar,
+  kTooLarge,
+  kTopology,
+  kCrossing,
+  kOrientation,
+  kThin,
+  kDear,
+  kNotFinite
+};
+
+// Whether an edge that was refused at one place may be legal at another.
+inline bool mayFitElsewhere(Outcome outcome) {
+  return outcome == Outcome::kOrientation || outcome == Outcome::kThin ||
+         outcome == Outcome::kCrossing || outcome == Outcome::kNotFinite;
+}
+
+// What collapses did: to the whole mesh, or to a part of the window that is worked on beside others
+// and is added when its turn comes. Sums of errors are added part by part, whoever worked on them.
+struct Tally {
+  int64_t collapses = 0, flips = 0;
+  int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
+  int64_t rejected_thin = 0;   // of those for orientation
+  int64_t rejected_large = 0;  // of the others
+  double error = 0;            // made: volume times squared error, normalised
+  double largest_error = 0;    // in the report's unit
+  bool error_reached = false;  // a collapse was refused for the limit on the error
+
+  int64_t rejected() const {
+    return rejected_orientation + rejected_link + rejected_locked + rejected_other;
+  }
+  void count(Outcome outcome);
+  void add(const Tally& part);
+};
+
+}  // namespace tetstream
