@@ -1,15 +1,16 @@
-# Reads the lines tetstream_room(NAME USED...) of lib/CMakeLists.txt and checks every #include of
+# Reads the statements tetstream_room(NAME USED...) of lib/CMakeLists.txt and checks every #include of
 # every room against them. The build has the same rule; this test also finds what is not compiled,
 # paths with "..", and file names that are there twice.
 cmake_minimum_required(VERSION 3.25)
 
-file(STRINGS ${LIB}/CMakeLists.txt lines REGEX "^tetstream_room\\(")
-if(NOT lines)
+file(READ ${LIB}/CMakeLists.txt text)
+string(REGEX MATCHALL "\ntetstream_room\\([^)]*\\)" statements "${text}")
+if(NOT statements)
   message(FATAL_ERROR "lib/CMakeLists.txt states no rooms")
 endif()
-foreach(line IN LISTS lines)
-  string(REGEX MATCH "\\(([^)]*)\\)" _ "${line}")
-  string(REPLACE " " ";" words "${CMAKE_MATCH_1}")
+foreach(statement IN LISTS statements)
+  string(REGEX MATCH "\\(([^)]*)\\)" _ "${statement}")
+  string(REGEX REPLACE "[ \n]+" ";" words "${CMAKE_MATCH_1}")
   list(POP_FRONT words room)
   list(APPEND rooms ${room})
   set(uses_${room} ${room} ${words})
