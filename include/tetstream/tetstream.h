@@ -26,16 +26,18 @@
  *   they fail they give one, too, which can only be asked for its message and destroyed; it is NULL
  *   when there is no memory even for that, or no place to put it.
  *   Pointers that the library hands out belong to it; each comment says how long they live.
- *   A handle is used by one thread at a time; different handles may be used at once, also a reader
- *   and a writer of different simplifiers. There is no global state. A simplifier starts threads of
- *   its own (option `threads`), which end with it, or uses the caller's
- *   (tetstream_options_set_pool): they simplify, and read and write some batches ahead and behind;
- *   so do readers of some formats of files, and comparisons. Callbacks are called on the caller's
- *   thread alone. There, too, pipes and all else that may wait for somebody are written, and read; in a run of a
- *   simplifier with three threads of its own or more they are also read ahead by one in addition,
- *   which does nothing else. With the option `memory` or one thread there is no other.
+ *   An indexed mesh has 2^32 - 2 points at most; streams have no limit.
  *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
  *   library may be called from inside a callback with a handle that the run uses.
+ *
+ * Threads
+ *   There is no global state. A handle is used by one thread at a time; different handles may be
+ *   used at once, also a reader and a writer of different simplifiers.
+ *   Simplifiers, comparisons and readers of some formats work with threads of their own (option
+ *   `threads`), which end with the handle, or with the caller's (tetstream_options_set_pool). With
+ *   one thread or the option `memory` the caller's thread does everything.
+ *   Callbacks are called on the caller's thread alone, and pipes are written there. With three
+ *   threads and more, a pipe is read ahead by another one.
  *
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
@@ -360,19 +362,19 @@ TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *
 TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, size_t size,
                                                             const char *format,
                                                             tetstream_reader **reader);
-/* As without `_with`, with options for the reading, which may be NULL: `split` (hexahedra, prisms and
- * pyramids are cut into tetrahedra; else they are UNSUPPORTED), `join-points` (points at the same
- * place become one, with the means of their floats: where no cell shares a point with another, as
- * fields that jump are written, or wherever they lie; UNSUPPORTED for streams), `cells-to-points` (cell arrays
- * of floats are fields, too, at a point the mean of the cells round it; UNSUPPORTED for streams), `recover` (of a .tets file that is
- * damaged or was not finished, the chunks that are whole, with the cells whose vertices are all
- * there; notes tell what is missing, when all was read; UNSUPPORTED for other formats), `step`
- * (which time step of several is read; a note tells how many there are; BAD_ARGUMENT if it is none
- * of them), `tmpdir`, and `threads`, `memory` and the pool: several threads read long runs of rows
- * of MSH, MEDIT, TetGen and SU2 text, and look for labels in binary MEDIT and MSH 2, in this
- * function, and, where the mesh is read on the thread that called it, text of VTU, VTK and XDMF,
- * and decompress VTU; those of the pool or, without options, the library's own, which end with the
- * reader. With `memory` there is none. Since 0.1. */
+/* As without `_with`, with options for the reading, which may be NULL:
+ *   split            cells of other kinds are cut into tetrahedra; else they are UNSUPPORTED
+ *   step             which time step of several is read, and a note tells how many there are;
+ *                    BAD_ARGUMENT if it is none of them, UNSUPPORTED where there are no steps
+ *   join-points      points at the same place become one, with the means of their floats: always,
+ *                    never or where no cell shares a point with another; UNSUPPORTED for streams
+ *   cells-to-points  float cell arrays are fields, too: at a point the mean of the cells round it;
+ *                    UNSUPPORTED for streams
+ *   recover          of a damaged or unfinished .tets what is whole is read, and notes tell what is
+ *                    missing, when all was read; UNSUPPORTED for other formats
+ *   tmpdir, threads, memory, and the pool: as in a run; some formats are parsed and decompressed
+ *                    by several threads, in this function or when the mesh is read
+ * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_file_with(const char *path, const char *format,
                                                                const tetstream_options *options,
                                                                tetstream_reader **reader);
@@ -802,20 +804,10 @@ TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *dia
  *   tetstream_comparison_read(comparison, original, simplified, NULL, NULL);
  *   tetstream_comparison_get_field(comparison, 0, &field);    // field.rms, field.largest
  *
- * How the figures are made. Fields are linear on each cell. Every original cell is cut with every
- * simplified one: on their common part the difference is linear, and its squared norm is integrated
- * exactly and has its maximum at a corner. Where the original is outside the simplified mesh, that
- * one's value is the one at the nearest point of its boundary: there the error is sampled, at up to
- * eight places in each such cell and at the corners that are outside. With the option `samples` the
- * fields are compared at that many points, uniform by volume, instead, and largest errors are those
- * of the points. Distances between boundaries are sampled at 200 000 points, or at `samples` where
- * those are fewer, or at as many as the option `boundary-samples` says, uniform by area, and at all
- * vertices. With the option `box` fields are compared on those cells of the original whose centres
- * lie in it, low sides included, and distances are those of the faces whose centres do, to all of
- * the other boundary; ranges of fields, topology, shapes and regions are told of the whole meshes.
- * So billions of cells need no more room than a part of them: of two boxes side by side the errors'
- * squares, weighted by volume, add up. Cells flatter than 1e-12 of the cube of their longest edge
- * take no part in the fields' figures. The same meshes, options and seed give the same figures. */
+ * Errors of fields are integrals over the common parts of both meshes' cells, where the difference
+ * is linear, without sampling; distances of boundaries are sampled. The options `samples`,
+ * `boundary-samples` and `box` change that. tetstream_comparison(3) tells how each figure is made.
+ * The same meshes, options and seed give the same figures. */
 typedef struct tetstream_comparison tetstream_comparison;
 
 /* Which of the two meshes. */
