@@ -194,6 +194,15 @@ void Reshaper<S>::positionsOf(const uint32_t corners[4], double p[4][3]) const {
     for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(patch_.values(corners[k])[i]);
 }
 
+// In the unit of the errors: that of length there is a power of two.
+template <class S>
+double Reshaper<S>::normalisedSixVolume(double p[4][3]) const {
+  const auto unit = static_cast<double>(core_.scale[0]);
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) p[k][i] *= unit;
+  return sixVolume(p);
+}
+
 // Taken at the centroids of the new cells.
 template <class S>
 auto Reshaper<S>::change(const Reconnection& r) const -> Change {
@@ -210,7 +219,7 @@ auto Reshaper<S>::change(const Reconnection& r) const -> Change {
     double x[3], weights[4] = {}, least = -1e301;
     positionsOf(r.made[m], p);
     for (int i = 0; i < 3; ++i) x[i] = (p[0][i] + p[1][i] + p[2][i] + p[3][i]) / 4;
-    const double part = sixVolume(p);
+    const double part = normalisedSixVolume(p);
     const uint32_t* old = corners[0];
     for (uint32_t g = 0; g < r.gone_count; ++g) {
       double w[4];

@@ -85,6 +85,7 @@ class Reshaper {
   bool isLegal(const Reconnection& r) const;
   Change change(const Reconnection& r) const;
   void positionsOf(const uint32_t corners[4], double p[4][3]) const;
+  double normalisedSixVolume(double p[4][3]) const;
   void apply(const Reconnection& r);
   void handOverCellData(const Reconnection& r, const uint32_t* slots);
   void tell(const Reconnection& r, const uint32_t* slots);

@@ -2,6 +2,7 @@
 // share of thin ones where the input has some.
 #include <cmath>
 
+#include "field_error.h"
 #include "simplify_testing.h"
 #include "thin_cells.h"
 
@@ -101,6 +102,41 @@ TEST(Shapes, AreFlippedWhereManyAreFlat) {
   EXPECT_GT(flips, 0);
   if (slowRun()) return;  // of a hundred cells
   EXPECT_LT(flat, 0.85 * flat_without);
+}
+
+// In a unit that is a power of two all numbers are the same.
+TestMesh inUnit(TestMesh mesh, double unit) {
+  for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    for (int i = 0; i < 3; ++i) mesh.setPosition(v, i, unit * mesh.position(v, i));
+  return mesh;
+}
+
+TEST(Shapes, AreFlippedAlikeInAnyUnit) {
+  const TestMesh mesh = layered(layeredSide(), 6, 30);
+  for (const Shape shape : {Shape::kField, Shape::kSolver}) {
+    SimplifyOptions options = toRatio(0.1, fourFrontsOfLayers());
+    options.shape = shape;
+    const Result result = simplified(mesh, options);
+    EXPECT_TRUE(slowRun() || result.report.flips > 0);
+    for (double unit : {0x1p-8, 0x1p8}) {
+      const Result other = simplified(inUnit(mesh, unit), options);
+      EXPECT_EQ(other.report.flips, result.report.flips) << unit;
+      EXPECT_EQ(other.report.estimated_error, result.report.estimated_error) << unit;
+      EXPECT_EQ(other.out.mesh.cells, result.out.mesh.cells) << unit;
+    }
+  }
+}
+
+// Of the error that is made they make next to nothing, also where cells are small beside the unit.
+TEST(Shapes, AreFlippedForLittleError) {
+  const TestMesh mesh = inUnit(layered(layeredSide(), 6, 30), 0x1p-8);
+  for (double ratio : {0.7, 0.3}) {
+    const SimplifyOptions options = toRatio(ratio, fourFrontsOfLayers());
+    const Result result = simplified(mesh, options), stiff = withoutFlips(mesh, options);
+    EXPECT_TRUE(slowRun() || result.report.flips > 0);
+    EXPECT_LT(fieldErrors(mesh, result.out.mesh)[0], 1.05 * fieldErrors(mesh, stiff.out.mesh)[0])
+        << ratio;
+  }
 }
 
 // Quadrics that are made anew give the field more of the flat cells that it asks for.
