@@ -15,8 +15,9 @@ namespace tetstream {
 // floor is the largest of these, in degrees, that hardly any cell of the input is below: stretched
 // meshes would lose their field for angles that they never had. Where shapes come first they begin
 // higher; the paper's mode has the least only.
-constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
-constexpr double kSolverFloors[] = {10, 8, 6, 4.5, 3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor};
+constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor, 0.02, 0.008, 0.003};
+constexpr double kSolverFloors[] = {10,   8,   6,   4.5,         3,    2,     1.4,
+                                    1.01, 0.5, 0.2, kLeastFloor, 0.02, 0.008, 0.003};
 constexpr double kShareBelow = 0.01;
 // Cells just above a floor can hardly become others: of stretched meshes, all of whose cells are
 // alike, nearly every edge would be refused for it. No more than this share may be below so many

@@ -429,11 +429,11 @@ template <class S>
 void SweepSelector<S>::tryByAllMeans(const std::function<void()>& tick) {
   tryEverything(tick);
   while (!mustStop()) {
-    const double floor = core_.thin.degrees;
+    const double floor = core_.thin.degrees, least = std::min(floor, kLeastFloor);
     if (core_.shapesFirst()) reshapeAll(true, tick);
-    core_.thin = ThinAngle(core_.shapesFirst() ? std::max(floor / 2, kLeastFloor) : kLeastFloor);
+    core_.thin = ThinAngle(core_.shapesFirst() ? std::max(floor / 2, least) : least);
     tryEverything(tick);
-    if (!core_.shapesFirst() || floor == kLeastFloor) return;
+    if (!core_.shapesFirst() || floor == least) return;
   }
 }
 

@@ -73,8 +73,8 @@ inline size_t embeddedBytes(const Schema& schema, double feature_angle) {
   return kCurveBytes + static_cast<size_t>(kFaceBytes * std::min(faces / cells, 4.0));
 }
 
-// No cell needs to be thinner than this smallest dihedral angle, in degrees: rounding, or another
-// program's arithmetic, may turn it over.
+// No cell needs to be thinner than this smallest dihedral angle, in degrees, unless many of the
+// input are: rounding, or another program's arithmetic, may turn it over.
 constexpr double kLeastFloor = 0.05;
 
 // Vertices of a patch: with its cells and stars they should fit a core's L2 cache, and its seams
