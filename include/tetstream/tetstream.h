@@ -527,7 +527,8 @@ typedef struct tetstream_report {
   double seconds;               /* from begin to finish */
   uint64_t peak_window_bytes;   /* of the arrays that the memory option bounds */
   uint64_t peak_resident_bytes; /* of the process, 0 where the system does not tell */
-  const char *regions;          /* what was taken as region labels, in words */
+  const char *regions;          /* what was taken as region labels, in words; at the end also which
+                                   changed their volume by more than 1 % */
   const char *limited_by;       /* what stopped the run short of its target, or "" */
   double estimated_error;       /* RMS field error in percent of the range, from the quadrics; as a
                                    rule not less than the true one; NaN where no field is

@@ -131,7 +131,10 @@ void Release<S>::writeCell(uint32_t cell) {
   writeCellData(cell, row);
   double corners[4][3];
   cornersIn(core_.window, cell, corners);
-  volume_ += std::fabs(sixVolume(corners)) / 6;
+  const double volume = std::fabs(sixVolume(corners)) / 6;
+  volume_ += volume;
+  if (!core_.region_picks.empty())
+    core_.label_volumes.add(core_.cellLabels(), cell, volume, LabelVolumes::kOutput);
   if (core_.window.faces.anyPlaced()) writeFaces(cell);
   mesh.kill(cell);
   ++cells_;

@@ -232,7 +232,7 @@ class WindowedEngine final : public Simplifier::Engine {
 
   // Everything that the cells read since the last turn made known.
   void resolveNew() {
-    if (mesh().cellEnd() > resolved_cells_) regions_.decide();
+    regions_.take(resolved_cells_, mesh().cellEnd());
     front_cells_ =
         resolver_.resolve(resolved_cells_, intake_.finalized(), intake_.finalizedCount());
     intake_.clearFinalized();
@@ -363,6 +363,8 @@ class WindowedEngine final : public Simplifier::Engine {
   void closeReport() {
     Report& r = core_.report;
     countInto(r);
+    const std::string changes = core_.label_volumes.changesInWords();
+    if (!changes.empty()) r.regions += "; " + changes;
     r.balance = inWords(core_.balance, core_.interfaces, plan_.schema.fields);
     tell(0);
     const Target target = targetOf(plan_.schema, options_);

@@ -1,8 +1,10 @@
 #include "regions.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "status.h"
+#include "vector3.h"
 
 namespace tetstream {
 
@@ -43,8 +45,21 @@ bool Regions<S>::looksLikeIds(int offset, int components) const {
 }
 
 template <class S>
+void Regions<S>::take(uint32_t first, uint32_t end) {
+  if (first == end) return;
+  if (!decided_) decide();
+  if (core_.region_picks.empty()) return;
+  const CellLabels labels = core_.cellLabels();
+  for (uint32_t c = first; c < end; ++c) {
+    double corners[4][3];
+    cornersIn(core_.window, c, corners);
+    const double volume = std::fabs(sixVolume(corners)) / 6;
+    core_.label_volumes.add(labels, c, volume, LabelVolumes::kInput);
+  }
+}
+
+template <class S>
 void Regions<S>::decide() {
-  if (decided_) return;
   decided_ = true;
   std::string taken, ids;
   for (int column : columns_) {

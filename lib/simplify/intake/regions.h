@@ -13,8 +13,11 @@ template <class S>
 class Regions {
  public:
   explicit Regions(Core<S>& core);
-  void decide();  // with the first cells in the window
+  // Of new cells in the window; the first ones decide.
+  void take(uint32_t first, uint32_t end);
+
  private:
+  void decide();
   bool looksLikeIds(int offset, int components) const;
 
   Core<S>& core_;

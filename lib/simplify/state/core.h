@@ -8,6 +8,7 @@
 #include "balance.h"
 #include "front.h"
 #include "kernels.h"
+#include "label_volumes.h"
 #include "options.h"
 #include "plan.h"
 #include "queued_edges.h"
@@ -255,6 +256,7 @@ struct Core {
   bool interfaces = false;        // met any: labels that are all the same cost nothing
   bool inner_sheets = false;      // met labelled faces with cells of one region on both sides
   std::vector<int> region_picks;  // columns of the cell picks that label regions
+  LabelVolumes label_volumes;     // of those
   Report report;
   LockedVertices locked;
   Tracer<S>* tracer = nullptr;  // told of all collapses, and of what leaves

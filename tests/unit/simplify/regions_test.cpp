@@ -246,6 +246,28 @@ TEST(SimplifierRegions, DoNotCostTheBodyForNothing) {
   expectBodyKept(grains(12, 20), 12, 0.1, 0.5, 3, 1950);
 }
 
+double volumeOfLabel(const TestMesh& mesh, int64_t label) {
+  double volume = 0;
+  for (size_t c = 0; c < mesh.cellCount(); ++c)
+    if (mesh.cellInteger(0, c) == label) volume += cellVolume(mesh, c);
+  return volume;
+}
+
+// What is told of them is what can be measured: here, that none has changed.
+TEST(SimplifierRegions, AreNotToldOfWhereTheirVolumesStay) {
+  const TestMesh mesh = grains(12, 30);
+  std::set<int64_t> labels;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) labels.insert(mesh.cellInteger(0, c));
+  for (int64_t window : {0, 2000}) {
+    const Result result = simplified(mesh, toRatio(0.1, window));
+    for (int64_t label : labels) {
+      const double volume = volumeOfLabel(mesh, label);
+      EXPECT_NEAR(volumeOfLabel(result.out.mesh, label), volume, 0.01 * volume) << label;
+    }
+    EXPECT_EQ(result.report.regions, "by grain");
+  }
+}
+
 TEST(SimplifierRegions, AreNotTakenFromIds) {
   const TestMesh mesh = twoMaterials(4);
   const Result result = withRegions(mesh, "auto", 0);

@@ -50,7 +50,7 @@ struct WholeWindow {
       intake.finishBatch();
     }
     intake.finalizeAll();
-    regions.decide();
+    regions.take(0, core.window.mesh.cellEnd());
     resolver.resolve(0, intake.finalized(), intake.finalizedCount());
   }
 

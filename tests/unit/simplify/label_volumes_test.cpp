@@ -1,0 +1,41 @@
+// What is said of regions whose volumes change.
+#include "label_volumes.h"
+
+#include <gtest/gtest.h>
+
+namespace tetstream::test {
+namespace {
+
+// Of each cell an id, and two numbers that label it.
+const int64_t kRows[] = {90, 1, 5, 91, 1, 6, 92, 2, 5, 93, 1, 5};
+const int kColumns[] = {1, 2};
+
+TEST(LabelVolumes, AreToldOfThoseThatChangeTheMost) {
+  const CellLabels labels = {kRows, 3, kColumns, 2, nullptr};
+  LabelVolumes volumes;
+  EXPECT_EQ(volumes.changesInWords(), "");
+  for (uint32_t c : {0u, 1u, 2u, 3u}) volumes.add(labels, c, 10, LabelVolumes::kInput);
+  for (uint32_t c : {3u, 0u}) volumes.add(labels, c, 10.09, LabelVolumes::kOutput);  // of 1/5
+  volumes.add(labels, 1, 5, LabelVolumes::kOutput);
+  volumes.add(labels, 2, 10.2, LabelVolumes::kOutput);
+  EXPECT_EQ(volumes.changesInWords(),
+            "2 of 3 regions changed their volume by more than 1 %: 1/6 by -50 %, 2/5 by +2 %");
+}
+
+TEST(LabelVolumes, AreNotAllNamed) {
+  std::vector<int64_t> rows;
+  for (int64_t c = 0; c < 9; ++c) rows.push_back(c % 5);
+  const int column = 0;
+  const CellLabels labels = {rows.data(), 1, &column, 1, nullptr};
+  LabelVolumes volumes;
+  for (uint32_t c = 0; c < 5; ++c) {
+    volumes.add(labels, c, 1, LabelVolumes::kInput);
+    volumes.add(labels, c, 2 + c, LabelVolumes::kOutput);
+  }
+  EXPECT_EQ(volumes.changesInWords(),
+            "5 of 5 regions changed their volume by more than 1 %: 4 by +500 %, 3 by +400 %, "
+            "2 by +300 %, ...");
+}
+
+}  // namespace
+}  // namespace tetstream::test
