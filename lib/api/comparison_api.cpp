@@ -6,12 +6,6 @@
 
 using namespace tetstream;
 
-static void needReady(const tetstream_reader* reader, const char* which) {
-  needPlace(reader, which);
-  needCreated(*reader);
-  needState(*reader, State::kReady);
-}
-
 static void readInto(tetstream_comparison& c, tetstream_reader& original,
                      tetstream_reader& simplified, const ProgressFunction& progress) {
   using Clock = std::chrono::steady_clock;
@@ -158,8 +152,8 @@ tetstream_status tetstream_comparison_read(tetstream_comparison* comparison,
                                            tetstream_progress_callback progress, void* user) {
   return guard(__func__, comparison, [&](tetstream_comparison& c) {
     needState(c, State::kReady);
-    needReady(original, "original");
-    needReady(simplified, "simplified");
+    needUnread(original, "original");
+    needUnread(simplified, "simplified");
     if (original == simplified)
       fail(Status::kBadArgument, "both readers are the same: a reader is read once");
     c.state = State::kBroken;

@@ -32,9 +32,7 @@ static tetstream_layout_report publicReport(const LayoutReport& report) {
 
 static void copyTo(tetstream_writer& w, tetstream_reader* reader, RunOptions run,
                    RunOptions::Auto automatic, const ProgressFunction& progress) {
-  needPlace(reader, "reader");
-  needCreated(*reader);
-  needState(*reader, State::kReady);
+  needUnread(reader, "reader");
   Output& output = outputOf(w);
   output.needReady();
   run.automatic = automatic;

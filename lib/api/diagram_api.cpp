@@ -87,9 +87,7 @@ tetstream_status tetstream_diagram_read(tetstream_diagram* diagram, tetstream_re
   return guard(__func__, diagram, [&](tetstream_diagram& d) {
     needState(d, State::kReady);
     checkPage(page, true);
-    needPlace(reader, "reader");
-    needCreated(*reader);
-    needState(*reader, State::kReady);
+    needUnread(reader, "reader");
     d.state = State::kBroken;
     readInto(d, *reader, page == TETSTREAM_PAGE_SWEEP, progressOf(progress, user));
     d.state = State::kFinished;

@@ -2,6 +2,12 @@
 
 namespace tetstream {
 
+void needUnread(const tetstream_reader* reader, const char* argument) {
+  needPlace(reader, argument);
+  needCreated(*reader);
+  needState(*reader, State::kReady);
+}
+
 Output& outputOf(const tetstream_writer& writer) {
   needCreated(writer);
   if (!writer.output) failState(writer.kNoun, writer.state);

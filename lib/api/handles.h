@@ -79,6 +79,8 @@ namespace tetstream {
 
 // Throws kBadState if the writer could not be created.
 Output& outputOf(const tetstream_writer& writer);
+// Throws unless the reader can be read from: kBadArgument for none, with the argument's name.
+void needUnread(const tetstream_reader* reader, const char* argument);
 
 // The caller's reader is opened and what is known of its stream stored. Then and at once for all
 // others, `known` is set.

@@ -96,7 +96,7 @@ static std::string roundedNames(const Schema& schema) {
 }
 
 bool Output::mustRound(const Schema& schema) {
-  if (!format_ || format_->holds.float64 || !Rounding::needed(schema)) return false;
+  if (!format_ || !format_->float32_only || !Rounding::needed(schema)) return false;
   addNote("rounded to float32, which is all that ." + std::string(format_->name) +
           " holds: " + roundedNames(schema));
   return true;
@@ -126,7 +126,7 @@ void Output::start(const std::string& temp_dir) {
 }
 
 void Output::begin(const Schema& schema) {
-  if (format_ && !format_->holds.label_names && !schema.label_names.empty())
+  if (format_ && !format_->label_names && !schema.label_names.empty())
     addNote(textOf(".%s has no names of labels; they are left out: %s", format_->name,
                    shownLabelNames(schema.label_names).c_str()));
   sink().begin(schema);

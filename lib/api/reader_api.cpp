@@ -49,7 +49,7 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   options.join = run.join_points == "yes"  ? PointJoining::kYes
                  : run.join_points == "no" ? PointJoining::kNo
                                            : PointJoining::kAuto;
-  if (options.recover && format.open != openTets)
+  if (options.recover && !format.recovers)
     fail(Status::kUnsupported, "%s: only .tets files can be recovered, not those of format \"%s\"",
          bytes->name().c_str(), format.name);
   options.step = parseStep(run.step);
@@ -61,7 +61,7 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
   wrappingOf(path, &options.path);
   bytes = unwrapped(std::move(bytes));
-  if (!format.pipes_in) bytes = makeSeekable(std::move(bytes), options.temp_dir);
+  if (!format.reads_pipes) bytes = makeSeekable(std::move(bytes), options.temp_dir);
   std::shared_ptr<Waiting> waiting = bytes->waiting();
   const std::string name = bytes->name();
   reader.input = format.open(std::move(bytes), options);

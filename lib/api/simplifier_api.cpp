@@ -113,9 +113,7 @@ tetstream_status tetstream_simplifier_run(tetstream_simplifier* simplifier,
                                           tetstream_reader* reader) {
   return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
     needState(s, State::kReady);
-    needPlace(reader, "reader");
-    needCreated(*reader);
-    needState(*reader, State::kReady);
+    needUnread(reader, "reader");
     s.output->needReady();
     return static_cast<Status>(inStream(s, [&] { return pull(s, *reader); }));
   });

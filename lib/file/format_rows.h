@@ -41,23 +41,18 @@ struct WriteOptions {
   bool post_order = false;      // .sva, .svb
 };
 
-// What a format can hold. Values are rounded before, and not after, they were checked.
-struct Capabilities {
-  bool float64;              // else positions and fields are rounded to float32
-  int max_field_components;  // of all fields together; -1: any number
-  bool cell_data;
-  bool label_names = false;
-};
-
 struct Format {
-  const char* name;        // "tets", the word of --format
-  const char* extensions;  // ".tets", blank-separated
-  const char* text;        // one line
-  Capabilities holds;
-  bool pipes_in, pipes_out;  // can be read from, written to a pipe as it comes
+  const char* name;           // "tets", the word of --format
+  const char* extensions;     // ".tets", blank-separated
+  const char* text;           // one line
+  bool float32_only = false;  // positions and fields are rounded, before they are checked
+  bool label_names = false;   // are held
+  bool reads_pipes = false;   // as they come; else they are spooled
+  bool recovers = false;      // what is whole of a damaged file can be read
   // Null where the format is not read or not written.
-  Input (*open)(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-  std::unique_ptr<Sink> (*create)(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+  Input (*open)(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) = nullptr;
+  std::unique_ptr<Sink> (*create)(std::unique_ptr<ByteSink> bytes,
+                                  const WriteOptions& options) = nullptr;
 };
 
 // The rows, each defined in its own file.

@@ -2,15 +2,14 @@
 #include "run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <thread>
+#include <optional>
 
 #include "front_meter.h"
 #include "ordering.h"
 #include "orders.h"
-#include "read_ahead.h"
-#include "sampler.h"
+#include "pilot_run.h"
+#include "reading.h"
 #include "simplifier.h"
 #include "spooled_mesh.h"
 #include "status.h"
@@ -27,21 +26,6 @@ using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-// A pilot takes this share of the time of the run that it serves.
-constexpr double kPilotShare = 0.5;
-constexpr int64_t kPilotCells = 1 << 18;
-// Larger meshes are sampled, which takes this share.
-constexpr double kSampleShare = 0.1;
-// A stream of so many cells, which most files hold in one piece, is not read ahead.
-constexpr int64_t kReadAtOnce = 1 << 14;
-
-class Nowhere final : public Sink {
- public:
-  void begin(const Schema&) override {}
-  void put(const BatchView&) override {}
-  void finish() override {}
-};
 
 RunOptions withTasks(RunOptions options, const Tasks* tasks) {
   options.simplify.tasks = tasks;
@@ -69,25 +53,11 @@ struct SimplifyRun::State {
       : tasks(threadsOf(the_options), the_options.workers),
         options(withTasks(the_options, &tasks)),
         progress(std::move(the_progress)),
-        behind(overlaps() && !out.staysWithCaller() ? std::make_unique<WriteBehind>(out, tasks)
-                                                    : nullptr),
+        behind(overlaps(options, tasks) && !out.staysWithCaller()
+                   ? std::make_unique<WriteBehind>(out, tasks)
+                   : nullptr),
         simplifier(options.simplify, behind ? *behind : out,
                    [this](const Progress& p) { tell(p); }) {}
-
-  // A memory budget is for one batch on its way, as it is for a single patch.
-  bool overlaps() const { return tasks.threads() > 1 && options.simplify.memory_bytes == 0; }
-
-  // The stream, read ahead where that may be, and takes longer than another thread to begin.
-  std::unique_ptr<ReadAhead> ahead(Source& stream, const Ordering& ordering) const {
-    const int64_t cells = stream.schema().cell_count;
-    const bool is_short = cells >= 0 && cells <= kReadAtOnce;
-    if (!overlaps() || is_short || ordering.staysWithCaller()) return nullptr;
-    if (!ordering.waiting()) return std::make_unique<ReadAhead>(stream, tasks);
-    // To threads that the caller brings none of ours are added; and two leave no core to who is at
-    // the other end as it is.
-    if (options.workers || tasks.threads() == 2) return nullptr;
-    return std::make_unique<ReadAhead>(stream, ordering.waiting());
-  }
 
   // Of two errors the one that came first in the stream's order: what was put before the other is
   // written first.
@@ -112,9 +82,8 @@ struct SimplifyRun::State {
   Tasks tasks;
   RunOptions options;
   ProgressFunction progress;
-  double order_share = 0;   // of the time, of ordering that is done
-  double pilot_share = 0;   // of the time, of a pilot that is done
-  double sample_share = 0;  // of the time, of what is read for a sample
+  double order_share = 0;  // of the time, of ordering that is done
+  double pilot_share = 0;  // of the time, of a pilot that is done
   std::unique_ptr<WriteBehind> behind;
   Simplifier simplifier;
   std::unique_ptr<SpooledMesh> collector;
@@ -128,129 +97,14 @@ struct SimplifyRun::State {
                     Simplifier::measuredFields(input.schema(), options.simplify));
     order_share = stream.share();
     order = stream.chosen();
-    readBefore(stream);
-    const auto before = ahead(stream.source(), stream);
+    PilotRun pilot(options, tasks, stream, [this](const Progress& p) { tell(p); });
+    if (const std::optional<Pilot> found = pilot.run()) simplifier.follow(*found);
+    pilot_share = pilot.share();
+    const auto before = readAhead(stream.source(), stream, options, tasks);
     copyStream(before ? *before : stream.source(), simplifier);
     close();
     report.unused_vertices += stream.unusedVertices();
     report.vertices_in += stream.unusedVertices();
-  }
-  // Looks at the stream before it is simplified, where that is worth its time: at a mesh larger
-  // than its window.
-  void readBefore(Ordering& stream) {
-    const SimplifyOptions& o = options.simplify;
-    const Schema& schema = stream.source().schema();
-    const int64_t cells = schema.cell_count, window = Simplifier::windowCells(schema, o);
-    if (followsPaper(o.mode) || o.pilot != PilotUse::kAuto || cells <= window) return;
-    if (o.memory_bytes == 0 && cells <= kPilotCells)
-      flyWhole(stream);
-    else if (Sampler::serves(schema, o) && Sampler::pays(schema, o))
-      sample(stream);
-  }
-  void flyWhole(Ordering& stream) {
-    const std::unique_ptr<Source> again = stream.source().again(Part::kAll);
-    if (!again) return;
-    const auto before = ahead(*again, stream);
-    Source& source = before ? *before : *again;
-    SimplifyOptions whole = options.simplify;
-    whole.window_cells = source.schema().cell_count;
-    Nowhere nowhere;
-    Simplifier pilot(whole, nowhere, [this](Progress p) {
-      p.phase = "pilot";
-      p.cells_written = 0;
-      if (p.fraction >= 0) p.fraction *= kPilotShare;
-      tell(p);
-    });
-    copyStream(source, pilot);
-    simplifier.follow(pilot.pilot());
-    pilot_share = kPilotShare;
-  }
-  // Of a long stream, which is read twice for it. What is wrong with it is told as it is found
-  // from end to end.
-  void sample(Ordering& stream) {
-    if (overlaps() && !stream.staysWithCaller()) {
-      try {
-        sampleBy(tasks.threads(), stream);
-        return;
-      } catch (const Error& error) {
-        const Status status = error.status();
-        if (status != Status::kBadData && status != Status::kIo && status != Status::kNoMemory)
-          throw;
-      }
-    }
-    sampleBy(1, stream);
-  }
-  void sampleBy(size_t threads, Ordering& stream) {
-    Sampler sampler(stream.source().schema(), options.simplify);
-    const size_t most = std::min(threads, sampler.mostStretches());
-    std::vector<Stretch> stretches = stretchesOf(stream, Part::kPositions, most, 0);
-    if (stretches.empty()) return;
-    sampler.countInStretches(stretches.size());
-    const auto vertices = static_cast<double>(stream.source().schema().vertex_count);
-    readSampling(stream, stretches, 0, [&](const BatchView& batch, size_t stretch) {
-      sampler.count(batch, stretch);
-      return static_cast<double>(batch.vertex_count) / vertices;
-    });
-    stretches = stretchesOf(stream, Part::kAll, most, sampler.reach());
-    if (stretches.empty()) return;
-    std::vector<Stretch::Begin> begins;
-    begins.reserve(stretches.size());
-    for (const Stretch& stretch : stretches) begins.push_back(stretch.begin);
-    sampler.takeBricks(begins);
-    const auto cells = static_cast<double>(stream.source().schema().cell_count);
-    readSampling(stream, stretches, kSampleShare / 2, [&](const BatchView& batch, size_t stretch) {
-      sampler.put(batch, stretch);
-      return static_cast<double>(batch.cell_count) / cells;
-    });
-    try {
-      simplifier.follow(sampler.fly());
-    } catch (const Error& error) {  // the run itself will say where, and what would do
-      if (error.status() != Status::kBadData && error.status() != Status::kNoMemory) throw;
-    }
-    pilot_share = kSampleShare;
-  }
-  // For that many threads, or one of all; none where the stream can be read but once.
-  std::vector<Stretch> stretchesOf(Ordering& stream, Part part, size_t most, uint64_t before) {
-    Source& source = stream.source();
-    std::vector<Stretch> stretches;
-    if (most > 1) stretches = source.againInStretches(part, most, before);
-    if (!stretches.empty()) return stretches;
-    if (std::unique_ptr<Source> all = source.again(part)) stretches.push_back({std::move(all), {}});
-    return stretches;
-  }
-  // use(batch, stretch) returns how much of the stream has been read with it, of 1.
-  template <class Use>
-  void readSampling(Ordering& stream, std::vector<Stretch>& stretches, double share_before,
-                    Use use) {
-    const size_t count = stretches.size();
-    const auto before = count == 1 ? ahead(*stretches[0].source, stream) : nullptr;
-    std::atomic<size_t> end = count;  // of no use is what comes after a part that failed
-    const std::thread::id caller = std::this_thread::get_id();
-    tasks.forParts(count, [&](size_t k) {
-      Source& source = before ? *before : *stretches[k].source;
-      BatchView batch;
-      double part = 0;
-      try {
-        while (k < end && source.next(batch)) {
-          part += static_cast<double>(count) * use(batch, k);
-          if (std::this_thread::get_id() != caller) continue;
-          tellSampling(share_before, std::min(part, 1.0), source.schema().cell_count);
-        }
-      } catch (...) {
-        for (size_t known = end; k < known && !end.compare_exchange_weak(known, k);) {
-        }
-        throw;
-      }
-    });
-  }
-  void tellSampling(double share_before, double part, int64_t cells) {
-    Progress p;
-    p.phase = "pilot";
-    p.cells_total = cells;
-    p.cells_read = static_cast<int64_t>(part * static_cast<double>(cells));
-    // Never back: the caller's thread may read several parts, and all once more.
-    p.fraction = sample_share = std::max(sample_share, share_before + kSampleShare / 2 * part);
-    tell(p);
   }
   Report soFar() const {
     Report r = simplifier.report();

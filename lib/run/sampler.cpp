@@ -278,7 +278,7 @@ class Survivors final : public Sink {
 
 }  // namespace
 
-Pilot Sampler::fly() {
+Pilot Sampler::simplify() {
   const BatchView all = mesh();
   if (all.cell_count == 0) return {};
   SimplifyOptions whole = options_;

@@ -42,9 +42,9 @@ class Sampler {
 
   // Then simplifies the sample, and tells how what is left of it is spread over the whole stream:
   // not known() where too little was met, or nothing could be simplified.
-  Pilot fly();
+  Pilot simplify();
 
-  // For fly, and to be looked at, when all is put. The sample as a stream of one batch:
+  // What that works with, once all is put: the sample as a stream of one batch,
   BatchView mesh();
   Schema schema() const;  // of that
   // What the sample leaves of a memory budget, for the window that simplifies it.

@@ -34,7 +34,7 @@ void expectWithinBudget(const TestMesh& mesh, Schema schema, int64_t span, int64
   const auto held = static_cast<int64_t>(held_bytes - before);
   EXPECT_GT(sampler.windowBytes(), budget / 3);
   EXPECT_LE(held + sampler.windowBytes(), budget);
-  EXPECT_TRUE(sampler.fly().known());
+  EXPECT_TRUE(sampler.simplify().known());
 }
 
 TEST(SamplerMemory, IsOfItsBudget) {

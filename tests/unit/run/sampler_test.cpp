@@ -158,12 +158,12 @@ TEST(Sampler, TakesTheSameInStretches) {
     read(swept, whole, [](const BatchView&) {});
     const BatchView sample = whole.mesh();
     EXPECT_GT(sample.cell_count, 0u);
-    const Pilot pilot = whole.fly();
+    const Pilot pilot = whole.simplify();
     for (const size_t count : {2, 3}) {
       Sampler sampler(schema, {});
       readInStretches(again, sampler, count);
       expectSame(sampler.mesh(), sample);
-      EXPECT_EQ(sampler.fly().share, pilot.share);
+      EXPECT_EQ(sampler.simplify().share, pilot.share);
     }
   }
 }
@@ -231,7 +231,7 @@ TEST(Sampler, TakesNoMoreThanABrickOfWhatLiesInOnePlace) {
       const size_t vertices = sampler.mesh().vertex_count;
       EXPECT_TRUE(vertices == 0 || vertices == most) << vertices << " of " << most;
       met += vertices > 0;
-      EXPECT_FALSE(sampler.fly().known());  // of one place
+      EXPECT_FALSE(sampler.simplify().known());  // of one place
     }
   EXPECT_GT(met, 0u);
 }
@@ -243,7 +243,7 @@ TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   options.ratio = 0.2;
   Sampler sampler(swept.stream.schema(), options);
   read(swept, sampler, [](const BatchView&) {});
-  const Pilot pilot = sampler.fly();
+  const Pilot pilot = sampler.simplify();
   ASSERT_TRUE(pilot.known());
   EXPECT_EQ(pilot.shareOf(0), 0);
   EXPECT_EQ(pilot.shareOf(1), 1);
@@ -274,7 +274,7 @@ TEST(Sampler, TellsOfPartsThatItHasNotMet) {
     sampler.put(cells);
     seen += static_cast<double>(batch.cell_count);
   }
-  const Pilot pilot = sampler.fly();
+  const Pilot pilot = sampler.simplify();
   ASSERT_TRUE(pilot.known());
   const double unmet = (pilot.shareOf(0.28) - pilot.shareOf(0.14)) / 0.14;
   EXPECT_GT(unmet, 0.8 * pilot.shareOf(0.5) / 0.5);  // 0.5, were it told by all
@@ -290,7 +290,7 @@ TEST(Sampler, SpreadsTheCellsForAnyTarget) {
     Swept swept(mesh);
     Sampler sampler(swept.stream.schema(), options);
     read(swept, sampler, [](const BatchView&) {});
-    const Pilot pilot = sampler.fly();
+    const Pilot pilot = sampler.simplify();
     ASSERT_TRUE(pilot.known());
     for (double part = 0; part < 1; part += 0.125) {
       const double share = pilot.shareOf(part + 0.125) - pilot.shareOf(part);
