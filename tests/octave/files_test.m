@@ -61,6 +61,9 @@ tetstream_convert (at ("cube.vtk"), at ("cube.tets"), "split", "yes");
 figures = tetstream_compare (at ("cube.vtk"), at ("cube.tets"), "split", "yes");
 assert (figures.simplified.cells, rows (cube.cells));
 assert (tetstream_compare (at ("cube.vtk"), cube, "split", "yes").original.cells, rows (cube.cells));
+tetstream_convert (cube, at ("cube.vtu"));
+figures = tetstream_compare (at ("cube.tets"), at ("cube.vtu"), "recover", "yes");
+assert (figures.simplified.cells, rows (cube.cells));
 fails ("tetstream:unsupported", "split", @() tetstream_read (at ("cube.vtk")));
 fails ("tetstream:unsupported", "recover", ...
        @() tetstream_read (at ("cube.vtk"), "split", "yes", "recover", "yes"));

@@ -94,6 +94,8 @@ class Files(unittest.TestCase):
             found = tetstream.compare(self.path("steps.exo"), result, step="0",
                                       cells_to_points="yes")
             self.assertLess(found.fields["f"].largest_percent, 1e-5)
+        found = tetstream.compare(self.path("result.tets"), self.path("steps.exo"), recover="yes")
+        self.assertLess(found.fields["f"].largest_percent, 1e-5)
 
     def test_names_that_are_not_utf8_go_through(self):
         named = self.path("named.vtk")

@@ -51,7 +51,8 @@ endfunction
 ## step or as a stream.
 function [reader, kept] = simplified_reader (caller, source, own, pairs)
   all = reading ();
-  for dropped = {{}, {"step"}, {"join_points", "cells_to_points"}, all}
+  making = {"join_points", "cells_to_points"};
+  for dropped = {{}, {"step"}, making, [{"step"}, making], all}
     if (! ischar (source))
       dropped = {all};
     endif

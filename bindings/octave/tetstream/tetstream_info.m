@@ -1,11 +1,11 @@
 ## info = tetstream_info (source, ...)
 ##
 ## Reads everything and tells what a mesh is, of a file or in a struct: vertex_count, cell_count,
-## face_count (labelled faces); fields and cell_data: structs of name to the number of components; box: 2 x 3, least and largest
-## coordinates; ranges: a struct of field to its least and largest values, 2 x k; label_names: what
-## labels mean, as in tetstream_read; front: how coherent its order is, width and span in vertices,
-## cells that touch them; notes. An indexed mesh's front is that of the order in which it is
-## streamed.
+## face_count (labelled faces); fields and cell_data: structs of name to the number of components;
+## box: 2 x 3, least and largest coordinates; ranges: a struct of field to its least and largest
+## values, 2 x k; label_names: what labels mean, as in tetstream_read; front: how coherent its order
+## is, width and span in vertices, cells that touch them; notes. An indexed mesh's front is that of
+## the order in which it is streamed.
 ##
 ## Pairs: "window", "memory", "order", "axis", "tmpdir"; of files "step", "split", "recover",
 ## "join-points", "cells-to-points"; "progress", a function.

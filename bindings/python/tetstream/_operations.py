@@ -135,14 +135,14 @@ def _simplified_reader(source, options):
     only step or as a stream."""
     if isinstance(source, (_streams.Reader, _mesh.Mesh)):
         options = {name: value for name, value in options.items() if name not in _options.READING}
-    for dropped in ((), ("step",), ("join_points", "cells_to_points")):
+    making = ("join_points", "cells_to_points")
+    for dropped in ((), ("step",), making, ("step", *making), _options.READING):
         kept = {name: value for name, value in options.items() if name not in dropped}
         try:
             return _streams.reader_of(source, _options.made(kept))
         except Unsupported:
-            pass
-    kept.pop("step", None)
-    return _streams.reader_of(source, _options.made(kept))
+            if dropped is _options.READING:
+                raise
 
 
 @_options.documented("samples", "boundary_samples", "seed", "cut", "box", "regions", "memory",

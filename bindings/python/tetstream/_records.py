@@ -39,6 +39,7 @@ class StreamInfo(Record):
     """What a stream carries: ``position_type``; ``fields`` and ``cell_data``, each a dict of name
     to (numpy dtype, components); ``vertex_count``, ``cell_count``, ``face_count`` (labelled
     faces); the front, in ``front_width``, ``front_span``, ``front_cells``, and ``front``, which
-    has more; ``box``, [2][3]: least and largest coordinates; ``ranges``, a dict of field to [2][components]: least and largest values;
+    has more; ``box``, [2][3]: least and largest coordinates; ``ranges``, a dict of field to
+    [2][components]: least and largest values;
     ``label_names``, as of a Mesh; ``indexed``; ``notes``. Counts that are not known are -1, boxes
     None."""

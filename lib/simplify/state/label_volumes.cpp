@@ -9,7 +9,7 @@ namespace tetstream {
 
 constexpr double kLeastChange = 0.01;
 constexpr size_t kNamed = 3;
-constexpr size_t kMostRegions = 100000;  // further ones are not looked at: memory has a bound
+constexpr size_t kMostRegions = 10000;  // further ones are not looked at: memory has a bound
 
 // Null where there are too many.
 auto LabelVolumes::volumesOf(const CellLabels& labels, uint32_t cell) -> Volumes* {
@@ -44,8 +44,9 @@ std::string LabelVolumes::changesInWords() const {
   std::stable_sort(changes.begin(), changes.end(), [](const auto& a, const auto& b) {
     return std::fabs(a.first) > std::fabs(b.first);
   });
-  std::string text = textOf(
-      "%zu of %zu regions changed their volume by more than 1 %%:", changes.size(), all_.size());
+  std::string text =
+      textOf("%zu of %s%zu regions changed their volume by more than 1 %%:", changes.size(),
+             all_.size() == kMostRegions ? "the first " : "", all_.size());
   for (size_t i = 0; i < std::min(changes.size(), kNamed); ++i)
     text += textOf("%s %s by %+.3g %%", i == 0 ? "" : ",", nameOf(*changes[i].second).c_str(),
                    100 * changes[i].first);

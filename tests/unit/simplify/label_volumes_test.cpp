@@ -37,5 +37,20 @@ TEST(LabelVolumes, AreNotAllNamed) {
             "2 by +300 %, ...");
 }
 
+TEST(LabelVolumes, AreNotKeptOfAnyNumber) {
+  constexpr int64_t kRegions = 10001;
+  std::vector<int64_t> rows;
+  for (int64_t c = 0; c < kRegions; ++c) rows.push_back(c);
+  const int column = 0;
+  const CellLabels labels = {rows.data(), 1, &column, 1, nullptr};
+  LabelVolumes volumes;
+  for (uint32_t c = 0; c < kRegions; ++c) {
+    volumes.add(labels, c, 1, LabelVolumes::kInput);
+    volumes.add(labels, c, c == 3 || c == kRegions - 1 ? 2 : 1, LabelVolumes::kOutput);
+  }
+  EXPECT_EQ(volumes.changesInWords(),
+            "1 of the first 10000 regions changed their volume by more than 1 %: 3 by +100 %");
+}
+
 }  // namespace
 }  // namespace tetstream::test

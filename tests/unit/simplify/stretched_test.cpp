@@ -72,8 +72,8 @@ TEST(Stretched, MeshesHaveAFloorFarBelowTheirCells) {
   }
 }
 
-// A sea, its layers finer towards the surface; of so many lengths of its depth, up and down the
-// ground, a bump that all layers have.
+// A sea of depth 1 at most over an uneven ground, so wide, its layers finer towards the surface;
+// the field does not change with depth.
 TestMesh sea(int n, double width) {
   const TestMesh grid = fullGrid(n, n, n / 3);
   std::vector<double> positions;
