@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cctype>
+#include <map>
 
 #include "completion.h"
 #include "failure.h"
@@ -233,33 +234,21 @@ CLI::Option* Parser::addTableOption(CLI::App* command, const tetstream_option_in
       ->option_text(metavariable(info));
 }
 
-// What counts where a file of any kind is read.
-bool isOfFiles(int32_t id) {
-  return id == TETSTREAM_OPTION_SPLIT || id == TETSTREAM_OPTION_JOIN_POINTS ||
-         id == TETSTREAM_OPTION_CELLS_TO_POINTS || id == TETSTREAM_OPTION_STEP;
+// Whether an option counts where a file is read and then worked on in that way.
+bool counts(const tetstream_option_info& info, int32_t scope) {
+  return (info.scope & (TETSTREAM_SCOPE_READ | scope)) != 0;
 }
 
-// What counts where nothing is simplified.
 void Parser::addStreamOptions(CLI::App* command) {
   for (const tetstream_option_info& info : optionTable())
-    if (info.id == TETSTREAM_OPTION_MEMORY || info.id == TETSTREAM_OPTION_TMPDIR ||
-        info.id == TETSTREAM_OPTION_AXIS || info.id == TETSTREAM_OPTION_ORDER ||
-        info.id == TETSTREAM_OPTION_RECOVER || info.id == TETSTREAM_OPTION_THREADS ||
-        isOfFiles(info.id))
-      addTableOption(command, info);
-}
-
-// What no other command takes.
-bool isOfComparison(int32_t id) {
-  return id == TETSTREAM_OPTION_SAMPLES || id == TETSTREAM_OPTION_BOUNDARY_SAMPLES ||
-         id == TETSTREAM_OPTION_CUT || id == TETSTREAM_OPTION_BOX;
+    if (counts(info, TETSTREAM_SCOPE_ORDER)) addTableOption(command, info);
 }
 
 void Parser::addSimplify(CLI::App* command) {
   addIn(command);
   addOut(command);
   for (tetstream_option_info info : optionTable()) {
-    if (isOfComparison(info.id)) continue;
+    if (!counts(info, TETSTREAM_SCOPE_SIMPLIFY)) continue;
     // The defaults of the two targets do not hold here: one has to be given.
     if (info.id == TETSTREAM_OPTION_RATIO || info.id == TETSTREAM_OPTION_CELLS)
       info.default_text = nullptr;
@@ -364,20 +353,24 @@ void Parser::addCompare(CLI::App* command) {
   addWord(command, "--picture", arguments_.out.path, "FILE",
           "Draw a cut through both, the error on it and its spread: FILE.png or FILE.svg");
   addTitle(command, "What stands above the picture (default: the files' names)");
+  // What the table says of runs, in words of a comparison.
+  const std::map<int32_t, const char*> texts = {
+      {TETSTREAM_OPTION_CUT,
+       "plane of the picture: auto, across the shortest axis; x, y, z or x=0.3"},
+      {TETSTREAM_OPTION_BOX,
+       "part of ORIGINAL whose fields and boundary are compared: x0:x1,y0:y1,z0:z1, whose ends may "
+       "be left out (default: all of it)"},
+      {TETSTREAM_OPTION_REGIONS,
+       "cell array whose labels are regions; auto: the first of both with several values and no "
+       "ids; "
+       "none"},
+      {TETSTREAM_OPTION_SEED, "another seed takes other samples"},
+      {TETSTREAM_OPTION_MEMORY, "bytes that the comparison may take; 0: 512M"},
+  };
   for (tetstream_option_info info : optionTable()) {
-    if (info.id == TETSTREAM_OPTION_CUT) {
-      info.text = "plane of the picture: auto, across the shortest axis; x, y, z or x=0.3";
-      info.default_text = "auto";
-    }
-    if (info.id == TETSTREAM_OPTION_BOX)
-      info.text =
-          "part of ORIGINAL whose fields and boundary are compared: x0:x1,y0:y1,z0:z1, whose "
-          "ends may be left out (default: all of it)";
-    if (isOfComparison(info.id) || info.id == TETSTREAM_OPTION_SEED ||
-        info.id == TETSTREAM_OPTION_REGIONS || info.id == TETSTREAM_OPTION_MEMORY ||
-        info.id == TETSTREAM_OPTION_TMPDIR || info.id == TETSTREAM_OPTION_THREADS ||
-        isOfFiles(info.id))
-      addTableOption(command, info);
+    if (const auto text = texts.find(info.id); text != texts.end()) info.text = text->second;
+    if (info.id == TETSTREAM_OPTION_CUT) info.default_text = "auto";
+    if (counts(info, TETSTREAM_SCOPE_COMPARE)) addTableOption(command, info);
   }
   addReport(command);
   addProgress(command);

@@ -20,32 +20,6 @@ static Comparison createComparison(const Arguments& arguments) {
   return comparison;
 }
 
-// The options without a step, and without what makes a mesh out of a file.
-static OptionWords without(OptionWords words, bool step, bool making) {
-  std::erase_if(words.values, [=](const auto& value) {
-    const bool makes = value.first == "join-points" || value.first == "cells-to-points";
-    return (step && value.first == "step") || (making && makes && value.second == "yes");
-  });
-  return words;
-}
-
-// What an option of the reading makes of ORIGINAL may be made already in SIMPLIFIED, as its only
-// step or as a stream: it counts there if it is of a kind that takes it.
-static Reader openSimplified(const Arguments& arguments) {
-  const bool is_once = arguments.second.isStandard();
-  for (const auto& [step, making] : {std::pair(false, false), {true, false}, {false, true}}) {
-    if (is_once) break;
-    try {
-      const Options options = makeOptions(without(arguments.options, step, making));
-      return openReader(arguments.second, options.get());
-    } catch (const Failure& failure) {
-      if (failure.code != kUnsupported) throw;
-    }
-  }
-  const Options options = makeOptions(without(arguments.options, true, true));
-  return openReader(arguments.second, options.get());
-}
-
 ExitCode compare(const Arguments& arguments) {
   if (arguments.in.isStandard() && arguments.second.isStandard())
     throw Failure{kUsage, "only one of the meshes can come from standard input"};
@@ -53,7 +27,7 @@ ExitCode compare(const Arguments& arguments) {
   if (!arguments.out.path.empty()) checkOutput(arguments.out);
   const Options options = makeOptions(arguments.options);
   const Reader original = openReader(arguments.in, options.get());
-  const Reader simplified = openSimplified(arguments);
+  const Reader simplified = openResult(arguments.second, options.get());
   ProgressBar bar(progressOf(arguments));
   const tetstream_status status = tetstream_comparison_read(
       comparison.get(), original.get(), simplified.get(), ProgressBar::callback, &bar);

@@ -97,6 +97,17 @@ Reader openReader(const Place& in, const tetstream_options* options) {
   return reader;
 }
 
+Reader openResult(const Place& in, const tetstream_options* options) {
+  // note: what comes through a pipe is a stream, which is read as it is.
+  if (in.isStandard()) return openReader(in, nullptr);
+  tetstream_reader* handle = nullptr;
+  const tetstream_status status =
+      tetstream_reader_open_result(in.path.c_str(), formatOf(in), options, &handle);
+  Reader reader(handle);
+  check(status, handle);
+  return reader;
+}
+
 Reader generateReader(const std::string& kind, int64_t cells, int64_t seed) {
   tetstream_reader* handle = nullptr;
   const tetstream_status status = tetstream_reader_generate(kind.c_str(), cells, seed, &handle);

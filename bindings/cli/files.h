@@ -29,6 +29,8 @@ bool isPipe(const Place& out);
 
 // The tmpdir option holds for a pipe that has to be spooled, too.
 Reader openReader(const Place& in, const tetstream_options* options);
+// What was made of a mesh that is read with these options.
+Reader openResult(const Place& in, const tetstream_options* options);
 Writer createWriter(const Place& out, const std::vector<Property>& properties);
 // A vertex map and a collapse log, unless the path is empty; "-" gets them as text.
 void setMap(tetstream_simplifier* simplifier, const Place& map);

@@ -48,6 +48,7 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
   ~Reader();
   static Reader* openFile(const char* path, const char* format, const Options& options);
+  static Reader* openResult(const char* path, const char* format, const Options& options);
   static Reader* openMemory(const ArrayView& bytes, const char* format, const Options& options);
   static Reader* openMesh(const StreamInfo& info, StreamBatch& mesh);
   static Reader* generate(const char* kind, int64_t cells, int64_t seed);

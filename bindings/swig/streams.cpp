@@ -47,6 +47,12 @@ Reader* Reader::openFile(const char* path, const char* format, const Options& op
   });
 }
 
+Reader* Reader::openResult(const char* path, const char* format, const Options& options) {
+  return made(std::unique_ptr<Reader>(new Reader), [&](tetstream_reader** handle) {
+    return tetstream_reader_open_result(path, format, options.handle(), handle);
+  });
+}
+
 Reader* Reader::openMemory(const ArrayView& bytes, const char* format, const Options& options) {
   if (bytes.data && bytes.type != kBytes) failArgument("bytes: an array of uint8 is wanted");
   const auto size = static_cast<size_t>(bytes.rows) * static_cast<size_t>(bytes.columns);

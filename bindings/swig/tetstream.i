@@ -65,6 +65,7 @@ int32_t tetstream_option_count(void);
 
 // ----------------------------------------------------------------------------------- handles
 %newobject tetstream::swig::Reader::openFile;
+%newobject tetstream::swig::Reader::openResult;
 %newobject tetstream::swig::Reader::openMemory;
 %newobject tetstream::swig::Reader::openMesh;
 %newobject tetstream::swig::Reader::generate;

@@ -142,6 +142,12 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_IS_DOUBLE 2
 #define TETSTREAM_OPTION_IS_TEXT 3
 
+/* Where an option counts. */
+#define TETSTREAM_SCOPE_READ 1     /* where a reader is opened; alone: in what is made of a file */
+#define TETSTREAM_SCOPE_ORDER 2    /* where a mesh is ordered, copied, inspected or drawn */
+#define TETSTREAM_SCOPE_SIMPLIFY 4 /* where it is simplified */
+#define TETSTREAM_SCOPE_COMPARE 8  /* where two are compared */
+
 typedef struct tetstream_options tetstream_options;
 
 /* One row of the table. The library fills as many members as struct_size covers. */
@@ -154,6 +160,7 @@ typedef struct tetstream_option_info {
   double minimum, maximum;  /* of numbers, both included unless the text says otherwise */
   const char *default_text; /* static */
   const char *choices;      /* of texts, blank-separated; NULL: anything; static */
+  int32_t scope;            /* TETSTREAM_SCOPE_..., added up */
 } tetstream_option_info;
 
 /* The number of options. Since 0.1. */
@@ -385,6 +392,13 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory_with(const void *dat
                                                                  const char *format,
                                                                  const tetstream_options *options,
                                                                  tetstream_reader **reader);
+/* A file to be compared with another that is opened with these options: what they made of that one
+ * (TETSTREAM_SCOPE_READ alone) may be made already in this one, as its only step or as a stream. They count
+ * as in tetstream_reader_open_file_with, less those that this file does not take: `step`, then
+ * join-points and cells-to-points, then all of them. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_reader_open_result(const char *path, const char *format,
+                                                            const tetstream_options *options,
+                                                            tetstream_reader **reader);
 /* An indexed mesh in arrays of the caller's, which must stay as they are until the reader is
  * destroyed: `mesh` is one batch that holds everything, labelled faces and what is locked, too; its
  * last_uses and finalized are not looked at. Counts of `info` are not looked at either. Since 0.1.

@@ -13,31 +13,48 @@ namespace tetstream {
 static constexpr int64_t kLeast = std::numeric_limits<int64_t>::min();
 static constexpr int64_t kMost = std::numeric_limits<int64_t>::max();
 
+// The names that options.def has for them.
+static constexpr int32_t kRead = TETSTREAM_SCOPE_READ, kOrder = TETSTREAM_SCOPE_ORDER,
+                         kSimplify = TETSTREAM_SCOPE_SIMPLIFY, kCompare = TETSTREAM_SCOPE_COMPARE,
+                         kAny = kRead | kOrder | kSimplify | kCompare;
+
 static const OptionRow kRows[] = {
-#define OPTION_DOUBLE(ID, name, minimum, maximum, standard, member, text) \
-  {TETSTREAM_OPTION_##ID,                                                 \
-   TETSTREAM_OPTION_IS_DOUBLE,                                            \
-   name,                                                                  \
-   text,                                                                  \
-   minimum,                                                               \
-   maximum,                                                               \
-   0,                                                                     \
-   0,                                                                     \
-   #standard,                                                             \
-   nullptr},
-#define OPTION_INT64(ID, name, minimum, maximum, standard, member, text) \
-  {TETSTREAM_OPTION_##ID,                                                \
-   TETSTREAM_OPTION_IS_INT64,                                            \
-   name,                                                                 \
-   text,                                                                 \
-   double(minimum),                                                      \
-   double(maximum),                                                      \
-   minimum,                                                              \
-   maximum,                                                              \
-   #standard,                                                            \
-   nullptr},
-#define OPTION_TEXT(ID, name, choices, standard, member, text) \
-  {TETSTREAM_OPTION_##ID, TETSTREAM_OPTION_IS_TEXT, name, text, 0, 0, 0, 0, standard, choices},
+#define OPTION_DOUBLE(ID, name, scope, minimum, maximum, standard, member, text) \
+  {TETSTREAM_OPTION_##ID,                                                        \
+   TETSTREAM_OPTION_IS_DOUBLE,                                                   \
+   name,                                                                         \
+   text,                                                                         \
+   minimum,                                                                      \
+   maximum,                                                                      \
+   0,                                                                            \
+   0,                                                                            \
+   #standard,                                                                    \
+   nullptr,                                                                      \
+   scope},
+#define OPTION_INT64(ID, name, scope, minimum, maximum, standard, member, text) \
+  {TETSTREAM_OPTION_##ID,                                                       \
+   TETSTREAM_OPTION_IS_INT64,                                                   \
+   name,                                                                        \
+   text,                                                                        \
+   double(minimum),                                                             \
+   double(maximum),                                                             \
+   minimum,                                                                     \
+   maximum,                                                                     \
+   #standard,                                                                   \
+   nullptr,                                                                     \
+   scope},
+#define OPTION_TEXT(ID, name, scope, choices, standard, member, text) \
+  {TETSTREAM_OPTION_##ID,                                             \
+   TETSTREAM_OPTION_IS_TEXT,                                          \
+   name,                                                              \
+   text,                                                              \
+   0,                                                                 \
+   0,                                                                 \
+   0,                                                                 \
+   0,                                                                 \
+   standard,                                                          \
+   choices,                                                           \
+   scope},
 #include "options.def"
 #undef OPTION_DOUBLE
 #undef OPTION_INT64
@@ -47,7 +64,7 @@ static const OptionRow kRows[] = {
 // The numbers that stand in RunOptions and SimplifyOptions as defaults are those of the table.
 // note: GCC checks it for all; Clang with GCC's library takes no std::string as a constant.
 #ifndef __clang__
-#define OPTION_DOUBLE(ID, name, minimum, maximum, standard, member, text) \
+#define OPTION_DOUBLE(ID, name, scope, minimum, maximum, standard, member, text) \
   static_assert(RunOptions{}.member == standard);
 #define OPTION_INT64 OPTION_DOUBLE
 #define OPTION_TEXT(...)
@@ -173,7 +190,11 @@ static double parseReal(const OptionRow& row, const std::string& text) {
 
 OptionValues::OptionValues() {
   static_assert(kCount == std::size(kRows));
-  for (const OptionRow& row : kRows) parse(row.name, row.default_text);
+  for (const OptionRow& row : kRows) reset(row);
+}
+
+void OptionValues::reset(const OptionRow& row) {
+  parse(row.name, row.default_text);
 }
 
 void OptionValues::setInt64(int32_t id, int64_t value) {
@@ -251,14 +272,14 @@ RunOptions OptionValues::runOptions() const {
   run.simplify.fields = fields_;
   run.workers = workers_.get();
   int i = 0;
-#define OPTION_DOUBLE(ID, name, minimum, maximum, standard, member, text) \
-  assign(run.member, std::get<double>(values_[i]), kRows[i]);             \
+#define OPTION_DOUBLE(ID, name, scope, minimum, maximum, standard, member, text) \
+  assign(run.member, std::get<double>(values_[i]), kRows[i]);                    \
   ++i;
-#define OPTION_INT64(ID, name, minimum, maximum, standard, member, text) \
-  assign(run.member, std::get<int64_t>(values_[i]), kRows[i]);           \
+#define OPTION_INT64(ID, name, scope, minimum, maximum, standard, member, text) \
+  assign(run.member, std::get<int64_t>(values_[i]), kRows[i]);                  \
   ++i;
-#define OPTION_TEXT(ID, name, choices, standard, member, text)     \
-  assign(run.member, std::get<std::string>(values_[i]), kRows[i]); \
+#define OPTION_TEXT(ID, name, scope, choices, standard, member, text) \
+  assign(run.member, std::get<std::string>(values_[i]), kRows[i]);    \
   ++i;
 #include "options.def"
 #undef OPTION_DOUBLE

@@ -20,6 +20,7 @@ struct OptionRow {
   double minimum, maximum;  // of numbers, for show and for doubles
   int64_t lowest, highest;  // of integers, exactly
   const char *default_text, *choices;
+  int32_t scope;  // TETSTREAM_SCOPE_...
 };
 
 int32_t optionCount() noexcept;
@@ -34,6 +35,7 @@ class OptionValues {
   void setDouble(int32_t id, double value);
   void setText(int32_t id, const char* value);
   void parse(const char* name, const char* value);
+  void reset(const OptionRow& row);  // to its default
   int64_t getInt64(int32_t id) const;
   double getDouble(int32_t id) const;
   const char* getText(int32_t id) const;

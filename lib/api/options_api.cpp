@@ -21,6 +21,7 @@ tetstream_status tetstream_option_at(int32_t index, tetstream_option_info* info)
     out.maximum = row.maximum;
     out.default_text = row.default_text;
     out.choices = row.choices;
+    out.scope = row.scope;
     writeStruct(info, out);
   });
 }

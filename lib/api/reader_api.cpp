@@ -112,6 +112,37 @@ tetstream_status tetstream_reader_open_file(const char* path, const char* format
   return openFileFor(__func__, path, format, nullptr, reader);
 }
 
+// What a result is read without, attempt by attempt: nothing, a step, what makes points and fields
+// of an indexed mesh, both, and all that says how a file is read.
+static constexpr int kLastAttempt = 4;
+
+static bool isLeftOut(const OptionRow& row, int attempt) {
+  if (attempt == kLastAttempt) return row.scope == TETSTREAM_SCOPE_READ;
+  if (row.id == TETSTREAM_OPTION_STEP) return (attempt & 1) != 0;
+  const bool makes =
+      row.id == TETSTREAM_OPTION_JOIN_POINTS || row.id == TETSTREAM_OPTION_CELLS_TO_POINTS;
+  return makes && (attempt & 2) != 0;
+}
+
+tetstream_status tetstream_reader_open_result(const char* path, const char* format,
+                                              const tetstream_options* options,
+                                              tetstream_reader** reader) {
+  for (int attempt = 0;; ++attempt) {
+    tetstream_options kept;
+    const tetstream_status prepared = guard([&] {
+      if (options) kept.values = options->values;
+      if (options) kept.state = options->state;
+      for (int32_t i = 0; kept.values && i < optionCount(); ++i)
+        if (isLeftOut(optionRow(i), attempt)) kept.values->reset(optionRow(i));
+    });
+    if (prepared != TETSTREAM_OK) return prepared;
+    const tetstream_status status =
+        openFileFor(__func__, path, format, options ? &kept : nullptr, reader);
+    if (status != TETSTREAM_UNSUPPORTED || attempt == kLastAttempt || !options) return status;
+    tetstream_reader_destroy(*reader);
+  }
+}
+
 static tetstream_status openDescriptorFor(const char* function, int32_t fd, const char* format,
                                           const tetstream_options* options,
                                           tetstream_reader** reader) {

@@ -38,6 +38,26 @@ static void table_lists_every_option_once(void) {
   CHECK_EQUAL(tetstream_option_at(0, NULL), TETSTREAM_BAD_ARGUMENT);
 }
 
+static int32_t scope_of(int32_t id) {
+  for (int32_t i = 0; i < tetstream_option_count(); ++i)
+    if (row(i).id == id) return row(i).scope;
+  return 0;
+}
+
+static void the_table_tells_where_options_count(void) {
+  const int32_t all = TETSTREAM_SCOPE_READ + TETSTREAM_SCOPE_ORDER + TETSTREAM_SCOPE_SIMPLIFY +
+                      TETSTREAM_SCOPE_COMPARE;
+  CHECK_EQUAL(scope_of(TETSTREAM_OPTION_RATIO), TETSTREAM_SCOPE_SIMPLIFY);
+  CHECK_EQUAL(scope_of(TETSTREAM_OPTION_SEED), TETSTREAM_SCOPE_SIMPLIFY + TETSTREAM_SCOPE_COMPARE);
+  CHECK_EQUAL(scope_of(TETSTREAM_OPTION_BOX), TETSTREAM_SCOPE_COMPARE);
+  CHECK_EQUAL(scope_of(TETSTREAM_OPTION_MEMORY), all);
+  CHECK_EQUAL(scope_of(TETSTREAM_OPTION_ORDER), TETSTREAM_SCOPE_ORDER + TETSTREAM_SCOPE_SIMPLIFY);
+  for (int32_t id = TETSTREAM_OPTION_SPLIT; id <= TETSTREAM_OPTION_CELLS_TO_POINTS; ++id)
+    CHECK_EQUAL(scope_of(id), TETSTREAM_SCOPE_READ);
+  for (int32_t i = 0; i < tetstream_option_count(); ++i)
+    CHECK(row(i).scope > 0 && row(i).scope <= all);
+}
+
 static void published_numbers_have_their_names_and_types(void) {
   static const struct {
     int32_t id, type;
@@ -308,6 +328,12 @@ static void struct_sizes_are_respected(void) {
   for (size_t i = 0; i < sizeof later.more; ++i) CHECK_EQUAL(later.more[i], 0x5a);
 
   memset(&later, 0x5a, sizeof later);
+  later.info.struct_size = offsetof(tetstream_option_info, scope);
+  CHECK_EQUAL(tetstream_option_at(0, &later.info), TETSTREAM_OK);
+  CHECK_EQUAL(later.info.type, TETSTREAM_OPTION_IS_DOUBLE);
+  CHECK_EQUAL(later.info.scope, 0x5a5a5a5a);
+
+  memset(&later, 0x5a, sizeof later);
   later.info.struct_size = offsetof(tetstream_option_info, choices);
   CHECK_EQUAL(tetstream_option_at(0, &later.info), TETSTREAM_BAD_ARGUMENT);
   CHECK_EQUAL(later.info.id, 0x5a5a5a5a);
@@ -317,6 +343,7 @@ static void struct_sizes_are_respected(void) {
 
 int main(void) {
   RUN_CASE(table_lists_every_option_once);
+  RUN_CASE(the_table_tells_where_options_count);
   RUN_CASE(published_numbers_have_their_names_and_types);
   RUN_CASE(defaults_are_those_of_the_table);
   RUN_CASE(limits_are_included_and_what_lies_outside_is_refused);

@@ -229,6 +229,61 @@ static void a_pipe_is_spooled_where_the_options_say(void) {
   tetstream_options_destroy(nowhere);
 }
 
+/* What options made of the original may be made already in its result. */
+static void a_result_takes_what_it_can(void) {
+  char path[] = "/tmp/tetstream_reading.XXXXXX";
+  const int fd = mkstemp(path);
+  tetstream_options* options = with(TETSTREAM_OPTION_SPLIT, "yes");
+  tetstream_reader* reader = NULL;
+  CHECK(fd >= 0);
+  CHECK_EQUAL(write(fd, kPyramid, sizeof kPyramid - 1), sizeof kPyramid - 1);
+  CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_STEP, "3"), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_JOIN_POINTS, "yes"),
+              TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_file_with(path, "mesh", options, &reader),
+              TETSTREAM_UNSUPPORTED);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_result(path, "mesh", options, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(cells_of(reader), 2); /* without the step alone: it is still cut */
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_SPLIT, "no"), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_result(path, "mesh", options, &reader), TETSTREAM_UNSUPPORTED);
+  CHECK_SAYS(tetstream_reader_message(reader), "split");
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_result("/nowhere", "mesh", NULL, &reader), TETSTREAM_IO);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_result(path, "mesh", options, NULL), TETSTREAM_BAD_ARGUMENT);
+  tetstream_options_destroy(options);
+  CHECK_EQUAL(close(fd), 0);
+  CHECK_EQUAL(unlink(path), 0);
+}
+
+/* A stream takes none of them, save those of streams. */
+static void a_result_that_is_a_stream_is_read_as_it_is(void) {
+  char path[] = "/tmp/tetstream_reading.XXXXXX";
+  const int fd = mkstemp(path);
+  static const char* const kNames[] = {"step", "split", "join-points", "cells-to-points"};
+  static const char* const kValues[] = {"2", "yes", "yes", "yes"};
+  tetstream_options* options = NULL;
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  CHECK(fd >= 0);
+  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  for (int i = 0; i < 4; ++i)
+    CHECK_EQUAL(tetstream_options_parse(options, kNames[i], kValues[i]), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_generate("ball", 100, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_file(path, "tets", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  tetstream_writer_destroy(writer);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_reader_open_result(path, "tets", options, &reader), TETSTREAM_OK);
+  CHECK(cells_of(reader) > 20);
+  tetstream_reader_destroy(reader);
+  tetstream_options_destroy(options);
+  CHECK_EQUAL(close(fd), 0);
+  CHECK_EQUAL(unlink(path), 0);
+}
+
 static void null_is_refused(void) {
   tetstream_reader* reader = NULL;
   CHECK_EQUAL(tetstream_reader_open_file_with(NULL, "mesh", NULL, &reader), TETSTREAM_BAD_ARGUMENT);
@@ -278,6 +333,8 @@ int main(void) {
   RUN_CASE(a_damaged_file_is_read_only_if_asked_for);
   RUN_CASE(every_way_of_opening_takes_options);
   RUN_CASE(a_pipe_is_spooled_where_the_options_say);
+  RUN_CASE(a_result_takes_what_it_can);
+  RUN_CASE(a_result_that_is_a_stream_is_read_as_it_is);
   RUN_CASE(null_is_refused);
   RUN_CASE(the_format_msh_has_an_encoding_and_a_version);
   return check_end();

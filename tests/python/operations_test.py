@@ -110,6 +110,20 @@ class Operations(unittest.TestCase):
         for name in ("boundary_weight", "tmpdir", "order"):
             self.assertIn(f"        {name}: ", tetstream.simplify.__doc__)
 
+    def test_options_that_do_not_count_are_refused(self):
+        mesh = tetstream.read(tetstream.Reader.generate("ball", 100))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "out.tets")
+            for call, name in ((lambda: tetstream.convert(mesh, path, ratio=0.5), "ratio"),
+                               (lambda: tetstream.info(mesh, samples=5), "samples"),
+                               (lambda: mesh.simplify(ratio=0.5, cut="auto"), "cut"),
+                               (lambda: tetstream.compare(mesh, mesh, effort="high"), "effort"),
+                               (lambda: tetstream.Reader.file(path, order="none"), "order")):
+                with self.assertRaisesRegex(TypeError, f"{name} does not count where a mesh is"):
+                    call()
+            self.assertEqual(os.listdir(folder), [])
+        self.assertGreater(tetstream.info(mesh, threads=1, order=None, ratio=None).cell_count, 20)
+
     def test_statuses_have_their_exceptions(self):
         from tetstream import core, errors
         for number, kind in errors._CLASSES.items():

@@ -2,6 +2,7 @@
 everything says what it is."""
 import ast
 import inspect
+import itertools
 import os
 import unittest
 
@@ -71,9 +72,18 @@ class Stubs(unittest.TestCase):
         def members(name):
             return {item.target.id for item in self.nodes[name].body
                     if isinstance(item, ast.AnnAssign)}
-        self.assertEqual(members("_Options") | members("_OptionsWithRegions"), set(_options.ROWS))
+        reading = members("_Reading")
+        ordering = reading | members("_Ordering")
+        simplifying = ordering | members("_Simplifying") | members("_SimplifyingRegions")
+        comparing = reading | members("_Comparing")
+        for scope, names in ((core.SCOPE_READ, reading), (core.SCOPE_ORDER, ordering),
+                             (core.SCOPE_SIMPLIFY, simplifying), (core.SCOPE_COMPARE, comparing)):
+            self.assertEqual(names, {name for name, row in _options.ROWS.items()
+                                     if row.scope & (scope | core.SCOPE_READ)}, scope)
+        self.assertEqual(simplifying | comparing, set(_options.ROWS))
         self.assertEqual(members("Options"), set(_options.ROWS))
-        for item in self.nodes["_Options"].body:
+        for item in itertools.chain.from_iterable(
+                self.nodes[name].body for name in ("_Reading", "_Ordering", "_Simplifying")):
             row = _options.ROWS[item.target.id]
             kinds = {core.OPTION_IS_INT64: "int | str", core.OPTION_IS_DOUBLE: "float | str"}
             type_text = ast.unparse(item.annotation)

@@ -52,6 +52,7 @@ module tetstream_readers
   contains
     procedure :: create => reader_create
     procedure :: open_file => reader_open_file
+    procedure :: open_result => reader_open_result
     procedure :: open_fd => reader_open_fd
     procedure :: open_memory => reader_open_memory
     procedure :: generate => reader_generate
@@ -161,6 +162,22 @@ contains
     call prepare(this)
     call terminated(format, kind)
     call told(this, c_reader_open_file_with(trim(path)//c_null_char, kind, handle_of(options), this%handle), &
+              stat, errmsg)
+  end subroutine
+
+  ! A file to be compared with another that is opened with these options.
+  subroutine reader_open_result(this, path, format, options, stat, errmsg)
+    class(tetstream_reader), intent(inout) :: this
+    character(*), intent(in) :: path
+    character(*), intent(in), optional :: format
+    type(tetstream_options), intent(in), optional :: options
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+    character(:, kind=c_char), allocatable :: kind
+
+    call prepare(this)
+    call terminated(format, kind)
+    call told(this, c_reader_open_result(trim(path)//c_null_char, kind, handle_of(options), this%handle), &
               stat, errmsg)
   end subroutine
 

@@ -7,10 +7,10 @@
 ##   members of tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
 ##
 ## Pairs: "weights", a struct of field to weight: only these are compared, those of weight 0 left out;
-##   "samples", "boundary-samples", "seed", "box", "regions", "memory", "tmpdir"; "step", "split",
-##   "join-points", "cells-to-points" of the original, and of the other where it is a file that takes
-##   them; "picture": a path, .svg or .png: a cut through both meshes is drawn, at the option "cut";
-##   "progress", a function.
+##   "samples", "boundary-samples", "seed", "box", "regions", "memory", "tmpdir", "threads"; "step",
+##   "split", "recover", "join-points", "cells-to-points" of the original, and of the other where it is
+##   a file that takes them; "picture": a path, .svg or .png: a cut through both meshes is drawn, at the
+##   option "cut"; "progress", a function.
 ##
 ## See also: tetstream_simplify, tetstream_info.
 function figures = tetstream_compare (original, simplified, varargin)
@@ -19,13 +19,13 @@ function figures = tetstream_compare (original, simplified, varargin)
   endif
   caller = "tetstream_compare";
   own = struct ("weights", [], "progress", [], "picture", []);
-  [options, own] = parsed (caller, own, varargin);
   tetstream_core;
+  [options, own] = parsed (caller, own, tetstream_core.SCOPE_COMPARE, varargin);
   if (! isempty (own.picture) && strcmp (options.get_text (tetstream_core.OPTION_CUT), "none"))
     options.set_text (tetstream_core.OPTION_CUT, "auto");
   endif
   [first, kept_first] = made_reader (caller, original, options);
-  [second, kept_second] = simplified_reader (caller, simplified, own, varargin);
+  [second, kept_second] = made_reader (caller, simplified, options, "result");
   comparison = tetstream_core.Comparison (options);
   comparison.read (first, second, own.progress);
   figures = comparison.get_info ();
@@ -45,29 +45,4 @@ function figures = tetstream_compare (original, simplified, varargin)
   if (! isempty (own.picture))
     comparison.write (own.picture, []);
   endif
-endfunction
-
-## What an option of the reading makes of the original may be made already in the result, as its only
-## step or as a stream.
-function [reader, kept] = simplified_reader (caller, source, own, pairs)
-  all = reading ();
-  making = {"join_points", "cells_to_points"};
-  for dropped = {{}, {"step"}, making, [{"step"}, making], all}
-    if (! ischar (source))
-      dropped = {all};
-    endif
-    given = cellfun (@(name) ischar (name) && any (strcmp (strrep (name, "-", "_"), dropped{1})),
-                     pairs(1:2:end));
-    left = reshape (pairs, 2, [])(:,! given);
-    options = parsed (caller, own, left(:).');
-    try
-      [reader, kept] = made_reader (caller, source, options);
-      return;
-    catch failure
-      if (! strcmp (failure.identifier, "tetstream:unsupported"))
-        rethrow (failure);
-      endif
-    end_try_catch
-  endfor
-  rethrow (failure);
 endfunction

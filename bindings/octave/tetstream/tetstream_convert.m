@@ -13,7 +13,9 @@ function notes = tetstream_convert (source, target, varargin)
     print_usage ();
   endif
   caller = "tetstream_convert";
-  [options, own] = parsed (caller, struct ("progress", [], "properties", []), varargin);
+  tetstream_core;
+  [options, own] = parsed (caller, struct ("progress", [], "properties", []),
+                           tetstream_core.SCOPE_ORDER, varargin);
   [reader, kept] = made_reader (caller, source, options);
   writer = made_writer (target, own.properties);
   writer.convert (reader, options, own.progress);

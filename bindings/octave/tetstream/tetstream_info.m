@@ -16,7 +16,8 @@ function info = tetstream_info (source, varargin)
     print_usage ();
   endif
   caller = "tetstream_info";
-  [options, own] = parsed (caller, struct ("progress", []), varargin);
+  tetstream_core;
+  [options, own] = parsed (caller, struct ("progress", []), tetstream_core.SCOPE_ORDER, varargin);
   [reader, kept] = made_reader (caller, source, options);
   found = reader.inspect (options, own.progress);
   info = struct ("vertex_count", double (found.vertex_count),

@@ -16,7 +16,7 @@ function mesh = tetstream_read (source, varargin)
   endif
   tetstream_core;
   caller = "tetstream_read";
-  [options, own] = parsed (caller, struct ("progress", []), varargin);
+  [options, own] = parsed (caller, struct ("progress", []), tetstream_core.SCOPE_ORDER, varargin);
   [reader, kept] = made_reader (caller, source, options);
   collector = tetstream_core.MeshCollector (tetstream_core.TYPE_INT64);
   writer = tetstream_core.Writer_collect (collector);

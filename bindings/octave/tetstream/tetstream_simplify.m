@@ -42,14 +42,14 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
   own = struct ("cell_data", [], "regions", "auto", "weights", [], "locked", [], "faces", [],
                 "face_labels", [], "locked_faces", [], "locked_edges", [], "label_names", [],
                 "vertex_map", false, "progress", []);
-  [options, own] = parsed (caller, own, varargin);
+  tetstream_core;
+  [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
   mesh = struct ("points", {points}, "cells", {cells}, "fields", {named(fields)},
                  "cell_data", {own.cell_data}, "locked", {own.locked}, "faces", {own.faces},
                  "face_labels", {own.face_labels}, "locked_faces", {own.locked_faces},
                  "locked_edges", {own.locked_edges}, "label_names", {own.label_names});
   mesh = complete_mesh (caller, mesh);
   [mesh, label] = with_regions (caller, mesh, own.regions);
-  tetstream_core;
   options.set_text (tetstream_core.OPTION_REGIONS, label);
 
   [reader, kept] = made_reader (caller, mesh, options);

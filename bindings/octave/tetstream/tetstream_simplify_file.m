@@ -21,10 +21,10 @@ function report = tetstream_simplify_file (source, target, varargin)
   caller = "tetstream_simplify_file";
   need_target (caller, varargin);
   own = struct ("weights", [], "progress", [], "map_file", [], "log_file", [], "properties", []);
-  [options, own] = parsed (caller, own, varargin);
+  tetstream_core;
+  [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
   [reader, kept] = made_reader (caller, source, options);
   writer = made_writer (target, own.properties);
-  tetstream_core;
   simplifier = tetstream_core.Simplifier (options, writer, own.progress);
   if (! isempty (own.map_file))
     simplifier.set_map_file (own.map_file, []);

@@ -35,9 +35,9 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   endfor
   own = struct ("cell_count", -1, "vertex_count", -1, "face_count", -1, "front_width", -1,
                 "front_span", -1, "front_cells", -1, "indexed", false, "weights", [], "progress", []);
-  [options, own] = parsed (caller, own, varargin);
-  refuse_reading (caller, options, "a stream");
   tetstream_core;
+  [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
+  refuse_reading (caller, options, "a stream");
   state = containers.Map ("KeyType", "char", "ValueType", "any");  # what the writer is told when it begins
   core_writer = tetstream_core.Writer_create (@(info) begun (state, info),
                                               @(batch) writer (shown (batch, state)), []);

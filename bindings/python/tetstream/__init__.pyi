@@ -19,7 +19,22 @@ _Source = Union[_Path, "Mesh", "Reader"]
 _Target = Union[_Path, "Writer"]
 _Told = Union[Callable[["Progress"], object], bool, None]
 
-class _Options(TypedDict, total=False):
+# Where options count; regions are an argument of their own where arrays are simplified.
+class _Reading(TypedDict, total=False):
+    memory: int | str
+    tmpdir: str
+    threads: int | str
+    split: Literal["no", "yes"]
+    recover: Literal["no", "yes"]
+    step: str
+    join_points: Literal["auto", "no", "yes"]
+    cells_to_points: Literal["no", "yes"]
+
+class _Ordering(_Reading, total=False):
+    axis: Literal["auto", "x", "y", "z"]
+    order: str
+
+class _Simplifying(_Ordering, total=False):
     ratio: float | str
     cells: int | str
     error: float | str
@@ -35,24 +50,20 @@ class _Options(TypedDict, total=False):
     balance: Literal["auto", "none"]
     effort: Literal["normal", "high"]
     shape: Literal["field", "solver"]
+    window: int | str
+
+class _SimplifyingRegions(_Simplifying, total=False):
+    regions: str
+
+class _Comparing(_Reading, total=False):
+    regions: str
+    seed: int | str
     samples: int | str
     cut: str
     box: str
     boundary_samples: int | str
-    window: int | str
-    memory: int | str
-    tmpdir: str
-    threads: int | str
-    axis: Literal["auto", "x", "y", "z"]
-    order: str
-    split: Literal["no", "yes"]
-    join_points: Literal["auto", "no", "yes"]
-    cells_to_points: Literal["no", "yes"]
-    recover: Literal["no", "yes"]
-    step: str
 
-class _OptionsWithRegions(_Options, total=False):
-    regions: str
+class _AllOptions(_SimplifyingRegions, _Comparing, total=False): ...
 
 # ------------------------------------------------------------------------------- exceptions
 
@@ -179,7 +190,7 @@ class Options:
     cells_to_points: str
     recover: str
     step: str
-    def __init__(self, **values: Unpack[_OptionsWithRegions]) -> None: ...
+    def __init__(self, **values: Unpack[_AllOptions]) -> None: ...
     def add_field(self, name: str, weight: float = 1.0) -> None: ...
 
 # ----------------------------------------------------------------------------------- meshes
@@ -203,7 +214,7 @@ class Mesh:
                  label_names: _LabelNames | None = None) -> None: ...
     def simplify(self, *, regions: ArrayLike | str | None = None,
                  weights: Mapping[str, float] | None = None, vertex_map: bool = False,
-                 progress: _Told = None, **options: Unpack[_Options]) -> Simplified: ...
+                 progress: _Told = None, **options: Unpack[_Simplifying]) -> Simplified: ...
     def write(self, path: _Path, format: str | None = None, **properties: str) -> list[str]: ...
     def to_pyvista(self) -> Any: ...
     def to_meshio(self) -> Any: ...
@@ -242,10 +253,10 @@ _Batches = Iterable[Union[Batch, dict[str, Any]]]
 class Reader:
     @classmethod
     def file(cls, path: _Path, format: str | None = None,
-             **options: Unpack[_OptionsWithRegions]) -> Reader: ...
+             **options: Unpack[_Reading]) -> Reader: ...
     @classmethod
     def memory(cls, data: Any, format: str,
-               **options: Unpack[_OptionsWithRegions]) -> Reader: ...
+               **options: Unpack[_Reading]) -> Reader: ...
     @classmethod
     def mesh(cls, mesh: Mesh) -> Reader: ...
     @classmethod
@@ -287,29 +298,29 @@ def simplify(__points: ArrayLike, __tetrahedra: ArrayLike, fields: _Arrays | Non
              face_labels: ArrayLike | None = None, locked_faces: ArrayLike | None = None,
              locked_edges: ArrayLike | None = None, label_names: _LabelNames | None = None,
              weights: Mapping[str, float] | None = None, vertex_map: bool = False,
-             progress: _Told = None, **options: Unpack[_Options]) -> Simplified: ...
+             progress: _Told = None, **options: Unpack[_Simplifying]) -> Simplified: ...
 def simplify_file(source: _Source, target: _Target, *, weights: Mapping[str, float] | None = None,
                   map_file: _Path | None = None, log_file: _Path | None = None,
-                  progress: _Told = None, **options: Unpack[_OptionsWithRegions]) -> Report: ...
+                  progress: _Told = None, **options: Unpack[_SimplifyingRegions]) -> Report: ...
 def simplify_batches(batches: _Batches, points: DTypeLike = "float64",
                      fields: _Columns | None = None, cell_data: _Columns | None = None, *,
                      weights: Mapping[str, float] | None = None, vertex_count: int = -1,
                      cell_count: int = -1, face_count: int = -1, front_width: int = -1,
                      front_span: int = -1, front_cells: int = -1,
                      label_names: _LabelNames | None = None,
-                     **options: Unpack[_OptionsWithRegions]) -> Generator[Batch, None, Report]: ...
+                     **options: Unpack[_SimplifyingRegions]) -> Generator[Batch, None, Report]: ...
 def layout(source: _Source, target: _Target, *, progress: _Told = None,
-           **options: Unpack[_OptionsWithRegions]) -> LayoutReport: ...
+           **options: Unpack[_Ordering]) -> LayoutReport: ...
 def convert(source: _Source, target: _Target, *, progress: _Told = None,
-            **options: Unpack[_OptionsWithRegions]) -> list[str]: ...
+            **options: Unpack[_Ordering]) -> list[str]: ...
 def read(source: _Source, *, cell_type: DTypeLike = "int64", progress: _Told = None,
-         **options: Unpack[_OptionsWithRegions]) -> Mesh: ...
+         **options: Unpack[_Ordering]) -> Mesh: ...
 def info(source: _Source, *, progress: _Told = None,
-         **options: Unpack[_OptionsWithRegions]) -> StreamInfo: ...
+         **options: Unpack[_Ordering]) -> StreamInfo: ...
 def diagram(source: _Source, *, columns: int = 1200, rows: int = 800, sweep: bool = False,
-            progress: _Told = None, **options: Unpack[_OptionsWithRegions]) -> Diagram: ...
+            progress: _Told = None, **options: Unpack[_Ordering]) -> Diagram: ...
 def compare(original: _Source, simplified: _Source, *, weights: Mapping[str, float] | None = None,
-            progress: _Told = None, **options: Unpack[_OptionsWithRegions]) -> Comparison: ...
+            progress: _Told = None, **options: Unpack[_Comparing]) -> Comparison: ...
 def formats() -> list[Record]: ...
 def from_pyvista(grid: Any) -> Mesh: ...
 def to_pyvista(mesh: Mesh) -> Any: ...

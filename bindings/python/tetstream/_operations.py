@@ -1,32 +1,31 @@
 """What is done with meshes besides simplifying them."""
 from . import _mesh, _options, _progress, _streams, core
 from ._records import LayoutReport, Record
-from .errors import Unsupported
 
 
-@_options.documented("order", "axis", "memory", "tmpdir", *_options.READING)
+@_options.documented(core.SCOPE_ORDER)
 def layout(source, target, *, progress=None, **options):
     """Brings a mesh into an order and writes it as a stream, in bounded memory. Sources, targets
     and progress as in simplify_file. Returns a LayoutReport."""
-    made = _options.made(options)
+    made = _options.made(options, core.SCOPE_ORDER)
     reader, writer = _streams.reader_of(source, made), _streams.writer_of(target)
     with _progress.told(progress) as tell:
         report = writer._handle.layout(reader._handle, made._handle, tell)
     return _streams.noted(LayoutReport.copied(report), reader, writer)
 
 
-@_options.documented("order", "axis", "memory", "tmpdir", *_options.READING)
+@_options.documented(core.SCOPE_ORDER)
 def convert(source, target, *, progress=None, **options):
     """Reads everything and writes it; an indexed mesh is brought into an order. Sources, targets
     and progress as in simplify_file. Returns the notes of both."""
-    made = _options.made(options)
+    made = _options.made(options, core.SCOPE_ORDER)
     reader, writer = _streams.reader_of(source, made), _streams.writer_of(target)
     with _progress.told(progress) as tell:
         writer._handle.convert(reader._handle, made._handle, tell)
     return reader.notes + writer.notes
 
 
-@_options.documented("order", "axis", "memory", "tmpdir", *_options.READING)
+@_options.documented(core.SCOPE_ORDER)
 def read(source, *, cell_type="int64", progress=None, **options):
     """A Mesh of everything a file, or a Reader, has. A stream keeps its order; the cells of an
     indexed mesh come in that of a sweep, points as they are used first, those of no cell left
@@ -36,11 +35,11 @@ def read(source, *, cell_type="int64", progress=None, **options):
     return writer.getmesh()
 
 
-@_options.documented("window", "memory", "order", "axis", "tmpdir", *_options.READING)
+@_options.documented(core.SCOPE_ORDER)
 def info(source, *, progress=None, **options):
     """Reads everything and tells what it is: a StreamInfo, complete. An indexed mesh's front is that
     of the order in which it is streamed."""
-    made = _options.made(options)
+    made = _options.made(options, core.SCOPE_ORDER)
     reader = _streams.reader_of(source, made)
     with _progress.told(progress) as tell:
         found = reader._handle.inspect(made._handle, tell)
@@ -83,7 +82,7 @@ class Diagram(Record):
                 f"span {self.front_span}>")
 
 
-@_options.documented("memory", "order", "axis", "tmpdir", *_options.READING)
+@_options.documented(core.SCOPE_ORDER)
 def diagram(source, *, columns=1200, rows=800, sweep=False, progress=None, **options):
     """The layout diagram of a stream: a Diagram, to plot on an axis of matplotlib's or to write
     into a picture.
@@ -94,7 +93,7 @@ def diagram(source, *, columns=1200, rows=800, sweep=False, progress=None, **opt
         sweep: write() draws the mesh at four moments of its stream instead.
         progress: as in simplify.
     """
-    made = _options.made(options)
+    made = _options.made(options, core.SCOPE_ORDER)
     reader = _streams.reader_of(source, made)
     page = core.PAGE_SWEEP if sweep else core.PAGE_LAYOUT
     drawn = core.Diagram(made._handle, _options.whole("columns", columns, 32),
@@ -130,23 +129,7 @@ class Comparison(Record):
                 f"RMS errors: {errors or 'no fields'}>")
 
 
-def _simplified_reader(source, options):
-    """What an option of the reading makes of the original may be made already in the result, as its
-    only step or as a stream."""
-    if isinstance(source, (_streams.Reader, _mesh.Mesh)):
-        options = {name: value for name, value in options.items() if name not in _options.READING}
-    making = ("join_points", "cells_to_points")
-    for dropped in ((), ("step",), making, ("step", *making), _options.READING):
-        kept = {name: value for name, value in options.items() if name not in dropped}
-        try:
-            return _streams.reader_of(source, _options.made(kept))
-        except Unsupported:
-            if dropped is _options.READING:
-                raise
-
-
-@_options.documented("samples", "boundary_samples", "seed", "cut", "box", "regions", "memory",
-                     "tmpdir", *_options.READING)
+@_options.documented(core.SCOPE_COMPARE)
 def compare(original, simplified, *, weights=None, progress=None, **options):
     """Compares two meshes: a Comparison.
 
@@ -157,8 +140,8 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
             all float fields that both have.
         progress: as in simplify.
     """
-    made = _options.made(options, weights)
-    readers = _streams.reader_of(original, made), _simplified_reader(simplified, options)
+    made = _options.made(options, core.SCOPE_COMPARE, weights)
+    readers = _streams.reader_of(original, made), _streams.result_of(simplified, made)
     compared = core.Comparison(made._handle)
     with _progress.told(progress) as tell:
         compared.read(readers[0]._handle, readers[1]._handle, tell)

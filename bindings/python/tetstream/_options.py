@@ -12,7 +12,7 @@ class _Row:
         info = core.option_at(index)
         self.id, self.type, self.flag = info.id, info.type, info.name
         self.text, self.default, self.choices = info.text, info.default_text, info.choices
-        self.minimum, self.maximum = info.minimum, info.maximum
+        self.minimum, self.maximum, self.scope = info.minimum, info.maximum, info.scope
         self.name = self.flag.replace("-", "_")
 
     def range_text(self):
@@ -103,30 +103,33 @@ for _row in ROWS.values():
     _add_property(_row)
 
 
-# What is made of a file when it is opened.
-READING = ("split", "recover", "step", "join_points", "cells_to_points")
-
-
 def refuse_reading(options, source):
     """For a source that is open already, or was never a file."""
-    for name in READING:
-        if getattr(options, name) != ROWS[name].default:
-            raise BadArgument(f"{name} says how a file is read, and the source is {source}")
+    for row in ROWS.values():
+        if row.scope == core.SCOPE_READ and row.get(options._handle) != row.default:
+            raise BadArgument(f"{row.name} says how a file is read, and the source is {source}")
 
 
-def made(values, weights=None):
-    """Options from keyword arguments and a dict of fields' weights."""
+_DOING = {core.SCOPE_READ: "opened", core.SCOPE_ORDER: "ordered or copied",
+          core.SCOPE_SIMPLIFY: "simplified", core.SCOPE_COMPARE: "compared"}
+
+
+def made(values, scope, weights=None):
+    """Options from keyword arguments, each of which counts there, and a dict of fields' weights."""
     options = Options(**values)
+    for name, value in values.items():
+        if value is not None and not ROWS[name].scope & (scope | core.SCOPE_READ):
+            raise TypeError(f"the option {name} does not count where a mesh is {_DOING[scope]}")
     for name, weight in _arrays.named("weights", weights).items():
         options.add_field(name, weight)
     return options
 
 
-def documented(*names):
-    """A decorator: adds these options, or all, to what a function says of itself."""
+def documented(scope):
+    """A decorator: adds the options that count there to what a function says of itself."""
     def with_table(function):
-        rows = [ROWS[name] for name in names] if names else ROWS.values()
-        lines = [f"    {row.name}: {row.describe()}" for row in rows]
+        lines = [f"    {row.name}: {row.describe()}" for row in ROWS.values()
+                 if row.scope & (scope | core.SCOPE_READ)]
         function.__doc__ += "\n    Options:\n\n" + "\n".join("    " + line for line in lines) + "\n"
         return function
     return with_table

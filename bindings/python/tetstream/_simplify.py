@@ -11,7 +11,7 @@ _TARGETS = ("ratio", "cells", "error")
 
 
 def _made_options(options, weights):
-    made = _options.made(options, weights)
+    made = _options.made(options, core.SCOPE_SIMPLIFY, weights)
     if not any(getattr(made, target) for target in _TARGETS):
         raise TypeError("a target is missing: give ratio= (cells out / cells in), cells= or error= "
                         "(percent of the fields' range)")
@@ -81,7 +81,7 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
     return result
 
 
-@_options.documented()
+@_options.documented(core.SCOPE_SIMPLIFY)
 def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None, locked=None,
              faces=None, face_labels=None, locked_faces=None, locked_edges=None, label_names=None,
              weights=None, vertex_map=False, progress=None, **options):
@@ -130,7 +130,7 @@ def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None
                          progress=progress, **options)
 
 
-@_options.documented()
+@_options.documented(core.SCOPE_SIMPLIFY)
 def simplify_file(source, target, *, weights=None, map_file=None, log_file=None, progress=None,
                   **options):
     """Simplifies a file into another, in memory that depends on the front and not on the mesh:
@@ -160,7 +160,7 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
     return _run(made, reader, _streams.writer_of(target), progress, prepare, 4)
 
 
-@_options.documented()
+@_options.documented(core.SCOPE_SIMPLIFY)
 def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, weights=None,
                      vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
                      front_cells=-1, label_names=None, **options):

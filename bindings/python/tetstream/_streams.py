@@ -194,17 +194,15 @@ class Reader:
     def file(cls, path, format=None, **options):
         """A file; `format` is a name such as "vtu", or None: by the path's ending. Options of the
         reading, such as `step` or `split`, count here alone."""
-        return cls._opened(path, format, _options.made(options))
-
-    @classmethod
-    def _opened(cls, path, format, options):
-        return cls(core.Reader.open_file(path, format, options._handle))
+        made = _options.made(options, core.SCOPE_READ)
+        return cls(core.Reader.open_file(path, format, made._handle))
 
     @classmethod
     def memory(cls, data, format, **options):
         """The bytes of a file: a bytes object or another buffer. Options as of Reader.file."""
         array = numpy.frombuffer(data, numpy.uint8)
-        return cls(core.Reader.open_memory(array, format, _options.made(options)._handle), array)
+        made = _options.made(options, core.SCOPE_READ)
+        return cls(core.Reader.open_memory(array, format, made._handle), array)
 
     @classmethod
     def mesh(cls, mesh):
@@ -428,14 +426,27 @@ def _closing(generator, finish):
     return end
 
 
+def _reader_of(source, open_file, options):
+    if isinstance(source, (str, bytes, os.PathLike)):
+        return Reader(open_file(source, None, options._handle))
+    if isinstance(source, Reader):
+        return source
+    if isinstance(source, _mesh.Mesh):
+        return Reader.mesh(source)
+    raise TypeError(f"a path, a Mesh or a Reader is wanted, not {type(source).__name__}")
+
+
 def reader_of(source, options):
     """A Reader of what somebody calls a source."""
     if isinstance(source, (Reader, _mesh.Mesh)):
         _options.refuse_reading(options, f"a {type(source).__name__}")
-        return source if isinstance(source, Reader) else Reader.mesh(source)
-    if isinstance(source, (str, bytes, os.PathLike)):
-        return Reader._opened(source, None, options)
-    raise TypeError(f"a path, a Mesh or a Reader is wanted, not {type(source).__name__}")
+    return _reader_of(source, core.Reader.open_file, options)
+
+
+def result_of(source, options):
+    """The same for what is compared with a source: of the options of the reading those count that
+    it takes."""
+    return _reader_of(source, core.Reader.open_result, options)
 
 
 def writer_of(target):

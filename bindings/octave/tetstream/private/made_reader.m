@@ -1,13 +1,19 @@
 ## [reader, kept] = made_reader (caller, source, options): a reader of a file, or of a mesh in a struct;
-## it is good as long as `kept` is.
-function [reader, kept] = made_reader (caller, source, options)
+## it is good as long as `kept` is. With "result" last, of what is compared with a mesh that is opened
+## with these options.
+function [reader, kept] = made_reader (caller, source, options, role = "")
   tetstream_core;
   kept = {};
-  if (ischar (source))
+  is_result = strcmp (role, "result");
+  if (ischar (source) && is_result)
+    reader = tetstream_core.Reader_open_result (source, [], options);
+    return;
+  elseif (ischar (source))
     reader = tetstream_core.Reader_open_file (source, [], options);
     return;
+  elseif (! is_result)
+    refuse_reading (caller, options, "a struct");
   endif
-  refuse_reading (caller, options, "a struct");
   mesh = complete_mesh (caller, source);
   info = announced (caller, mesh);
   info.is_indexed = true;

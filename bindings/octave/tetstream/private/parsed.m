@@ -1,7 +1,7 @@
-## [options, own] = parsed (caller, own, arguments)
-## Pairs of name and value: options of the library go into a handle, names that `own` has as members
-## replace those.
-function [options, own] = parsed (caller, own, arguments)
+## [options, own] = parsed (caller, own, scope, arguments)
+## Pairs of name and value: options of the library that count where a file is read, or in that scope,
+## go into a handle, names that `own` has as members replace those.
+function [options, own] = parsed (caller, own, scope, arguments)
   tetstream_core;
   options = tetstream_core.Options ();
   rows = table ();
@@ -17,6 +17,10 @@ function [options, own] = parsed (caller, own, arguments)
     if (isfield (own, plain))
       own.(plain) = value;
     elseif (isfield (rows, plain))
+      if (! bitand (rows.(plain).scope, bitor (scope, tetstream_core.SCOPE_READ)))
+        error ("tetstream:bad-argument", "%s: option \"%s\" does not count here", caller,
+               rows.(plain).name);
+      endif
       set_option (caller, options, rows.(plain), value);
     else
       error ("tetstream:bad-argument", "%s: there is no option \"%s\"", caller, name);
