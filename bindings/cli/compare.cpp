@@ -26,9 +26,9 @@ ExitCode compare(const Arguments& arguments) {
   const Comparison comparison = createComparison(arguments);
   if (!arguments.out.path.empty()) checkOutput(arguments.out);
   const Options options = makeOptions(arguments.options);
-  const Reader original = openReader(arguments.in, options.get());
-  const Reader simplified = openResult(arguments.second, options.get());
   ProgressBar bar(progressOf(arguments));
+  const Reader original = openReader(arguments.in, options, bar);
+  const Reader simplified = openResult(arguments.second, arguments.options, bar);
   const tetstream_status status = tetstream_comparison_read(
       comparison.get(), original.get(), simplified.get(), ProgressBar::callback, &bar);
   bar.clear();

@@ -4,8 +4,7 @@
 namespace tetstream::cli {
 
 static ExitCode copy(const Arguments& arguments, tetstream_reader* reader, tetstream_writer* writer,
-                     const tetstream_options* options) {
-  ProgressBar bar(progressOf(arguments));
+                     const tetstream_options* options, ProgressBar& bar) {
   const tetstream_status status =
       tetstream_convert(reader, writer, options, ProgressBar::callback, &bar);
   bar.clear();
@@ -18,8 +17,9 @@ ExitCode convert(const Arguments& arguments) {
   const Options options = makeOptions(arguments.options);
   checkOutput(arguments.out);
   const Writer writer = createWriter(arguments.out, arguments.properties);
-  const Reader reader = openReader(arguments.in, options.get());
-  return copy(arguments, reader.get(), writer.get(), options.get());
+  ProgressBar bar(progressOf(arguments));
+  const Reader reader = openReader(arguments.in, options, bar);
+  return copy(arguments, reader.get(), writer.get(), options.get(), bar);
 }
 
 ExitCode generate(const Arguments& arguments) {
@@ -30,7 +30,8 @@ ExitCode generate(const Arguments& arguments) {
       generateReader(arguments.kind, getInt64(options.get(), TETSTREAM_OPTION_CELLS),
                      getInt64(options.get(), TETSTREAM_OPTION_SEED));
   const Writer writer = createWriter(arguments.out, arguments.properties);
-  return copy(arguments, reader.get(), writer.get(), nullptr);
+  ProgressBar bar(progressOf(arguments));
+  return copy(arguments, reader.get(), writer.get(), nullptr, bar);
 }
 
 }  // namespace tetstream::cli

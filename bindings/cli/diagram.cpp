@@ -18,8 +18,8 @@ ExitCode diagram(const Arguments& arguments) {
   const Options options = makeOptions(arguments.options);
   const Diagram drawn = createDiagram(arguments, options.get());
   checkOutput(arguments.out);
-  const Reader reader = openReader(arguments.in, options.get());
   ProgressBar bar(progressOf(arguments));
+  const Reader reader = openReader(arguments.in, options, bar);
   const tetstream_status status =
       tetstream_diagram_read(drawn.get(), reader.get(), page, ProgressBar::callback, &bar);
   bar.clear();

@@ -81,28 +81,42 @@ static const char* formatOf(const Place& place) {
   return place.isStandard() ? kStandardFormat : nullptr;
 }
 
-Reader openReader(const Place& in, const tetstream_options* options) {
+static void tell(const Options& options, ProgressBar& bar) {
+  check(tetstream_options_set_progress(options.get(), ProgressBar::callback, &bar), options.get());
+}
+
+Reader openReader(const Place& in, const Options& options, ProgressBar& bar) {
+  tell(options, bar);
   tetstream_reader* handle = nullptr;
   tetstream_status status;
   if (in.isStandard()) {
     if (::isatty(STDIN_FILENO) == 1)
       throw Failure{kUsage, "a mesh is not read from a terminal: give a file name or a pipe"};
     interruptTransfersOf(STDIN_FILENO);
-    status = tetstream_reader_open_fd_with(STDIN_FILENO, formatOf(in), options, &handle);
+    status = tetstream_reader_open_fd_with(STDIN_FILENO, formatOf(in), options.get(), &handle);
   } else {
-    status = tetstream_reader_open_file_with(in.path.c_str(), formatOf(in), options, &handle);
+    status = tetstream_reader_open_file_with(in.path.c_str(), formatOf(in), options.get(), &handle);
   }
   Reader reader(handle);
   check(status, handle);
   return reader;
 }
 
-Reader openResult(const Place& in, const tetstream_options* options) {
-  // note: what comes through a pipe is a stream, which is read as it is.
-  if (in.isStandard()) return openReader(in, nullptr);
+// What comes through a pipe is read as it is: nothing can be tried twice.
+static OptionWords withoutReading(OptionWords words) {
+  for (const tetstream_option_info& info : optionTable())
+    if (info.scope == TETSTREAM_SCOPE_READ)
+      std::erase_if(words.values, [&](const auto& word) { return word.first == info.name; });
+  return words;
+}
+
+Reader openResult(const Place& in, const OptionWords& words, ProgressBar& bar) {
+  if (in.isStandard()) return openReader(in, makeOptions(withoutReading(words)), bar);
+  const Options options = makeOptions(words);
+  tell(options, bar);
   tetstream_reader* handle = nullptr;
   const tetstream_status status =
-      tetstream_reader_open_result(in.path.c_str(), formatOf(in), options, &handle);
+      tetstream_reader_open_result(in.path.c_str(), formatOf(in), options.get(), &handle);
   Reader reader(handle);
   check(status, handle);
   return reader;

@@ -1,10 +1,13 @@
-// cli: the two ends of a run, by name; "-" is standard input or output. Depends on handles.h.
+// cli: the two ends of a run, by name; "-" is standard input or output. Depends on handles.h,
+// option_table.h, progress.h.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "handles.h"
+#include "option_table.h"
+#include "progress.h"
 
 namespace tetstream::cli {
 
@@ -27,10 +30,10 @@ bool isStandardOutput(const Place& out);
 // True if it is standard output and that is a pipe.
 bool isPipe(const Place& out);
 
-// The tmpdir option holds for a pipe that has to be spooled, too.
-Reader openReader(const Place& in, const tetstream_options* options);
+// The tmpdir option holds for a pipe that has to be spooled, too. Opening shows in the bar.
+Reader openReader(const Place& in, const Options& options, ProgressBar& bar);
 // What was made of a mesh that is read with these options.
-Reader openResult(const Place& in, const tetstream_options* options);
+Reader openResult(const Place& in, const OptionWords& words, ProgressBar& bar);
 Writer createWriter(const Place& out, const std::vector<Property>& properties);
 // A vertex map and a collapse log, unless the path is empty; "-" gets them as text.
 void setMap(tetstream_simplifier* simplifier, const Place& map);

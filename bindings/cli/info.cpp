@@ -208,8 +208,8 @@ std::string infoJson(const Arguments& arguments, const tetstream_stream_info& in
 
 ExitCode info(const Arguments& arguments) {
   const Options options = makeOptions(arguments.options);
-  const Reader reader = openReader(arguments.in, options.get());
   ProgressBar bar(progressOf(arguments));
+  const Reader reader = openReader(arguments.in, options, bar);
   tetstream_stream_info found = {};
   found.struct_size = sizeof found;
   const tetstream_status status =

@@ -8,8 +8,8 @@ ExitCode layout(const Arguments& arguments) {
   const Options options = makeOptions(arguments.options);
   checkOutput(arguments.out);
   const Writer writer = createWriter(arguments.out, arguments.properties);
-  const Reader reader = openReader(arguments.in, options.get());
   ProgressBar bar(progressOf(arguments));
+  const Reader reader = openReader(arguments.in, options, bar);
   tetstream_layout_report report = {};
   report.struct_size = sizeof report;
   const tetstream_status status = tetstream_layout(reader.get(), writer.get(), options.get(),

@@ -44,6 +44,7 @@ void ProgressBar::update(const tetstream_progress& progress) {
   const Clock::time_point now = Clock::now();
   const char* phase = progress.phase ? progress.phase : "";
   if (phase_ != phase) {
+    if (phase_ == "open") start_ = now;  // whose fraction is its own
     phase_ = phase;
     phase_start_ = now;
     phase_first_cell_ = progress.cells_read;
@@ -58,6 +59,13 @@ static double secondsBetween(std::chrono::steady_clock::time_point from,
   return std::chrono::duration<double>(to - from).count();
 }
 
+static std::string cellsOf(const tetstream_progress& progress) {
+  std::string text = " " + shortCount(static_cast<double>(progress.cells_read));
+  if (progress.cells_total >= 0)
+    text.append(" of ").append(shortCount(static_cast<double>(progress.cells_total)));
+  return text + " cells";
+}
+
 std::string ProgressBar::lineOf(const tetstream_progress& progress, Clock::time_point now) const {
   std::string line = phase_;
   const double fraction = std::min(progress.fraction, 1.0);
@@ -66,10 +74,7 @@ std::string ProgressBar::lineOf(const tetstream_progress& progress, Clock::time_
     line += textOf(" %3d%% [", static_cast<int>(fraction * 100));
     line += std::string(filled, '#') + std::string(kBarCharacters - filled, ' ') + "]";
   }
-  line.append(" ").append(shortCount(static_cast<double>(progress.cells_read)));
-  if (progress.cells_total >= 0)
-    line.append(" of ").append(shortCount(static_cast<double>(progress.cells_total)));
-  line += " cells";
+  if (phase_ != "open") line += cellsOf(progress);
   const double seconds = secondsBetween(phase_start_, now);
   const int64_t cells = progress.cells_read - phase_first_cell_;
   if (seconds > 0 && cells > 0)

@@ -63,7 +63,8 @@ ExitCode simplify(const Arguments& arguments) {
   checkOutput(arguments.out);
   needPlaces(arguments);
   const Writer writer = createWriter(arguments.out, arguments.properties);
-  const Reader reader = openReader(arguments.in, options.get());
+  ProgressBar bar(progressOf(arguments));
+  const Reader reader = openReader(arguments.in, options, bar);
 
   tetstream_simplifier* handle = nullptr;
   tetstream_status status = tetstream_simplifier_create(options.get(), writer.get(), &handle);
@@ -71,7 +72,6 @@ ExitCode simplify(const Arguments& arguments) {
   check(status, handle);
   setMap(handle, arguments.map);
   setLog(handle, arguments.log);
-  ProgressBar bar(progressOf(arguments));
   check(tetstream_simplifier_set_progress(handle, ProgressBar::callback, &bar), handle);
   status = tetstream_simplifier_run(handle, reader.get());
   bar.clear();

@@ -9,7 +9,10 @@ namespace tetstream::swig {
 
 Options::Options() {
   createInto(handle_, tetstream_options_create);
+  setProgress({});
 }
+
+Options::~Options() = default;
 
 void Options::setInt64(int32_t id, int64_t value) {
   check(tetstream_options_set_int64(handle_.get(), id, value), handle_);
@@ -47,6 +50,13 @@ const char* Options::getText(int32_t id) const {
 
 void Options::addField(const char* name, double weight) {
   check(tetstream_options_add_field(handle_.get(), name, weight), handle_);
+}
+
+void Options::setProgress(const Function& progress) {
+  auto relay = std::make_unique<ProgressRelay>(progress);
+  check(tetstream_options_set_progress(handle_.get(), ProgressRelay::callback, relay.get()),
+        handle_);
+  progress_ = std::move(relay);
 }
 
 // ----------------------------------------------------------------------------------- simplifier

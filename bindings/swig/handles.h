@@ -26,6 +26,7 @@ class ProgressRelay;
 class Options {
  public:
   Options();
+  ~Options();
   void setInt64(int32_t id, int64_t value);
   void setDouble(int32_t id, double value);
   void setText(int32_t id, const char* value);
@@ -34,10 +35,13 @@ class Options {
   double getDouble(int32_t id) const;
   const char* getText(int32_t id) const;
   void addField(const char* name, double weight);
+  // Called while a reader is opened; the language keeps it. Without, the user can interrupt.
+  void setProgress(const Function& progress);
 
   const tetstream_options* handle() const { return handle_.get(); }
 
  private:
+  std::unique_ptr<ProgressRelay> progress_;
   Handle<tetstream_options> handle_;
 };
 

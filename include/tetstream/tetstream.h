@@ -201,6 +201,20 @@ TETSTREAM_API tetstream_status tetstream_options_get_text(const tetstream_option
  * (UNSUPPORTED), is checked when the stream begins. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_add_field(tetstream_options *options,
                                                            const char *name, double weight);
+/* How far a run is. Fractions need counts: -1 where they are not known. */
+typedef struct tetstream_progress {
+  size_t struct_size;
+  int64_t cells_read, cells_total, cells_written;
+  double fraction; /* of the whole run, or of "open", 0 to 1, or -1 */
+  const char *phase; /* "open", "order", "pilot", "simplify", "convert", ...; static */
+  int64_t temporary_bytes; /* of disk that ordering takes at once, about and at most: told from its
+                              first call on. Since 0.1 */
+} tetstream_progress;
+
+/* Called at least once per window, and often enough for a bar; non-zero cancels the run, which
+ * fails with TETSTREAM_CANCELLED. */
+typedef int32_t (*tetstream_progress_callback)(void *user, const tetstream_progress *progress);
+
 /* A piece of work of the library's. */
 typedef void (*tetstream_work)(void *argument);
 
@@ -229,6 +243,13 @@ typedef struct tetstream_pool_callbacks {
  * with them. NULL: threads of the library again. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_set_pool(tetstream_options *options,
                                                           const tetstream_pool_callbacks *pool);
+/* Opening a reader with these options calls `progress`, where it takes long: text formats of indexed
+ * meshes are read whole then. The phase is "open"; there are no counts, and the fraction is that of
+ * the file's bytes. On the thread that opens; non-zero ends the opening with TETSTREAM_CANCELLED.
+ * NULL: none again. `user` must stay as long as readers are opened. Since 0.1. */
+TETSTREAM_API tetstream_status tetstream_options_set_progress(tetstream_options *options,
+                                                              tetstream_progress_callback progress,
+                                                              void *user);
 /* The sentence for the last failure with this handle, "" if there was none. Lives until the next
  * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_options_message(const tetstream_options *options);
@@ -506,20 +527,6 @@ TETSTREAM_API const char *tetstream_writer_note(const tetstream_writer *writer, 
 TETSTREAM_API const char *tetstream_writer_message(const tetstream_writer *writer);
 
 /* ----------------------------------------------------------------------------- simplifier */
-
-/* How far a run is. Fractions need counts: -1 where they are not known. */
-typedef struct tetstream_progress {
-  size_t struct_size;
-  int64_t cells_read, cells_total, cells_written;
-  double fraction; /* of the whole run, 0 to 1, or -1 */
-  const char *phase; /* "order", "pilot", "simplify", "convert", ...; static */
-  int64_t temporary_bytes; /* of disk that ordering takes at once, about and at most: told from its
-                              first call on. Since 0.1 */
-} tetstream_progress;
-
-/* Called at least once per window, and often enough for a bar; non-zero cancels the run, which
- * fails with TETSTREAM_CANCELLED. */
-typedef int32_t (*tetstream_progress_callback)(void *user, const tetstream_progress *progress);
 
 /* What came out. Members may be added at the end. The texts live until the stream goes on or the
  * handle is destroyed. */

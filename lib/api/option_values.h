@@ -42,6 +42,8 @@ class OptionValues {
   void addField(const char* name, double weight);
   void setWorkers(std::shared_ptr<Workers> workers) { workers_ = std::move(workers); }
   const std::shared_ptr<Workers>& workers() const { return workers_; }
+  void setProgress(ProgressFunction progress) { progress_ = std::move(progress); }
+  const ProgressFunction& progress() const { return progress_; }
 
   RunOptions runOptions() const;  // borrows the workers
 
@@ -58,6 +60,7 @@ class OptionValues {
   std::array<std::variant<int64_t, double, std::string>, kCount> values_;
   std::vector<std::pair<std::string, double>> fields_;
   std::shared_ptr<Workers> workers_;
+  ProgressFunction progress_;
 };
 
 }  // namespace tetstream

@@ -113,6 +113,14 @@ tetstream_status tetstream_options_set_pool(tetstream_options* options,
   });
 }
 
+tetstream_status tetstream_options_set_progress(tetstream_options* options,
+                                                tetstream_progress_callback progress, void* user) {
+  return guard(__func__, options, [&](tetstream_options& o) {
+    needState(o, State::kReady);
+    o.values->setProgress(progressOf(progress, user));
+  });
+}
+
 const char* tetstream_options_message(const tetstream_options* options) {
   return messageOf(options);
 }

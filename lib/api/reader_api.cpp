@@ -35,6 +35,16 @@ static std::string unmeasuredNote(const Input& input) {
          (input.indexed ? " (option cells-to-points, --cells-to-points)" : "");
 }
 
+static ByteWatch::Tell openingTold(const tetstream_options* settings) {
+  if (!settings || !settings->values->progress()) return {};
+  return [tell = settings->values->progress()](double fraction) {
+    Progress progress;
+    progress.phase = "open";
+    progress.fraction = fraction;
+    tell(progress);
+  };
+}
+
 // Opens the bytes as `format` and reads the header. `path` where they are a file's.
 static void openBytes(tetstream_reader& reader, const Format& format,
                       std::unique_ptr<ByteSource> bytes, const tetstream_options* settings,
@@ -59,8 +69,10 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   reader.tasks = std::make_unique<const Tasks>(threads, run.workers);
   options.threads.tasks = reader.tasks.get();
   options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
+  const ByteWatch watch(openingTold(settings));
+  options.watch = &watch;
   wrappingOf(path, &options.path);
-  bytes = unwrapped(std::move(bytes));
+  bytes = unwrapped(watch.watched(std::move(bytes)));
   if (!format.reads_pipes) bytes = makeSeekable(std::move(bytes), options.temp_dir);
   std::shared_ptr<Waiting> waiting = bytes->waiting();
   const std::string name = bytes->name();

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "byte_watch.h"
 #include "bytes.h"
 #include "source.h"
 #include "text_pieces.h"
@@ -25,8 +26,14 @@ struct ReadOptions {
   bool recover = false;  // .tets: what is whole of a file that is damaged or cut off
   bool split = false;    // hexahedra, prisms and pyramids into tetrahedra; else they are errors
   PointJoining join = PointJoining::kAuto;
-  int64_t step = kLastStep;  // which of the time steps, from 0, of a file that has several
-  TextThreads threads;       // who helps the thread that opens
+  int64_t step = kLastStep;          // which of the time steps, from 0, of a file that has several
+  TextThreads threads;               // who helps the thread that opens
+  const ByteWatch* watch = nullptr;  // of opening; may be null
+
+  // For files that are opened besides.
+  std::unique_ptr<ByteSource> watched(std::unique_ptr<ByteSource> bytes) const {
+    return watch ? watch->watched(std::move(bytes)) : std::move(bytes);
+  }
 };
 
 struct WriteOptions {

@@ -284,6 +284,65 @@ static void a_result_that_is_a_stream_is_read_as_it_is(void) {
   CHECK_EQUAL(unlink(path), 0);
 }
 
+struct told {
+  int calls, stop_at;
+  double last;
+};
+
+static int32_t tell(void* user, const tetstream_progress* progress) {
+  struct told* told = user;
+  CHECK(strcmp(progress->phase, "open") == 0);
+  CHECK(progress->fraction >= told->last && progress->fraction <= 1);
+  CHECK_EQUAL(progress->cells_total, -1);
+  told->last = progress->fraction;
+  return ++told->calls == told->stop_at;
+}
+
+/* A mesh in text, as its format's writer makes it. */
+static tetstream_writer* text_of(int64_t cells, const void** data, size_t* size) {
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  CHECK_EQUAL(tetstream_reader_generate("ball", cells, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory("mesh", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_get_memory(writer, data, size), TETSTREAM_OK);
+  tetstream_reader_destroy(reader);
+  return writer;
+}
+
+static void opening_tells_how_far_it_is(void) {
+  const void* data;
+  size_t size;
+  struct told told = {0, 0, 0};
+  tetstream_options* options = NULL;
+  tetstream_reader* reader = NULL;
+  tetstream_writer* text = text_of(30000, &data, &size);
+  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_progress(options, tell, &told), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_memory_with(data, size, "mesh", options, &reader),
+              TETSTREAM_OK);
+  CHECK(told.calls >= 1);
+  CHECK(told.last > 0);
+  CHECK(cells_of(reader) > 20000);
+  tetstream_reader_destroy(reader);
+
+  told = (struct told){0, 1, 0};
+  CHECK_EQUAL(tetstream_reader_open_memory_with(data, size, "mesh", options, &reader),
+              TETSTREAM_CANCELLED);
+  CHECK_EQUAL(told.calls, 1);
+  CHECK_SAYS(tetstream_reader_message(reader), "progress callback returned 1");
+  tetstream_reader_destroy(reader);
+
+  CHECK_EQUAL(tetstream_options_set_progress(options, NULL, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_memory_with(data, size, "mesh", options, &reader),
+              TETSTREAM_OK);
+  CHECK_EQUAL(told.calls, 1);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(tetstream_options_set_progress(NULL, tell, NULL), TETSTREAM_BAD_ARGUMENT);
+  tetstream_options_destroy(options);
+  tetstream_writer_destroy(text);
+}
+
 static void null_is_refused(void) {
   tetstream_reader* reader = NULL;
   CHECK_EQUAL(tetstream_reader_open_file_with(NULL, "mesh", NULL, &reader), TETSTREAM_BAD_ARGUMENT);
@@ -335,6 +394,7 @@ int main(void) {
   RUN_CASE(a_pipe_is_spooled_where_the_options_say);
   RUN_CASE(a_result_takes_what_it_can);
   RUN_CASE(a_result_that_is_a_stream_is_read_as_it_is);
+  RUN_CASE(opening_tells_how_far_it_is);
   RUN_CASE(null_is_refused);
   RUN_CASE(the_format_msh_has_an_encoding_and_a_version);
   return check_end();

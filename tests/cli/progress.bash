@@ -17,5 +17,17 @@ contains "$(<"$logs/err")" " cells"
 contains_not "$(<"$logs/err")" $'\r'
 [[ $(cells_in out.tets) == "$(cells_in in.tets)" ]] || fail "convert loses cells"
 
+# Text that is read when it is opened tells of that.
+tetstream convert in.tets in.mesh
+half=$(($(stat -c %s in.mesh) / 2))
+{
+  head -c "$half" in.mesh
+  sleep 2
+  tail -c +$((half + 1)) in.mesh
+} | tetstream convert - out.tets --format-in mesh --progress 2>"$logs/err"
+contains "$(<"$logs/err")" "tetstream: open"
+contains_not "$(<"$logs/err")" "open 0 cells"
+half=$(($(stat -c %s in.tets) / 2))
+
 slowly | tetstream convert - out.tets 2>"$logs/err"
 [[ ! -s $logs/err ]] || fail "progress where nobody asked for it"

@@ -7,6 +7,8 @@ module files_cases
   use tetstream
   implicit none
 
+  integer :: calls  ! of a procedure that is told how far opening is
+
   interface
     type(c_ptr) function fopen(path, mode) bind(c)
       import
@@ -254,6 +256,37 @@ contains
     call check_says(errmsg, "bmp", "a picture of another kind")
   end subroutine
 
+  ! Text is read whole when it is opened.
+  subroutine opening_is_told
+    type(tetstream_reader) :: reader
+    type(tetstream_writer) :: writer
+    type(tetstream_options) :: options
+    integer :: stat
+    character(300) :: errmsg
+
+    call reader%open_file("box.tets")
+    call writer%create_file("told.mesh")
+    call tetstream_convert(reader, writer)
+    calls = 0
+    call reader%open_file("told.mesh", progress=count_calls)
+    call check(calls > 0, "opening is told")
+    calls = -1000
+    call options%set("step", "5")
+    call reader%open_result("told.mesh", options=options, progress=count_calls, stat=stat, errmsg=errmsg)
+    call check_equal(stat, TETSTREAM_CANCELLED, "and can be ended, of a result, too")
+    call reader%open_file("told.mesh", options=options, stat=stat)
+    call check_equal(stat, TETSTREAM_UNSUPPORTED, "that has no step 5, as nobody is told any more")
+  end subroutine
+
+  subroutine count_calls(progress, cancel)
+    type(tetstream_progress), intent(in) :: progress
+    logical, intent(inout) :: cancel
+
+    call check(progress%phase == "open" .and. progress%fraction <= 1, "the phase")
+    cancel = calls < 0
+    calls = calls + 1
+  end subroutine
+
   ! The map and the log of a run, as files.
   subroutine traces_are_files
     type(tetstream_reader) :: reader
@@ -292,6 +325,7 @@ program files_test
   call streams_are_inspected_and_ordered
   call orders_are_drawn
   call meshes_are_compared
+  call opening_is_told
   call traces_are_files
   call check_end
 end program

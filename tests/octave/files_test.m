@@ -48,6 +48,17 @@ assert (dir (at ("plain.vtu")).bytes > dir (at ("packed.vtu")).bytes);
 figures = tetstream_compare (mesh, mesh);
 assert (figures.fields.von_mises.largest_percent, 0, 1e-9);
 
+## Opening a text tells how far it is.
+told = containers.Map ();
+function note (told, progress)
+  told(progress.phase) = progress.fraction;
+endfunction
+tetstream_convert (at ("small.vtu"), at ("told.mesh"));
+tetstream_info (at ("told.mesh"), "progress", @(p) note (told, p));
+assert (told("open") > 0 && told("open") <= 1);
+fails ("mine:stop", "enough", ...
+       @() tetstream_read (at ("told.mesh"), "progress", @(p) error ("mine:stop", "enough")));
+
 ## Options of the reading count where a file is opened, and only there.
 file = fopen (at ("cube.vtk"), "w");
 fprintf (file, ["# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n" ...

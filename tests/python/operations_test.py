@@ -110,6 +110,23 @@ class Operations(unittest.TestCase):
         for name in ("boundary_weight", "tmpdir", "order"):
             self.assertIn(f"        {name}: ", tetstream.simplify.__doc__)
 
+    def test_progress_of_opening(self):
+        mesh = tetstream.read(tetstream.Reader.generate("ball", 1000))
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("ball.mesh", "ball.node"):
+                path, told = os.path.join(folder, name), []
+                if name == "ball.mesh":
+                    mesh.write(path)
+                else:
+                    _write_tetgen(mesh, path)
+                tetstream.info(path, progress=told.append)
+                self.assertEqual(told[0].phase, "open", name)
+                self.assertTrue(0 < told[0].fraction <= 1, told)
+                with self.assertRaises(ZeroDivisionError):
+                    tetstream.simplify_file(path, os.path.join(folder, "out.tets"), ratio=0.5,
+                                            progress=lambda p: 1 / (p.phase != "open"))
+            self.assertNotIn("out.tets", " ".join(os.listdir(folder)))
+
     def test_options_that_do_not_count_are_refused(self):
         mesh = tetstream.read(tetstream.Reader.generate("ball", 100))
         with tempfile.TemporaryDirectory() as folder:
@@ -132,6 +149,17 @@ class Operations(unittest.TestCase):
             self.assertIn(kind.__name__, {name, *_OTHER_NAMES.get(name, ())})
         self.assertEqual({-i for i in range(1, 10)}, set(errors._CLASSES))
         self.assertEqual(core.VERSION_NUMBER, core.version_number())
+
+
+def _write_tetgen(mesh, path):
+    with open(path, "w") as nodes:
+        print(len(mesh.points), "3 0 0", file=nodes)
+        for number, point in enumerate(mesh.points):
+            print(number, *point, file=nodes)
+    with open(path.replace(".node", ".ele"), "w") as cells:
+        print(len(mesh.cells), "4 0", file=cells)
+        for number, cell in enumerate(mesh.cells):
+            print(number, *cell, file=cells)
 
 
 # Where a name of Python's own kind would mislead.

@@ -35,12 +35,9 @@ contains
     type(tetstream_options), intent(in), optional :: options
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    type(c_ptr) :: settings
 
     call this%destroy()
-    settings = c_null_ptr
-    if (present(options)) settings = options%handle
-    call told(this, c_comparison_create(settings, this%handle), stat, errmsg)
+    call told(this, c_comparison_create(handle_of(options), this%handle), stat, errmsg)
   end subroutine
 
   ! Reads both meshes to their ends and compares them.

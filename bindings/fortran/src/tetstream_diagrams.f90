@@ -42,12 +42,9 @@ contains
     type(tetstream_options), intent(in), optional :: options
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    type(c_ptr) :: settings
 
     call this%destroy()
-    settings = c_null_ptr
-    if (present(options)) settings = options%handle
-    call told(this, c_diagram_create(settings, columns, rows, this%handle), stat, errmsg)
+    call told(this, c_diagram_create(handle_of(options), columns, rows, this%handle), stat, errmsg)
   end subroutine
 
   ! Reads everything. `page` is TETSTREAM_PAGE_SWEEP if that page is to be written, too.

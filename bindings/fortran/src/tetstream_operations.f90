@@ -196,7 +196,7 @@ contains
     character(sentence_length) :: sentence
     integer :: status
 
-    call reader%open_file(source, options=options, stat=status, errmsg=sentence)
+    call reader%open_file(source, options=options, progress=progress, stat=status, errmsg=sentence)
     if (status >= 0) call writer%create_file(target, stat=status, errmsg=sentence)
     if (status >= 0) call simplify(reader, writer, options, ratio, report=report, progress=progress, &
                                    stat=status, errmsg=sentence)
@@ -267,7 +267,7 @@ contains
     character(sentence_length) :: sentence
     integer :: status
 
-    call reader%open_file(path, format, options, status, sentence)
+    call reader%open_file(path, format, options, stat=status, errmsg=sentence)
     if (status >= 0) call writer%create(taken, status, sentence)
     if (status >= 0) call tetstream_convert(reader, writer, options, stat=status, errmsg=sentence)
     if (forwarded(status, sentence, stat, errmsg)) return
@@ -349,14 +349,6 @@ contains
     if (status >= 0) call copy_info(found, info)
     call settle(status, c_reader_message(reader%handle), stat, errmsg, reader%cause())
   end subroutine
-
-  function handle_of(options) result(handle)
-    type(tetstream_options), intent(in), optional :: options
-    type(c_ptr) :: handle
-
-    handle = c_null_ptr
-    if (present(options)) handle = options%handle
-  end function
 
   subroutine told(status, reader, writer, stat, errmsg)
     integer(c_int32_t), intent(in) :: status

@@ -7,6 +7,7 @@ module tetstream_readers
   use tetstream_figures
   use tetstream_handover
   use tetstream_lending
+  use tetstream_listening
   use tetstream_settings
   use tetstream_streams
   implicit none
@@ -150,35 +151,59 @@ contains
 
   ! -------------------------------------------------------------------------- files and memory
 
-  subroutine reader_open_file(this, path, format, options, stat, errmsg)
+  ! `progress` is told how far opening is, where that takes long.
+  subroutine reader_open_file(this, path, format, options, progress, stat, errmsg)
     class(tetstream_reader), intent(inout) :: this
     character(*), intent(in) :: path
     character(*), intent(in), optional :: format
     type(tetstream_options), intent(in), optional :: options
+    procedure(tetstream_listen), optional :: progress
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    character(:, kind=c_char), allocatable :: kind
 
-    call prepare(this)
-    call terminated(format, kind)
-    call told(this, c_reader_open_file_with(trim(path)//c_null_char, kind, handle_of(options), this%handle), &
-              stat, errmsg)
+    call open_path(c_reader_open_file_with, this, path, format, options, progress, stat, errmsg)
   end subroutine
 
   ! A file to be compared with another that is opened with these options.
-  subroutine reader_open_result(this, path, format, options, stat, errmsg)
+  subroutine reader_open_result(this, path, format, options, progress, stat, errmsg)
     class(tetstream_reader), intent(inout) :: this
     character(*), intent(in) :: path
     character(*), intent(in), optional :: format
     type(tetstream_options), intent(in), optional :: options
+    procedure(tetstream_listen), optional :: progress
+    integer, intent(out), optional :: stat
+    character(*), intent(inout), optional :: errmsg
+
+    call open_path(c_reader_open_result, this, path, format, options, progress, stat, errmsg)
+  end subroutine
+
+  subroutine open_path(open, this, path, format, options, progress, stat, errmsg)
+    procedure(c_reader_open_result) :: open
+    class(tetstream_reader), intent(inout) :: this
+    character(*), intent(in) :: path
+    character(*), intent(in), optional :: format
+    type(tetstream_options), intent(in), optional :: options
+    procedure(tetstream_listen), optional :: progress
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     character(:, kind=c_char), allocatable :: kind
+    type(tetstream_options), target :: own
+    type(listener), target :: listens
+    type(c_ptr) :: settings
+    integer(c_int32_t) :: status, unheard
 
     call prepare(this)
     call terminated(format, kind)
-    call told(this, c_reader_open_result(trim(path)//c_null_char, kind, handle_of(options), this%handle), &
-              stat, errmsg)
+    settings = handle_of(options)
+    if (present(progress)) then
+      listens%told => progress
+      if (.not. c_associated(settings)) unheard = c_options_create(own%handle)
+      if (.not. c_associated(settings)) settings = own%handle
+      unheard = c_options_set_progress(settings, callback_of(listens), user_of(listens))
+    end if
+    status = open(trim(path)//c_null_char, kind, settings, this%handle)
+    if (present(progress)) unheard = c_options_set_progress(settings, c_null_funptr, c_null_ptr)
+    call told(this, status, stat, errmsg)
   end subroutine
 
   ! A descriptor of the system, which stays the caller's to close.
@@ -227,14 +252,6 @@ contains
     if (present(seed)) start = seed
     call told(this, c_reader_generate(trim(kind)//c_null_char, cells, start, this%handle), stat, errmsg)
   end subroutine
-
-  function handle_of(options) result(handle)
-    type(tetstream_options), intent(in), optional :: options
-    type(c_ptr) :: handle
-
-    handle = c_null_ptr
-    if (present(options)) handle = options%handle
-  end function
 
   ! ------------------------------------------------------------------------- a mesh in arrays
 

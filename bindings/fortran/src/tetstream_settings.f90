@@ -7,7 +7,7 @@ module tetstream_settings
   use tetstream_figures
   implicit none
   private
-  public :: tetstream_option_count, tetstream_option_at
+  public :: tetstream_option_count, tetstream_option_at, handle_of
 
   type, public :: tetstream_options
     type(c_ptr) :: handle = c_null_ptr
@@ -28,6 +28,15 @@ module tetstream_settings
   end type
 
 contains
+
+  ! For C: a null pointer for none, which stands for the defaults.
+  function handle_of(options) result(handle)
+    type(tetstream_options), intent(in), optional :: options
+    type(c_ptr) :: handle
+
+    handle = c_null_ptr
+    if (present(options)) handle = options%handle
+  end function
 
   integer function tetstream_option_count()
     tetstream_option_count = c_option_count()

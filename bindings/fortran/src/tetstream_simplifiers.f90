@@ -57,14 +57,11 @@ contains
     type(tetstream_options), intent(in), optional :: options
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
-    type(c_ptr) :: settings
 
     call this%destroy()
     allocate (this%room)
     this%room%writer => writer
-    settings = c_null_ptr
-    if (present(options)) settings = options%handle
-    call told(this, c_simplifier_create(settings, writer%handle, this%handle), stat, errmsg)
+    call told(this, c_simplifier_create(handle_of(options), writer%handle, this%handle), stat, errmsg)
   end subroutine
 
   ! A procedure that is told how far the run is.

@@ -8,8 +8,8 @@ def layout(source, target, *, progress=None, **options):
     """Brings a mesh into an order and writes it as a stream, in bounded memory. Sources, targets
     and progress as in simplify_file. Returns a LayoutReport."""
     made = _options.made(options, core.SCOPE_ORDER)
-    reader, writer = _streams.reader_of(source, made), _streams.writer_of(target)
     with _progress.told(progress) as tell:
+        reader, writer = _streams.reader_of(source, made, tell), _streams.writer_of(target)
         report = writer._handle.layout(reader._handle, made._handle, tell)
     return _streams.noted(LayoutReport.copied(report), reader, writer)
 
@@ -19,8 +19,8 @@ def convert(source, target, *, progress=None, **options):
     """Reads everything and writes it; an indexed mesh is brought into an order. Sources, targets
     and progress as in simplify_file. Returns the notes of both."""
     made = _options.made(options, core.SCOPE_ORDER)
-    reader, writer = _streams.reader_of(source, made), _streams.writer_of(target)
     with _progress.told(progress) as tell:
+        reader, writer = _streams.reader_of(source, made, tell), _streams.writer_of(target)
         writer._handle.convert(reader._handle, made._handle, tell)
     return reader.notes + writer.notes
 
@@ -40,8 +40,8 @@ def info(source, *, progress=None, **options):
     """Reads everything and tells what it is: a StreamInfo, complete. An indexed mesh's front is that
     of the order in which it is streamed."""
     made = _options.made(options, core.SCOPE_ORDER)
-    reader = _streams.reader_of(source, made)
     with _progress.told(progress) as tell:
+        reader = _streams.reader_of(source, made, tell)
         found = reader._handle.inspect(made._handle, tell)
     front = Record.copied(reader._handle.get_front())
     return _streams.stream_info(found, front=front, notes=reader.notes)
@@ -94,11 +94,11 @@ def diagram(source, *, columns=1200, rows=800, sweep=False, progress=None, **opt
         progress: as in simplify.
     """
     made = _options.made(options, core.SCOPE_ORDER)
-    reader = _streams.reader_of(source, made)
     page = core.PAGE_SWEEP if sweep else core.PAGE_LAYOUT
     drawn = core.Diagram(made._handle, _options.whole("columns", columns, 32),
                          _options.whole("rows", rows, 32))
     with _progress.told(progress) as tell:
+        reader = _streams.reader_of(source, made, tell)
         drawn.read(reader._handle, page, tell)
     return Diagram.copied(drawn.get_info(), coverage=drawn.coverage(), widths=drawn.widths(),
                           lowest=drawn.lowest(), newest=drawn.newest(), notes=reader.notes,
@@ -141,9 +141,10 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
         progress: as in simplify.
     """
     made = _options.made(options, core.SCOPE_COMPARE, weights)
-    readers = _streams.reader_of(original, made), _streams.result_of(simplified, made)
     compared = core.Comparison(made._handle)
     with _progress.told(progress) as tell:
+        readers = (_streams.reader_of(original, made, tell),
+                   _streams.result_of(simplified, made, tell))
         compared.read(readers[0]._handle, readers[1]._handle, tell)
     figures = compared.get_info()
     fields = [Record.copied(compared.get_field(i)) for i in range(figures.field_count)]

@@ -18,12 +18,11 @@ def _made_options(options, weights):
     return made
 
 
-def _run(options, reader, writer, progress, prepare, depth):
+def _run(options, reader, writer, tell, prepare, depth):
     """One simplification; `prepare` is called with the simplifier before. The Report."""
-    with _progress.told(progress) as tell:
-        simplifier = core.Simplifier(options._handle, writer._handle, tell)
-        prepare(simplifier)
-        simplifier.run(reader._handle)
+    simplifier = core.Simplifier(options._handle, writer._handle, tell)
+    prepare(simplifier)
+    simplifier.run(reader._handle)
     return _reported(simplifier, depth, reader, writer)
 
 
@@ -70,7 +69,8 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
         if vertex_map:
             simplifier.set_map(mapped)
 
-    report = _run(made, reader, writer, progress, prepare, 5)
+    with _progress.told(progress) as tell:
+        report = _run(made, reader, writer, tell, prepare, 5)
     result = _mesh.collected(collector, columns, cell_columns, _mesh.Simplified)
     result.report = report
     if labelled is not mesh:
@@ -156,8 +156,9 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
 
     # The options first, then the source: nothing is created where one of them is refused.
     made = _made_options(options, weights)
-    reader = _streams.reader_of(source, made)
-    return _run(made, reader, _streams.writer_of(target), progress, prepare, 4)
+    with _progress.told(progress) as tell:
+        reader = _streams.reader_of(source, made, tell)
+        return _run(made, reader, _streams.writer_of(target), tell, prepare, 4)
 
 
 @_options.documented(core.SCOPE_SIMPLIFY)

@@ -426,8 +426,9 @@ def _closing(generator, finish):
     return end
 
 
-def _reader_of(source, open_file, options):
+def _reader_of(source, open_file, options, tell):
     if isinstance(source, (str, bytes, os.PathLike)):
+        options._handle.set_progress(tell)
         return Reader(open_file(source, None, options._handle))
     if isinstance(source, Reader):
         return source
@@ -436,17 +437,17 @@ def _reader_of(source, open_file, options):
     raise TypeError(f"a path, a Mesh or a Reader is wanted, not {type(source).__name__}")
 
 
-def reader_of(source, options):
-    """A Reader of what somebody calls a source."""
+def reader_of(source, options, tell):
+    """A Reader of what somebody calls a source; `tell` is called while a file is opened."""
     if isinstance(source, (Reader, _mesh.Mesh)):
         _options.refuse_reading(options, f"a {type(source).__name__}")
-    return _reader_of(source, core.Reader.open_file, options)
+    return _reader_of(source, core.Reader.open_file, options, tell)
 
 
-def result_of(source, options):
+def result_of(source, options, tell):
     """The same for what is compared with a source: of the options of the reading those count that
     it takes."""
-    return _reader_of(source, core.Reader.open_result, options)
+    return _reader_of(source, core.Reader.open_result, options, tell)
 
 
 def writer_of(target):

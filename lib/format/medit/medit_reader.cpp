@@ -26,6 +26,7 @@ class MeditReader {
     const bool wide = scan_.version() == 4;
     intake_.addLabels(kMeditReference, wide);
     intake_.addPointLabels(kMeditReference, wide);
+    if (!options.path.empty()) solution_ = options.watched(openMeditSolution(options.path));
   }
 
   std::unique_ptr<IndexedSource> read() {
@@ -173,12 +174,9 @@ class MeditReader {
   }
 
   void readSolutions() {
-    if (options_.path.empty()) return;
-    std::string path;
-    std::unique_ptr<ByteSource> bytes = openMeditSolution(options_.path, &path);
-    if (!bytes) return;
-    intake_.note("its solutions are read from " + path);
-    MeditScan scan(std::move(bytes), options_.threads);
+    if (!solution_) return;
+    intake_.note("its solutions are read from " + solution_->name());
+    MeditScan scan(std::move(solution_), options_.threads);
     solutions_.readFile(scan, intake_, rows_);
   }
 
@@ -187,6 +185,7 @@ class MeditReader {
   MeshIntake intake_;
   MeditSolutions solutions_;
   MeditRows rows_;
+  std::unique_ptr<ByteSource> solution_;  // beside the mesh; null: none is there
   bool any_vertices_ = false;
 };
 

@@ -109,12 +109,12 @@ std::string withExtension(const std::string& path, const char* extension) {
   return path.substr(0, has ? dot : path.size()) + extension;
 }
 
-std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path, std::string* path) {
+std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path) {
   const bool binary =
       mesh_path.size() > 6 && mesh_path.compare(mesh_path.size() - 6, 6, ".meshb") == 0;
   for (const char* extension : {binary ? ".solb" : ".sol", binary ? ".sol" : ".solb"}) {
-    *path = withExtension(mesh_path, extension);
-    if (exists(*path)) return openFile(*path);
+    const std::string path = withExtension(mesh_path, extension);
+    if (exists(path)) return openFile(path);
   }
   return nullptr;
 }

@@ -29,7 +29,7 @@ constexpr const char* kMeditReference = "medit:ref";  // labels, as others call 
 
 // PATH.sol or PATH.solb for PATH.mesh, PATH.solb or PATH.sol for PATH.meshb; null: neither is
 // there.
-std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path, std::string* path);
+std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path);
 bool exists(const std::string& path);
 // Whatever PATH ends with, another ending.
 std::string withExtension(const std::string& path, const char* extension);

@@ -285,9 +285,9 @@ class MeditWriter final : public MeshCollector {
   }
 
   void noteOldSolution() {
-    std::string path;
-    if (!options().path.empty() && openMeditSolution(options().path, &path))
-      note(path + " lies beside it and is of another mesh");
+    if (options().path.empty()) return;
+    if (const auto old = openMeditSolution(options().path))
+      note(old->name() + " lies beside it and is of another mesh");
   }
 
   template <class Read>

@@ -13,8 +13,8 @@ namespace {
 constexpr int64_t kMostAttributes = 512;
 constexpr size_t kMostFaceBytes = 512;  // of a face's line that are looked at: at most ten numbers
 
-std::unique_ptr<ByteSource> openBeside(const std::string& path, const char* extension) {
-  return unwrapped(openFile(withExtension(path, extension)));
+std::unique_ptr<ByteSource> openBeside(const ReadOptions& options, const char* extension) {
+  return unwrapped(options.watched(openFile(withExtension(options.path, extension))));
 }
 
 // Numbers of the next line that is no comment, which stays the next one.
@@ -154,10 +154,10 @@ Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) 
          bytes->name().c_str());
   bytes.reset();
   const std::string face = withExtension(options.path, ".face");
-  TetgenReader reader(openBeside(options.path, ".node"), options);
+  TetgenReader reader(openBeside(options, ".node"), options);
   Input input;
-  input.indexed = reader.read(openBeside(options.path, ".ele"),
-                              exists(face) ? openBeside(options.path, ".face") : nullptr);
+  input.indexed = reader.read(openBeside(options, ".ele"),
+                              exists(face) ? openBeside(options, ".face") : nullptr);
   return input;
 }
 

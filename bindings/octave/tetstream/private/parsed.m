@@ -26,6 +26,9 @@ function [options, own] = parsed (caller, own, scope, arguments)
       error ("tetstream:bad-argument", "%s: there is no option \"%s\"", caller, name);
     endif
   endfor
+  if (isfield (own, "progress"))
+    options.set_progress (own.progress);
+  endif
   if (isfield (own, "weights") && ! isempty (own.weights))
     if (! isstruct (own.weights) || ! isscalar (own.weights))
       error ("tetstream:bad-argument", "%s: weights: a struct of field to weight is wanted, not a %s",

@@ -1,0 +1,79 @@
+#include "byte_watch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace tetstream {
+
+using Clock = std::chrono::steady_clock;
+
+static constexpr std::chrono::milliseconds kPause{20};
+
+// Helpers may read, too, and count; but only the one thread looks at what tells.
+struct ByteWatch::State {
+  Tell tell;
+  const std::thread::id thread = std::this_thread::get_id();
+  std::atomic<uint64_t> done{0};
+  uint64_t total = 0;
+  bool is_total_known = true;
+  Clock::time_point told{};
+
+  size_t count(size_t bytes) {
+    done.fetch_add(bytes, std::memory_order_relaxed);
+    if (std::this_thread::get_id() != thread || !tell) return bytes;
+    const Clock::time_point now = Clock::now();
+    if (now - told < kPause) return bytes;
+    told = now;
+    const double share =
+        static_cast<double>(done) / static_cast<double>(std::max<uint64_t>(total, 1));
+    tell(is_total_known ? std::min(share, 1.0) : -1);
+    return bytes;
+  }
+};
+
+namespace {
+
+class WatchedSource final : public ByteSource {
+ public:
+  using Count = std::function<size_t(size_t)>;
+  WatchedSource(std::unique_ptr<ByteSource> bytes, Count count)
+      : ByteSource(bytes->name()), bytes_(std::move(bytes)), count_(std::move(count)) {}
+
+  size_t read(void* out, size_t size) override { return count_(bytes_->read(out, size)); }
+  size_t readAt(uint64_t offset, void* out, size_t size) override {
+    return count_(bytes_->readAt(offset, out, size));
+  }
+  bool seekable() const override { return bytes_->seekable(); }
+  uint64_t size() const override { return bytes_->size(); }
+  std::shared_ptr<Waiting> waiting() const override { return bytes_->waiting(); }
+
+ private:
+  std::unique_ptr<ByteSource> bytes_;
+  Count count_;
+};
+
+}  // namespace
+
+ByteWatch::ByteWatch(Tell tell) {
+  if (!tell) return;
+  state_ = std::make_shared<State>();
+  state_->tell = std::move(tell);
+}
+
+ByteWatch::~ByteWatch() {
+  if (state_) state_->tell = nullptr;
+}
+
+std::unique_ptr<ByteSource> ByteWatch::watched(std::unique_ptr<ByteSource> bytes) const {
+  if (!state_ || !bytes) return bytes;
+  if (bytes->seekable())
+    state_->total += bytes->size();
+  else
+    state_->is_total_known = false;
+  return std::make_unique<WatchedSource>(
+      std::move(bytes), [state = state_](size_t size) { return state->count(size); });
+}
+
+}  // namespace tetstream

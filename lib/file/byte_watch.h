@@ -1,0 +1,31 @@
+// file: tells how much of a file was read while it is opened. Depends on bytes.h.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "bytes.h"
+
+namespace tetstream {
+
+// `tell` is called by reads of the thread that made the watch, until that ends, some times a
+// second; what it throws leaves the read.
+class ByteWatch {
+ public:
+  // `fraction` of the bytes of all that is watched so far; -1 where a size is not known.
+  using Tell = std::function<void(double fraction)>;
+
+  explicit ByteWatch(Tell tell);  // empty: nothing is watched
+  ~ByteWatch();                   // sources may live longer
+  ByteWatch(const ByteWatch&) = delete;
+  ByteWatch& operator=(const ByteWatch&) = delete;
+
+  // The same bytes; nothing for nothing.
+  std::unique_ptr<ByteSource> watched(std::unique_ptr<ByteSource> bytes) const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;  // null where nothing is watched
+};
+
+}  // namespace tetstream
