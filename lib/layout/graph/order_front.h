@@ -1,4 +1,4 @@
-// layout: the stream that comes of ranked vertices, and its front. Depends on connectivity.h.
+// layout/graph: the stream that comes of ranked vertices, and its front. Depends on connectivity.h.
 //
 // A cell comes right after its vertex of highest rank, cells of equal rank by number; a vertex is
 // introduced just before the first cell that uses it and finalized with the last.

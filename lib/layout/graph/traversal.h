@@ -1,4 +1,4 @@
-// layout: vertices taken one after the other, breadth first. Depends on vertex_graph.h.
+// layout/graph: vertices taken one after the other, breadth first. Depends on vertex_graph.h.
 #pragma once
 
 #include "order_front.h"

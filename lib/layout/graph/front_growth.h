@@ -1,4 +1,5 @@
-// layout: numbers the vertices of a graph so that few are active at once. Depends on laplacian.h.
+// layout/graph: numbers the vertices of a graph so that few are active at once. Depends on
+// laplacian.h.
 //
 // A sequence of vertices, each of which is closed: its neighbours and itself become active where
 // they were not, then it is not active any more. That is a stream read backwards: what is closed

@@ -1,4 +1,4 @@
-// file: numbers of a file that may be text or binary, on their way out. Depends on bytes.h,
+// file/text: numbers of a file that may be text or binary, on their way out. Depends on bytes.h,
 // text_number.h.
 #pragma once
 

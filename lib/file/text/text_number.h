@@ -1,4 +1,4 @@
-// file: words and numbers of text. Depends on scalar.h.
+// file/text: words and numbers of text. Depends on scalar.h.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// layout: an indexed mesh as the orders see it. Depends on base.
+// layout/graph: an indexed mesh as the orders see it. Depends on base.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// file: the numbers that nearly all of a text are, with blanks around them, read where they lie;
-// what is not plain (a plus sign, Fortran's exponents, too many digits) is left to text_number.h.
-// Depends on nothing.
+// file/text: the numbers that nearly all of a text are, with blanks around them, read where they
+// lie; what is not plain (a plus sign, Fortran's exponents, too many digits) is left to
+// text_number.h. Depends on nothing.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// layout: which vertices and cells of a mesh meet. Depends on connectivity.h.
+// layout/graph: which vertices and cells of a mesh meet. Depends on connectivity.h.
 #pragma once
 
 #include "connectivity.h"

@@ -1,4 +1,5 @@
-// file: numbers of a text that were read ahead, in turn. Depends on number_rows.h, text_pieces.h.
+// file/text: numbers of a text that were read ahead, in turn. Depends on number_rows.h,
+// text_pieces.h.
 #pragma once
 
 #include <cstring>

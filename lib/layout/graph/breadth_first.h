@@ -1,4 +1,5 @@
-// layout: the breadth-first order of a mesh's vertices. Depends on order_front.h, vertex_graph.h.
+// layout/graph: the breadth-first order of a mesh's vertices. Depends on order_front.h,
+// vertex_graph.h.
 #pragma once
 
 #include <functional>

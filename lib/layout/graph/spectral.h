@@ -1,4 +1,4 @@
-// layout: the spectral order of a mesh's vertices. Depends on fiedler.h, front_growth.h,
+// layout/graph: the spectral order of a mesh's vertices. Depends on fiedler.h, front_growth.h,
 // vertex_graph.h.
 #pragma once
 

@@ -1,5 +1,5 @@
-// file: a text in pieces, whose numbers several threads read before they are asked for. Depends on
-// piece_parser.h, memory.h, tasks.h.
+// file/text: a text in pieces, whose numbers several threads read before they are asked for.
+// Depends on piece_parser.h, memory.h, tasks.h.
 #pragma once
 
 #include <condition_variable>

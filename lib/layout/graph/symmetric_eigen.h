@@ -1,4 +1,4 @@
-// layout: eigenvectors of a small symmetric matrix. Depends on nothing.
+// layout/graph: eigenvectors of a small symmetric matrix. Depends on nothing.
 #pragma once
 
 #include <cstddef>

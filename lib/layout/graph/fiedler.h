@@ -1,4 +1,4 @@
-// layout: the lowest eigenvectors of a graph's Laplacian. Depends on laplacian.h.
+// layout/graph: the lowest eigenvectors of a graph's Laplacian. Depends on laplacian.h.
 //
 // Found from the coarsest graph to the finest: the vectors of one level, continued on the next, are
 // improved there by LOBPCG (Knyazev 2001), matrix-free, preconditioned by the coarser levels, kept

@@ -1,4 +1,5 @@
-// layout: the Laplacian of a graph, four vectors at a time. Depends on symmetric_eigen.h, base.
+// layout/graph: the Laplacian of a graph, four vectors at a time. Depends on symmetric_eigen.h,
+// base.
 //
 // (A x)_i = sum over the neighbours j of i of w_ij (x_i - x_j). Symmetric; if the graph is
 // connected, A x = 0 for constant vectors only.

@@ -1,5 +1,5 @@
-// file: rows of numbers of a text, all of one pattern, read from where they lie in memory. Depends
-// on piece_parser.h, plain_number.h, text_number.h.
+// file/text: rows of numbers of a text, all of one pattern, read from where they lie in memory.
+// Depends on piece_parser.h, plain_number.h, text_number.h.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// file: what reads the numbers of a piece of a text. Depends on nothing.
+// file/text: what reads the numbers of a piece of a text. Depends on nothing.
 #pragma once
 
 #include <cstddef>
