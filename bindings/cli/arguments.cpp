@@ -1,6 +1,7 @@
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
 #include <map>
 
@@ -397,12 +398,12 @@ std::string Parser::helpOf(const std::string& command) const {
   throw unknownCommand(command);
 }
 
-// --format is for "-", on either side; if there is none, for OUT.
+// --format is for "-", on either side; if there is none, or --format-in tells of it, for OUT.
 void Parser::settleFormats() {
   if (format_.empty()) return;
-  const bool any_standard = arguments_.in.isStandard() || arguments_.out.isStandard();
-  if (arguments_.in.isStandard() && arguments_.in.format.empty()) arguments_.in.format = format_;
-  if (arguments_.out.isStandard() || !any_standard) arguments_.out.format = format_;
+  const bool is_of_in = arguments_.in.isStandard() && arguments_.in.format.empty();
+  if (is_of_in) arguments_.in.format = format_;
+  if (arguments_.out.isStandard() || !is_of_in) arguments_.out.format = format_;
 }
 
 // The command among the words read so far, or nothing.
@@ -413,9 +414,11 @@ std::string Parser::chosenCommand() const {
 
 // What the command has no place for: an option that it does not know, before what follows that.
 std::string Parser::unexpectedText() const {
-  const std::vector<std::string> words = app_.remaining(true);
-  for (const std::string& word : words)
-    if (word.size() > 1 && word[0] == '-') return "there is no option " + word;
+  std::vector<std::string> words = app_.remaining(true);
+  const auto mark = std::find(words.begin(), words.end(), "--");
+  for (auto word = words.begin(); word != mark; ++word)
+    if (word->size() > 1 && word->front() == '-') return "there is no option " + *word;
+  if (mark != words.end()) words.erase(mark);  // behind it, all are arguments
   return words.empty() ? "there are more words than arguments"
                        : "one argument too many: " + words.front();
 }

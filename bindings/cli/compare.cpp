@@ -10,8 +10,12 @@ static Comparison createComparison(const Arguments& arguments) {
   const bool draws = !arguments.out.path.empty();
   if (words.has("cut") && !draws)
     throw Failure{kUsage, "--cut is where a picture cuts, and needs --picture FILE"};
+  if (!arguments.title.empty() && !draws)
+    throw Failure{kUsage, "--title is what stands above a picture, and needs --picture FILE"};
   if (draws && !words.has("cut")) words.values.emplace_back("cut", "auto");
   const Options options = makeOptions(words);
+  if (draws && getText(options.get(), TETSTREAM_OPTION_CUT) == "none")
+    throw Failure{kUsage, "--cut none leaves a picture nothing to show: leave out one of them"};
   tetstream_comparison* handle = nullptr;
   const tetstream_status status = tetstream_comparison_create(options.get(), &handle);
   Comparison comparison(handle);

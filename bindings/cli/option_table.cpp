@@ -101,4 +101,10 @@ double getDouble(const tetstream_options* options, int32_t id) {
   return value;
 }
 
+std::string getText(const tetstream_options* options, int32_t id) {
+  const char* value = nullptr;
+  check(tetstream_options_get_text(options, id, &value), options);
+  return value;
+}
+
 }  // namespace tetstream::cli

@@ -26,5 +26,6 @@ struct OptionWords {
 Options makeOptions(const OptionWords& words);
 int64_t getInt64(const tetstream_options* options, int32_t id);
 double getDouble(const tetstream_options* options, int32_t id);
+std::string getText(const tetstream_options* options, int32_t id);
 
 }  // namespace tetstream::cli

@@ -644,7 +644,8 @@ TETSTREAM_API tetstream_status tetstream_simplifier_set_map(
 /* The same into a file, as tetstream-formats(5) describes it: `format` is "tetmap" or "csv", or
  * NULL: by the path's ending. It is written under a temporary name beside `path`; the files of a run
  * are renamed when all of them are complete, and where one cannot be, none is. UNSUPPORTED for
- * another format, IO if it cannot be made. Since 0.1. */
+ * another format, IO if it cannot be made; a run with two files of the same name does not begin,
+ * BAD_ARGUMENT. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_set_map_file(tetstream_simplifier *simplifier,
                                                                  const char *path,
                                                                  const char *format);

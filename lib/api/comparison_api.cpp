@@ -137,7 +137,7 @@ static tetstream_face_label_comparison publicFaceLabel(const FaceLabelComparison
 tetstream_status tetstream_comparison_create(const tetstream_options* options,
                                              tetstream_comparison** comparison) {
   return guardCreate(__func__, comparison, [&](tetstream_comparison& c) {
-    c.options = runOptionsOf(options);
+    keepOptions(c, options);
     if (c.options.compare.cut != "none") checkCut(c.options.compare.cut);
     partBoxOf(c.options.compare.box);  // throws for what is none
   });

@@ -71,7 +71,7 @@ tetstream_status tetstream_diagram_create(const tetstream_options* options, int3
   return guardCreate(__func__, diagram, [&](tetstream_diagram& d) {
     checkSize(columns, "columns");
     checkSize(rows, "rows");
-    d.options = runOptionsOf(options);
+    keepOptions(d, options);
     d.options.automatic = RunOptions::Auto::kKeeps;
     d.size = {static_cast<size_t>(columns), static_cast<size_t>(rows)};
   });

@@ -63,6 +63,7 @@ struct tetstream_simplifier : tetstream::Handle {
 struct tetstream_diagram : tetstream::Handle {
   static constexpr const char* kNoun = "diagram";
   tetstream::RunOptions options;
+  std::shared_ptr<tetstream::Workers> workers;  // of the options
   tetstream::DiagramSize size = {};
   tetstream::Diagram diagram;                   // once it was read
   std::vector<int64_t> widths, lowest, newest;  // per column
@@ -71,6 +72,7 @@ struct tetstream_diagram : tetstream::Handle {
 struct tetstream_comparison : tetstream::Handle {
   static constexpr const char* kNoun = "comparison";
   tetstream::RunOptions options;
+  std::shared_ptr<tetstream::Workers> workers;   // of the options
   std::unique_ptr<tetstream::Comparison> found;  // once both meshes were read
   double seconds = 0;
 };
@@ -124,5 +126,11 @@ ProgressFunction progressOf(tetstream_progress_callback callback, void* user);
 
 // The options of a handle; the defaults for NULL. Throws kBadState.
 RunOptions runOptionsOf(const tetstream_options* options);
+// The same for a handle that outlives them: their workers live as long as it does.
+template <class H>
+void keepOptions(H& handle, const tetstream_options* options) {
+  handle.options = runOptionsOf(options);
+  if (options) handle.workers = options->values->workers();
+}
 
 }  // namespace tetstream

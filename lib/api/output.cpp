@@ -40,6 +40,7 @@ Output::Output(const Format& format) : format_(&format), in_memory_(true) {
 
 void Output::needReady() const {
   if (state_ != State::kReady) failState("writer", state_);
+  files_.needDistinct();
 }
 
 void Output::needRunning() const {

@@ -85,8 +85,7 @@ tetstream_status tetstream_simplifier_create(const tetstream_options* options,
   return guardCreate(__func__, simplifier, [&](tetstream_simplifier& s) {
     needPlace(writer, "writer");
     outputOf(*writer).needReady();
-    s.options = runOptionsOf(options);
-    if (options) s.workers = options->values->workers();
+    keepOptions(s, options);
     s.output = writer->output;
   });
 }

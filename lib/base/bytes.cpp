@@ -11,6 +11,7 @@
 #include "final_place.h"
 #include "io_error.h"
 #include "joint_files.h"
+#include "write_signals.h"
 
 namespace tetstream {
 
@@ -53,6 +54,7 @@ static size_t readFully(int fd, uint64_t offset, void* out, size_t size, const s
 }
 
 static void writeFully(int fd, const void* data, size_t size, const std::string& name) {
+  const WriteSignalsHeld held;
   size_t done = 0;
   while (done < size) {
     const ssize_t put = ::write(fd, static_cast<const char*>(data) + done, size - done);
@@ -63,6 +65,7 @@ static void writeFully(int fd, const void* data, size_t size, const std::string&
 
 static void writeFullyAt(int fd, uint64_t offset, const void* data, size_t size,
                          const std::string& name) {
+  const WriteSignalsHeld held;
   size_t done = 0;
   while (done < size) {
     const ssize_t put = ::pwrite(fd, static_cast<const char*>(data) + done, size - done,
@@ -270,7 +273,15 @@ class DescriptorSink final : public ByteSink {
 class NamedSink final : public ByteSink {
  public:
   NamedSink(const std::string& path, JointFiles* joint)
-      : ByteSink(path), file_(std::make_unique<NamedTemporary>(path)), joint_(joint) {}
+      : ByteSink(path),
+        file_(std::make_unique<NamedTemporary>(path)),
+        entered_(file_.get()),
+        joint_(joint) {
+    if (joint_) joint_->enter(*file_);
+  }
+  ~NamedSink() override {
+    if (joint_) joint_->leave(entered_);
+  }
   void write(const void* data, size_t size) override {
     writeFully(file_->descriptor(), data, size, name());
   }
@@ -286,7 +297,8 @@ class NamedSink final : public ByteSink {
   }
 
  private:
-  std::unique_ptr<NamedTemporary> file_;
+  std::unique_ptr<NamedTemporary> file_;  // until it is committed
+  const NamedTemporary* const entered_;
   JointFiles* joint_;
 };
 

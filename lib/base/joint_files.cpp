@@ -4,13 +4,20 @@
 
 namespace tetstream {
 
+static void needTwo(const NamedTemporary& a, const NamedTemporary& b) {
+  if (a.target() == b.target())
+    fail(Status::kBadArgument, "%s: two things cannot be written there", a.path().c_str());
+}
+
+void JointFiles::needDistinct() const {
+  for (size_t i = 0; i < begun_.size(); ++i)
+    for (size_t j = 0; j < i; ++j) needTwo(*begun_[i], *begun_[j]);
+}
+
 // The last rename needs no way back.
 void JointFiles::prepare() {
   for (size_t i = 0; i < files_.size(); ++i)
-    for (size_t j = 0; j < i; ++j)
-      if (files_[i]->target() == files_[j]->target())
-        fail(Status::kBadArgument, "%s: two things cannot be written there",
-             files_[i]->path().c_str());
+    for (size_t j = 0; j < i; ++j) needTwo(*files_[i], *files_[j]);
   for (const auto& file : files_) file->sync();
   for (size_t i = 0; i + 1 < files_.size(); ++i) files_[i]->keepOld();
 }

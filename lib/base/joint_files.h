@@ -12,6 +12,12 @@ namespace tetstream {
 
 class JointFiles {
  public:
+  // A file that is to be one of them, from its beginning to its end.
+  void enter(const NamedTemporary& file) { begun_.push_back(&file); }
+  void leave(const NamedTemporary* file) noexcept { std::erase(begun_, file); }
+  // Throws kBadArgument if two of those have the same name.
+  void needDistinct() const;
+
   // A file that is written, but not closed.
   void add(std::unique_ptr<NamedTemporary> file) { files_.push_back(std::move(file)); }
 
@@ -24,6 +30,7 @@ class JointFiles {
  private:
   void prepare();
 
+  std::vector<const NamedTemporary*> begun_;  // borrowed
   std::vector<std::unique_ptr<NamedTemporary>> files_;
 };
 

@@ -182,6 +182,30 @@ void what_a_pool_does_with_the_work_changes_nothing() {
   }
 }
 
+// Where the options go before the work.
+void a_pool_stays_with_what_was_made_with_it() {
+  Pool pool(Pool::kAtOnce, 2);
+  const tetstream_pool_callbacks table = tableOf(pool, 2);
+  tetstream_options* options = optionsWith(&table, 0);
+  tetstream_comparison* comparison = nullptr;
+  tetstream_diagram* diagram = nullptr;
+  CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_diagram_create(options, 100, 100, &diagram), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_pool(options, nullptr), TETSTREAM_OK);
+  tetstream_options_destroy(options);
+  tetstream_reader* readers[3] = {};
+  for (tetstream_reader*& reader : readers)
+    CHECK_EQUAL(tetstream_reader_generate("ball", 3000, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_comparison_read(comparison, readers[0], readers[1], nullptr, nullptr),
+              TETSTREAM_OK);
+  CHECK(pool.taken > 0);
+  CHECK_EQUAL(tetstream_diagram_read(diagram, readers[2], TETSTREAM_PAGE_LAYOUT, nullptr, nullptr),
+              TETSTREAM_OK);
+  for (tetstream_reader* reader : readers) tetstream_reader_destroy(reader);
+  tetstream_diagram_destroy(diagram);
+  tetstream_comparison_destroy(comparison);
+}
+
 void the_library_starts_no_thread_beside_a_pool() {
   Pool pool(Pool::kThreads, 2);
   const tetstream_pool_callbacks table = tableOf(pool, 2);
@@ -242,6 +266,7 @@ void a_pool_that_is_not_one_is_refused() {
 int main() {
   RUN_CASE(a_pool_gives_the_bytes_of_one_thread);
   RUN_CASE(what_a_pool_does_with_the_work_changes_nothing);
+  RUN_CASE(a_pool_stays_with_what_was_made_with_it);
   RUN_CASE(the_library_starts_no_thread_beside_a_pool);
   RUN_CASE(a_pool_may_run_the_library_on_its_own_threads);
   RUN_CASE(a_pool_that_is_not_one_is_refused);

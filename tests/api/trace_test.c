@@ -1,7 +1,9 @@
 /* The vertex map and the collapse log through the C interface: what comes, in which order, and what
  * happens when a callback or a table is not what it should be. */
+#define _DEFAULT_SOURCE
 #include <math.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "rig.h"
 
@@ -232,6 +234,29 @@ static void files_are_refused_in_formats_that_are_none(void) {
   rig_destroy(r);
 }
 
+/* Before anything is read; then with another name. */
+static void two_files_of_one_name_are_refused(void) {
+  char folder[] = "/tmp/tetstream_traces.XXXXXX", map[64], log[64];
+  CHECK(mkdtemp(folder) != NULL);
+  snprintf(map, sizeof map, "%s/map.csv", folder);
+  snprintf(log, sizeof log, "%s/./map.csv", folder);
+  rig r = rig_create("tets");
+  whole w = whole_of(mesh);
+  CHECK_EQUAL(tetstream_simplifier_set_map_file(r.simplifier, map, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_set_log_file(r.simplifier, log, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_BAD_ARGUMENT);
+  CHECK_SAYS(tetstream_simplifier_message(r.simplifier), "map.csv: two things");
+  snprintf(log, sizeof log, "%s/log.csv", folder);
+  CHECK_EQUAL(tetstream_simplifier_set_log_file(r.simplifier, log, NULL), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_begin(r.simplifier, &w.info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_push(r.simplifier, &w.batch), TETSTREAM_OK);
+  CHECK(tetstream_simplifier_finish(r.simplifier) >= 0);
+  rig_destroy(r);
+  CHECK_EQUAL(unlink(map), 0);
+  CHECK_EQUAL(unlink(log), 0);
+  CHECK_EQUAL(rmdir(folder), 0);
+}
+
 int main(void) {
   mesh = hostile_mesh_create(5, 5, 9);
   RUN_CASE(every_vertex_comes_once_and_every_collapse);
@@ -240,6 +265,7 @@ int main(void) {
   RUN_CASE(null_takes_a_map_back);
   RUN_CASE(a_run_that_is_dropped_closes_its_traces);
   RUN_CASE(files_are_refused_in_formats_that_are_none);
+  RUN_CASE(two_files_of_one_name_are_refused);
   hostile_mesh_destroy(mesh);
   return check_end();
 }

@@ -87,6 +87,11 @@ expect_error 1 "standard input" compare - -
 expect_error 1 "nothing" compare in.tets out.vtu --field nothing
 expect_error 1 "--cut" compare in.tets out.vtu --cut x
 expect_error 1 "x=0.3" compare in.tets out.vtu --picture a.svg --cut w=1
+expect_error 1 "--cut none" compare in.tets out.vtu --picture a.svg --cut none
+expect_error 1 "--title" compare in.tets out.vtu --title "Two balls"
+for memory in 1 2 3 64; do
+  expect_error 4 "too small" compare in.tets out.vtu --memory $memory
+done
 expect_error 6 ".svg or .png" compare in.tets out.vtu --picture a.gif
 expect_error 3 "absent.tets" compare absent.tets out.vtu
 head -c 9000 in.tets >cut.tets

@@ -42,6 +42,10 @@ expect 0 convert mesh.vtu odd.name --format tets
 tetstream convert - named.vtu --format sva <mesh.sva
 [[ $(cells_in named.vtu) == "$cells" ]] || fail "--format changed OUT's format though IN is -"
 
+tetstream convert - told.name --format-in sva --format tets <mesh.sva
+[[ $(cells_in told.name --format tets) == "$cells" ]] ||
+  fail "--format is not of OUT where --format-in is of -"
+
 # Properties of the writer.
 expect 0 convert mesh.tets post.sva --vertex-order post
 [[ $(cells_in post.sva) == "$cells" ]] || fail "post-order loses cells"

@@ -5,13 +5,16 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <functional>
 #include <thread>
+#include <vector>
 
 #include "folder.h"
 #include "status.h"
@@ -43,6 +46,36 @@ TEST(CreateFile, ShowsTheNameOnlyAtCommit) {
   sink->commit();
   EXPECT_EQ(folder.names(), Names{"out"});
   EXPECT_EQ(contents(path), "aXYdef");
+}
+
+// A signal would end the process; nobody ignores it here.
+TEST(CreateDescriptor, FailsWhereNobodyReads) {
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::close(ends[0]), 0);
+  const auto sink = createDescriptor(ends[1], "a pipe");
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(thrownBy([&] { sink->write("abc", 3); }).first, Status::kIo);
+  sigset_t pending;
+  ASSERT_EQ(::sigpending(&pending), 0);
+  EXPECT_EQ(::sigismember(&pending, SIGPIPE), 0);
+  EXPECT_EQ(::close(ends[1]), 0);
+}
+
+TEST(CreateFile, FailsBeyondTheLimitOfTheProcess) {
+  Folder folder;
+  struct rlimit before = {};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  struct rlimit small = before;
+  small.rlim_cur = 4096;
+  const auto sink = createFile(folder.file("out"));
+  const std::vector<char> data(8192);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const auto thrown = thrownBy([&] { sink->write(data.data(), data.size()); });
+  const auto again = thrownBy([&] { sink->writeAt(5000, data.data(), 10); });
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+  EXPECT_EQ(thrown.first, Status::kIo);
+  EXPECT_EQ(again.first, Status::kIo);
 }
 
 TEST(CreateFile, LeavesNothingWithoutCommit) {

@@ -74,6 +74,17 @@ TEST(JointFiles, AreUndoneWhereOneCannotBeRenamed) {
   }
 }
 
+TEST(JointFiles, TellOfOneNameBeforeAnythingIsWritten) {
+  Folder folder;
+  JointFiles files;
+  const auto a = createFile(folder.file("a"), &files);
+  files.needDistinct();
+  auto other = createFile(folder.file("././a"), &files);
+  EXPECT_THROW(files.needDistinct(), Error);
+  other = createFile(folder.file("b"), &files);
+  files.needDistinct();
+}
+
 // By whatever path.
 TEST(JointFiles, MayNotHaveOneName) {
   Folder folder;

@@ -1,0 +1,35 @@
+#include "write_signals.h"
+
+#include <cerrno>
+
+namespace tetstream {
+
+static constexpr int kSignals[] = {SIGPIPE, SIGXFSZ};
+
+WriteSignalsHeld::WriteSignalsHeld() noexcept {
+  sigemptyset(&held_);
+  for (int number : kSignals) sigaddset(&held_, number);
+  sigemptyset(&before_);
+  sigpending(&before_);
+  pthread_sigmask(SIG_BLOCK, &held_, &mask_);
+}
+
+// What came since, if nobody ignores it, is taken away: it has been told by errno.
+WriteSignalsHeld::~WriteSignalsHeld() {
+  const int saved = errno;
+  sigset_t now;
+  sigemptyset(&now);
+  sigpending(&now);
+  for (int number : kSignals) {
+    if (sigismember(&now, number) != 1 || sigismember(&before_, number) == 1) continue;
+    sigset_t one;
+    sigemptyset(&one);
+    sigaddset(&one, number);
+    int taken;
+    sigwait(&one, &taken);
+  }
+  pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
+  errno = saved;
+}
+
+}  // namespace tetstream
