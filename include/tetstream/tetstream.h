@@ -113,7 +113,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_FIELD_RANGE 111     /* text: "free": values may leave their range; "keep" */
 #define TETSTREAM_OPTION_BALANCE 112         /* text: "auto": nothing starves a smooth field; "none" */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
-#define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: none */
+#define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: 150 */
 #define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */
 #define TETSTREAM_OPTION_SEED 131            /* int64, for the random choices of "paper" */
 #define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <utility>
 
+#include "folds.h"
 #include "known_cells.h"
 #include "settled.h"
 #include "star_kernels.h"
@@ -182,16 +183,17 @@ void Resolver<S>::gather(Corners corners, Star& star) const {
 }
 
 template <class S>
-void Resolver<S>::findFaces(size_t begin, size_t end, Part& part) const {
+void Resolver<S>::findFaces(const uint32_t* vertices, size_t begin, size_t end, Part& part) const {
   part.faces.clear();
   part.found.clear();
   for (size_t i = begin; i < end; ++i) {
     gather(cornersOf(i), part.star);
-    Found found = {part.faces.size(), 0, part.border.find(part.star), false};
+    Found found = {part.faces.size(), 0, part.border.find(part.star), false, false};
     if (found.is_plain) {
       const std::vector<uint64_t>& edges = part.border.edges();
       found.count = edges.size();
       found.is_disk = part.border.isCircle(edges);
+      found.on_rim = isOnRim(vertices[i], edges);
       part.faces.insert(part.faces.end(), edges.begin(), edges.end());
     }
     part.found.push_back(found);
@@ -209,7 +211,7 @@ void Resolver<S>::resolveListed(const uint32_t* vertices, size_t count) {
   const size_t parts = core_.parts(), step = parts > 1 ? count : 1;
   for (size_t i = 0; i < count;) {
     core_.forPartsOf(step, [&, begin = i](size_t first, size_t end, size_t part) {
-      findFaces(begin + first, begin + end, parts_[part]);
+      findFaces(vertices, begin + first, begin + end, parts_[part]);
     });
     for (size_t part = 0; part < parts; ++part)
       for (const Found& found : parts_[part].found) {
@@ -228,21 +230,27 @@ void Resolver<S>::addFound(uint32_t v, const Found& found, const Part& part) {
     addFace(v, static_cast<uint32_t>(face >> 32), static_cast<uint32_t>(face), SheetFace::kOuter,
             nullptr);
   }
-  finishFaces(v, found.is_disk);
+  finishFaces(v, found.is_disk, found.on_rim);
 }
 
 template <class S>
 void Resolver<S>::resolveOpen(uint32_t v, Corners corners) {
   gather(corners, star());
   resolveFaces(v);
-  finishFaces(v, boundary_.empty() || parts_[0].border.isCircle(boundary_));
+  finishFaces(v, boundary_.empty() || parts_[0].border.isCircle(boundary_), isOnRim(v, boundary_));
+}
+
+// The paper's modes know no curves.
+template <class S>
+bool Resolver<S>::isOnRim(uint32_t v, const std::vector<uint64_t>& faces) const {
+  return core_.keeps_body && tetstream::isOnRim(core_.window, v, faces);
 }
 
 template <class S>
-void Resolver<S>::finishFaces(uint32_t v, bool is_disk) {
+void Resolver<S>::finishFaces(uint32_t v, bool is_disk, bool on_rim) {
   Topology& mesh = core_.window.mesh;
   if (!is_disk) lockNonManifold(v);
-  if (sheets_.wanted() && !sheets_.classify(v)) {
+  if ((sheets_.wanted() || on_rim) && !sheets_.classify(v, on_rim)) {
     mesh.flagVertex(v, kLocked);
     ++core_.locked.corners;
   }

@@ -58,10 +58,11 @@ class Resolver {
   }
   void gather(Corners corners, Star& star) const;
   // What is known of a vertex before the boundary is added to: whether its link is that of a vertex
-  // with nothing but faces of the boundary, where they lie, and whether they make one fan.
+  // with nothing but faces of the boundary, where they lie, and whether they make one fan, or a
+  // rim.
   struct Found {
     size_t begin, count;
-    bool is_plain, is_disk;
+    bool is_plain, is_disk, on_rim;
   };
   struct Part {
     explicit Part(Account& account) : star(account), border(account) {}
@@ -71,11 +72,12 @@ class Resolver {
     std::vector<Found> found;
   };
   Star& star() { return parts_[0].star; }  // that the caller's thread looks at
-  void findFaces(size_t begin, size_t end, Part& part) const;
+  void findFaces(const uint32_t* vertices, size_t begin, size_t end, Part& part) const;
   void resolveListed(const uint32_t* vertices, size_t count);
   void addFound(uint32_t v, const Found& found, const Part& part);
   void resolveOpen(uint32_t v, Corners corners);
-  void finishFaces(uint32_t v, bool is_disk);
+  void finishFaces(uint32_t v, bool is_disk, bool on_rim);
+  bool isOnRim(uint32_t v, const std::vector<uint64_t>& faces) const;
   void resolveFaces(uint32_t v);
   template <class Visit>
   void forLinkEdges(Visit visit);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "folds.h"
+
 namespace tetstream {
 
 template <class S>
@@ -20,40 +22,25 @@ Sheets<S>::Sheets(Core<S>& core)
                         ? -std::cos(core.options.feature_angle * std::numbers::pi / 180)
                         : 2) {}
 
-// Whether the faces vab and vac bend at va.
+// Whether the two faces bend at va by as much as was asked for, or fold.
 template <class S>
-bool Sheets<S>::isRidge(uint32_t v, uint32_t a, uint32_t b, uint32_t c) const {
-  if (least_cosine_ > 1) return false;
-  double along[3], square = 0, into[2][3], dot[2] = {0, 0}, product[3] = {0, 0, 0};
-  const S *x = core_.window.values(v), *y = core_.window.values(a);
-  for (int i = 0; i < 3; ++i) {
-    along[i] = static_cast<double>(y[i]) - static_cast<double>(x[i]);
-    square += along[i] * along[i];
-  }
-  for (int k = 0; k < 2; ++k) {
-    const S* z = core_.window.values(k == 0 ? b : c);
-    for (int i = 0; i < 3; ++i) {
-      into[k][i] = static_cast<double>(z[i]) - static_cast<double>(x[i]);
-      dot[k] += into[k][i] * along[i];
-    }
-  }
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 2; ++k) into[k][i] -= dot[k] / square * along[i];
-    product[0] += into[0][i] * into[1][i];
-    product[1] += into[0][i] * into[0][i];
-    product[2] += into[1][i] * into[1][i];
-  }
-  return product[0] > least_cosine_ * std::sqrt(product[1] * product[2]);
+bool Sheets<S>::isRidge(uint32_t v, uint32_t a, const Face& one, const Face& other,
+                        bool on_rim) const {
+  const bool is_asked_for = least_cosine_ <= 1;
+  const bool may_fold = on_rim && one.kind == SheetFace::kOuter && other.kind == SheetFace::kOuter;
+  if (!is_asked_for && !may_fold) return false;
+  const double bend = bendAt(core_.window, v, a, one.other(a), other.other(a));
+  return is_asked_for ? bend > least_cosine_ : isFold(bend);
 }
 
 // An end that was resolved before has told of its curves; it may have moved since.
 template <class S>
-bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree) const {
+bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree, bool on_rim) const {
   if (core_.window.mesh.vertexFlags(a) & kResolved) return core_.window.curves.has(v, a);
   if (degree != 2) return true;
   const Face &one = faces_[uses[0].face], &other = faces_[uses[1].face];
   return one.labelled != other.labelled || one.label != other.label ||
-         isRidge(v, a, one.other(a), other.other(a));
+         isRidge(v, a, one, other, on_rim);
 }
 
 // Along faces of the link from one of its vertices to the next node, or once round to the start;
@@ -92,7 +79,7 @@ bool Sheets<S>::isWhole(const std::vector<uint32_t>& nodes) const {
 }
 
 template <class S>
-bool Sheets<S>::classify(uint32_t v) {
+bool Sheets<S>::classify(uint32_t v, bool on_rim) {
   uses_.clear();
   nodes_.clear();
   for (uint32_t f = 0; f < faces_.size(); ++f) {
@@ -105,15 +92,16 @@ bool Sheets<S>::classify(uint32_t v) {
   for (size_t i = 0, j; i < uses_.size(); i = j) {
     const uint32_t a = uses_[i].vertex;
     for (j = i + 1; j < uses_.size() && uses_[j].vertex == a;) ++j;
-    if (!isCurve(v, a, &uses_[i], j - i)) {
+    if (!isCurve(v, a, &uses_[i], j - i, on_rim)) {
       simple = simple && j - i == 2;
       continue;
     }
     nodes_.push_back(a);
     if (core_.window.curves.has(v, a)) continue;
     core_.window.curves.add(v, a);
-    const bool inner = std::any_of(&uses_[i], &uses_[i] + (j - i),
-                                   [this](const Use& use) { return faces_[use.face].inner; });
+    const bool inner = std::any_of(&uses_[i], &uses_[i] + (j - i), [this](const Use& use) {
+      return faces_[use.face].kind == SheetFace::kInner;
+    });
     Window<S>& window = core_.window;
     const S* x[2] = {window.values(v), window.values(a)};
     S* q[2] = {window.quadric(v), window.quadric(a)};

@@ -17,20 +17,22 @@ class Sheets {
   // `label`: of a labelled face, or null.
   void add(uint32_t a, uint32_t b, SheetFace kind, const int64_t* label) {
     core_.exact_curves |= label != nullptr;
-    faces_.push_back({a, b, label != nullptr, kind == SheetFace::kInner, label ? *label : 0});
+    faces_.push_back({a, b, label != nullptr, kind, label ? *label : 0});
   }
-  // Whether there can be more than the boundary, which is looked at by others.
+  // Whether there can be more than the boundary, which is looked at by others but for its folds.
   bool wanted() const {
     return !faces_.empty() && (!core_.region_picks.empty() || core_.exact_curves);
   }
   // Marks the edges of curves at v that no end resolved before has told of; returns whether v is
-  // inside a sheet or on a single curve, no corner.
-  bool classify(uint32_t v);
+  // inside a sheet or on a single curve, no corner. With `on_rim`, folds of the boundary are
+  // curves.
+  bool classify(uint32_t v, bool on_rim);
 
  private:
   struct Face {
     uint32_t a, b;
-    bool labelled, inner;
+    bool labelled;
+    SheetFace kind;
     int64_t label;
     uint32_t other(uint32_t x) const { return x == a ? b : a; }
   };
@@ -39,13 +41,13 @@ class Sheets {
   };
 
   const Use* usesOf(uint32_t vertex) const;
-  bool isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree) const;
-  bool isRidge(uint32_t v, uint32_t a, uint32_t b, uint32_t c) const;
+  bool isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree, bool on_rim) const;
+  bool isRidge(uint32_t v, uint32_t a, const Face& one, const Face& other, bool on_rim) const;
   size_t walk(uint32_t from, uint32_t face, uint32_t* end) const;
   bool isWhole(const std::vector<uint32_t>& nodes) const;
 
   Core<S>& core_;
-  double least_cosine_;  // of a ridge: between the directions from the edge into its two faces
+  double least_cosine_;  // of a ridge that was asked for (folds.h: bendAt); above 1: of none
   std::vector<Face> faces_;
   std::vector<Use> uses_;        // sorted by vertex
   std::vector<uint32_t> nodes_;  // other ends of the curves' edges at v

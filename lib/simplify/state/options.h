@@ -37,7 +37,8 @@ struct SimplifyOptions {
   BalanceUse balance = BalanceUse::kAuto;  // of the boundary's weight and the fields
   FieldRange field_range = FieldRange::kFree;
   std::string regions = "auto";
-  double feature_angle = 0;  // degrees by which a sheet bends at least to make a curve; 0: none
+  // Degrees by which a sheet bends at least to make a curve; 0: where the boundary folds back.
+  double feature_angle = 0;
   Mode mode = Mode::kSweep;
   QuadricForm quadric = QuadricForm::kDeterminant;
   PilotUse pilot = PilotUse::kAuto;
