@@ -1,8 +1,11 @@
 #include "balance_sample.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <unordered_map>
 
+#include "mix.h"
 #include "vector3.h"
 
 namespace tetstream {
@@ -136,6 +139,30 @@ void BalanceSample<S>::addPartner(uint32_t v, const std::vector<Face>& faces) {
     jitter.product += turned * bend.height * pair.bend.height;
     jitter.edges += (bend.edges + pair.bend.edges) / 2;
   }
+}
+
+// The same for vertices at the same place; hardly for others.
+template <class S>
+uint64_t BalanceSample<S>::placeKey(uint32_t v) const {
+  uint64_t key = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double x = static_cast<double>(core_.window.values(v)[i]) + 0.0;  // of -0, too
+    key = mix(key + std::bit_cast<uint64_t>(x) + 1);
+  }
+  return key;
+}
+
+template <class S>
+void BalanceSample<S>::addTouching(const std::vector<uint32_t>& sampled, const uint32_t* all,
+                                   size_t count) {
+  std::unordered_map<uint64_t, int> met;
+  for (uint32_t v : sampled) met.emplace(placeKey(v), 0);
+  for (size_t i = 0; i < count; ++i)
+    if (const auto place = met.find(placeKey(all[i])); place != met.end()) ++place->second;
+  const auto touches = [&](uint32_t v) { return met.at(placeKey(v)) > 1; };
+  const auto touching = std::count_if(sampled.begin(), sampled.end(), touches);
+  costs_.touching =
+      static_cast<double>(touching) / static_cast<double>(std::max<size_t>(sampled.size(), 1));
 }
 
 template class BalanceSample<float>;

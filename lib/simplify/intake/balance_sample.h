@@ -27,6 +27,10 @@ class BalanceSample {
   std::vector<uint32_t> partners();
   void addPartner(uint32_t v, const std::vector<Face>& faces);
 
+  // Of the vertices of the boundary that are sampled, how many have another one at their place
+  // among all of these.
+  void addTouching(const std::vector<uint32_t>& sampled, const uint32_t* all, size_t count);
+
   RemovalCosts& costs() { return costs_; }
 
   // A quarter of the volume of a vertex's cells, normalised; 0 for one without.
@@ -40,6 +44,7 @@ class BalanceSample {
   double errorTowards(const S* quadric, uint32_t v, uint32_t other);
   static double usual(std::vector<double>& costs) { return usualCost(costs.data(), costs.size()); }
   void keepUnique();
+  uint64_t placeKey(uint32_t v) const;
 
   // Of the faces at a vertex of an interface, in normalised units.
   struct Bend {

@@ -163,7 +163,7 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
     startUnsettled(window, v, window.scratch()[v] < first_new);
   }
   std::fill_n(window.scratch(), mesh.vertexEnd(), 0u);
-  if (!is_balanced) balance();
+  if (!is_balanced) balance(vertices, count);
   for (size_t done = 0; done < open;) {
     for (size_t i = done; i < open; ++i)
       window.scratch()[open_[i]] = static_cast<uint32_t>(i - done + 1);
@@ -393,7 +393,7 @@ constexpr double kLeastFieldError = 1e-5;
 // From what was picked, before it has the quadrics of its sheets. Where there is too little of it
 // no star is looked at, which may be as large as the window; those of interfaces will be anyway.
 template <class S>
-void Resolver<S>::balance() {
+void Resolver<S>::balance(const uint32_t* vertices, size_t count) {
   const auto isFew = [](const Sampled& group) {
     return static_cast<double>(group.of) < kLeastVertices;
   };
@@ -410,6 +410,7 @@ void Resolver<S>::balance() {
   core_.balance = {};  // costs are those of the weights that were asked for
   sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
   if (is_enough) {
+    sample.addTouching(sampled_[0].vertices, vertices, count);
     sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
     forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, star()); });
   }

@@ -82,7 +82,7 @@ class Resolver {
   template <class Visit>
   void forLinkEdges(Visit visit);
   void pickSamples(const uint32_t* vertices, size_t count);
-  void balance();
+  void balance(const uint32_t* vertices, size_t count);
   bool isBalanced() const;
   template <class Visit>
   void forStarsOf(const std::vector<uint32_t>& vertices, Visit visit);

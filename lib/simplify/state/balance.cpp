@@ -114,6 +114,8 @@ class Model {
 }  // namespace
 
 constexpr size_t kLeastSamples = 32;
+// Of a body's boundary: less is no contact.
+constexpr double kTouching = 1.0 / 16;
 
 static bool isEnough(const RemovalCosts::Group& sheet) {
   return sheet.vertices >= kLeastVertices && sheet.sample.size() >= kLeastSamples;
@@ -166,7 +168,7 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
   if (costs.inside.vertices < kLeastVertices) return;
   Model model(costs);
   if (!balance->knows_outer && isEnough(costs.outer)) {
-    lower(model, ratio, costs.outer, &Balance::outer, balance);
+    if (costs.touching < kTouching) lower(model, ratio, costs.outer, &Balance::outer, balance);
     balance->knows_outer = true;
   }
   if (!balance->knows_interfaces && isEnough(costs.interfaces)) {

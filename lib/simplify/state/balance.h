@@ -10,9 +10,11 @@
 //   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that
 //   s = (t / c)^(1/7) or (t / c)^(1/6), where that is more than 1; t is what leaves the ratio of
 //   vertices that is asked for. Errors are the sums of what was added for those that are left.
-// Interfaces that are rough, as where cells have the label of the side that their centres lie on,
-// or where all vertices were moved by chance, are another matter: what bends there is noise of the
-// size of the input's cells, and no cell of the output is small enough for it.
+// Where much of the boundary lies upon itself, as at a contact of two bodies or at a crack, fields
+// may jump from one side to the other: what it is off by is an error of theirs, and its weight
+// stays. Interfaces that are rough, as where cells have the label of the side that their centres
+// lie on, or where all vertices were moved by chance, are another matter: what bends there is noise
+// of the size of the input's cells, and no cell of the output is small enough for it.
 #pragma once
 
 #include <cstddef>
@@ -60,6 +62,7 @@ struct RemovalCosts {
     double square = 0, product = 0, edges = 0;
   };
   Jitter jitter;
+  double touching = 0;     // of the boundary's vertices, that with another one at its place
   double least_field = 0;  // error of the fields, of all, that counts as none
 };
 

@@ -40,6 +40,16 @@ TEST(Balance, LeavesABoundaryBesideAFieldThatCostsAsMuch) {
   EXPECT_EQ(chosen(costsOf({1, 0}, 500, {1, 1}, 500), 0.1).outer, 1);
 }
 
+TEST(Balance, LeavesABoundaryThatTouchesItself) {
+  RemovalCosts costs = costsOf({1e-4, 0}, 500, {1e-4, 1}, 500);
+  costs.touching = 0.01;
+  EXPECT_LT(chosen(costs, 0.1).outer, 0.05);
+  costs.touching = 0.1;
+  const Balance balance = chosen(costs, 0.1);
+  EXPECT_TRUE(balance.knows_outer);
+  EXPECT_EQ(balance.outer, 1);
+}
+
 // A boundary with few of the vertices cannot starve those inside.
 TEST(Balance, LeavesTheBoundaryOfABulkyBody) {
   EXPECT_EQ(chosen(costsOf({1e-6, 0}, 1e6, {1e-6, 1e-4}, 5e3), 0.1).outer, 1);
@@ -154,6 +164,23 @@ void expectBytesOfUnbalanced(const TestMesh& mesh, const SimplifyOptions& option
 
 TEST(SimplifierBalance, IsNotForPlaneBoundaries) {
   expectBytesOfUnbalanced(slab(12, 0), toRatio(0.2));
+}
+
+// One slab on another, which it touches all over, and a field that jumps between them.
+TEST(SimplifierBalance, IsNotForBodiesInContact) {
+  const int n = 12;
+  const TestMesh low = slab(n, 0.2);
+  const size_t points = low.vertexCount();
+  std::vector<double> positions;
+  std::vector<int64_t> cells = low.cells;
+  for (size_t v = 0; v < 2 * points; ++v)
+    for (int i = 0; i < 3; ++i)
+      positions.push_back(low.position(v % points, i) + (v >= points && i == 2 ? 4 : 0));
+  for (int64_t v : low.cells) cells.push_back(v + static_cast<int64_t>(points));
+  TestMesh mesh = makeMesh(k64, positions, cells);
+  mesh.addField({"f", 1, k64},
+                [&](size_t v, int) { return low.field(0, v % points) + (v >= points ? 1 : 0); });
+  expectBytesOfUnbalanced(mesh, toRatio(0.2));
 }
 
 TEST(SimplifierBalance, LeavesAWeightThatIsAskedFor) {
