@@ -1,5 +1,8 @@
 #include "plan.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "status.h"
 
 namespace tetstream {
@@ -28,6 +31,34 @@ static std::vector<double> fieldWeights(const Schema& schema, const SimplifyOpti
   return weights;
 }
 
+// float32 has 2^-24 of a value, and every merge rounds: of what spans less than this part of its
+// values rounding would be the largest error (an absolute pressure with a range of 1e-6 of it: 2.1
+// % at 0.1 for 0.93).
+constexpr double kLeastSpan = 1e-4;
+
+static bool isNarrow(const Schema& schema, size_t first, size_t count) {
+  double span = 0, most = 0;
+  for (size_t i = first; i < first + count; ++i) {
+    span = std::max(span, schema.box_max[i] - schema.box_min[i]);
+    most = std::max({most, std::fabs(schema.box_min[i]), std::fabs(schema.box_max[i])});
+  }
+  return span > 0 && std::isfinite(most) && span < kLeastSpan * most;
+}
+
+// As far as the limits are known.
+static bool hasNarrow(const Schema& schema, const std::vector<double>& weights) {
+  if (!schema.hasBox()) return false;
+  if (isNarrow(schema, 0, 3)) return true;
+  size_t at = 3;
+  for (size_t f = 0; f < schema.fields.size(); ++f) {
+    const auto components = static_cast<size_t>(schema.fields[f].components);
+    if (weights[f] > 0 && isFloat(schema.fields[f].type) && isNarrow(schema, at, components))
+      return true;
+    at += components;
+  }
+  return false;
+}
+
 static void placeField(Plan& plan, const Column& column, double weight, Treatment pass,
                        ColumnPlan& place) {
   const Treatment treatment = !isFloat(column.type) ? Treatment::kPicked
@@ -49,6 +80,7 @@ Plan makePlan(const Schema& schema, const SimplifyOptions& options) {
   if (options.quadric == QuadricForm::kGarlandZhou) plan.layout = QuadricLayout::kFull;
   plan.fields.resize(schema.fields.size());
   const std::vector<double> weights = fieldWeights(schema, options);
+  plan.double_window |= hasNarrow(schema, weights);
   for (Treatment pass : {Treatment::kMeasured, Treatment::kCarried, Treatment::kPicked}) {
     for (size_t i = 0; i < schema.fields.size(); ++i) {
       placeField(plan, schema.fields[i], weights[i], pass, plan.fields[i]);

@@ -22,7 +22,7 @@ struct ColumnPlan {
 
 struct Plan {
   Schema schema;
-  bool double_window = false;  // positions or a float field are float64
+  bool double_window = false;  // something is float64, or its values are much larger than its range
   int dimension = 3;           // 3 + measured components: the quadric's
   bool measures() const { return dimension > 3; }
   QuadricLayout layout = QuadricLayout::kFields;
