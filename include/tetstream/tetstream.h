@@ -27,8 +27,10 @@
  *   when there is no memory even for that, or no place to put it.
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   An indexed mesh has 2^32 - 2 points at most; streams have no limit.
- *   Nothing is printed, nothing aborts. No exception may leave a callback; no function of the
- *   library may be called from inside a callback with a handle that the run uses.
+ *   Nothing is printed, nothing aborts, and a write that would raise SIGPIPE or SIGXFSZ fails. (When
+ *   memory ends, libraries that draw pictures or read HDF5 may do otherwise.) No exception may leave
+ *   a callback; no function of the library may be called from inside a callback with a handle that
+ *   the run uses.
  *
  * Threads
  *   There is no global state. A handle is used by one thread at a time; different handles may be
@@ -393,7 +395,8 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory(const void *data, si
 /* As without `_with`, with options for the reading, which may be NULL:
  *   split            cells of other kinds are cut into tetrahedra; else they are UNSUPPORTED
  *   step             which time step of several is read, and a note tells how many there are;
- *                    BAD_ARGUMENT if it is none of them, UNSUPPORTED where there are no steps
+ *                    BAD_ARGUMENT if it is none of them; where there are no steps UNSUPPORTED,
+ *                    but for "first", "last" and "0"
  *   join-points      points at the same place become one, with the means of their floats: always,
  *                    never or where no cell shares a point with another; UNSUPPORTED for streams
  *   cells-to-points  float cell arrays are fields, too: at a point the mean of the cells round it;

@@ -1,5 +1,7 @@
 #include "compressed_bytes.h"
 
+#include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include "wrapping_parts.h"
@@ -10,8 +12,10 @@ namespace {
 
 constexpr size_t kMagicBytes = 4;
 
+// In small or capital letters.
 bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+  const auto is_same = [](unsigned char a, unsigned char b) { return a == std::tolower(b); };
+  return text.size() > end.size() && std::equal(end.rbegin(), end.rend(), text.rbegin(), is_same);
 }
 
 Wrapping wrappingOf(const unsigned char* head, size_t size) {

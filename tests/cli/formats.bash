@@ -15,6 +15,9 @@ done
 # Endings as other systems write them.
 expect 0 convert mesh.tets UPPER.VTU
 [[ $(cells_in UPPER.VTU) == "$cells" ]] || fail "an ending in capitals is not known"
+expect 0 convert mesh.tets UPPER.VTK.GZ
+[[ $(head -c 2 UPPER.VTK.GZ | od -An -tx1) == " 1f 8b" ]] || fail "nor .GZ"
+[[ $(cells_in UPPER.VTK.GZ) == "$cells" ]] || fail "nor .GZ where it is read"
 
 # Those that share everything with .vtu but their bytes: into and out of .tets is enough.
 for in in "${formats[@]}"; do

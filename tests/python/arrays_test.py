@@ -214,6 +214,8 @@ class Refused(unittest.TestCase):
     def test_types(self):
         p, c, f = self.points, self.cells, self.field
         self.refused(TypeError, "points: .*complex128", p.astype(complex), c)
+        self.refused(TypeError, "points: float64 does not hold all",
+                     2 ** 53 + 1 + 8 * p.astype(numpy.int64), c)
         self.refused(TypeError, "cells: .*float64", p, c.astype(float))
         self.refused(TypeError, "text", p, c, {"text": numpy.full(len(p), "a")})
         self.refused(TypeError, "longdouble|float128", p, c, {"long": f.astype(numpy.longdouble)})

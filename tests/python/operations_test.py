@@ -1,5 +1,7 @@
 """info, compare, diagram, formats, options: figures and pictures."""
+import copy
 import os
+import pickle
 import tempfile
 import unittest
 
@@ -100,6 +102,17 @@ class Operations(unittest.TestCase):
         self.assertEqual((options.ratio, options.memory, options.mode, options.cells),
                          (0.25, 64 * 2 ** 20, "paper", 1000000))
         self.assertEqual(tetstream.Options().boundary_weight, 10)
+        natural = tetstream.Options(step=3, split=True, recover=False)
+        self.assertEqual((natural.step, natural.split, natural.recover), ("3", "yes", "no"))
+        for wrong in (dict(step=1.5), dict(mode=True), dict(cut=3)):
+            with self.assertRaises(TypeError):
+                tetstream.Options(**wrong)
+        options.add_field("p", 2)
+        for copied in (copy.copy(options), copy.deepcopy(options),
+                       pickle.loads(pickle.dumps(options))):
+            self.assertEqual(repr(copied), repr(options))
+            copied.ratio = 0.5
+            self.assertEqual(options.ratio, 0.25)
         options.seed = -5
         self.assertEqual(options.seed, -5)
         with self.assertRaisesRegex(tetstream.BadArgument, "ratio"):

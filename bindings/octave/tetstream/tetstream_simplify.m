@@ -38,12 +38,12 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
     print_usage ();
   endif
   caller = "tetstream_simplify";
-  need_target (caller, varargin);
   own = struct ("cell_data", [], "regions", "auto", "weights", [], "locked", [], "faces", [],
                 "face_labels", [], "locked_faces", [], "locked_edges", [], "label_names", [],
                 "vertex_map", false, "progress", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
+  need_target (caller, varargin);
   mesh = struct ("points", {points}, "cells", {cells}, "fields", {named(fields)},
                  "cell_data", {own.cell_data}, "locked", {own.locked}, "faces", {own.faces},
                  "face_labels", {own.face_labels}, "locked_faces", {own.locked_faces},

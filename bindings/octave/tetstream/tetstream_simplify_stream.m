@@ -26,7 +26,6 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
     print_usage ();
   endif
   caller = "tetstream_simplify_stream";
-  need_target (caller, varargin);
   for given = {reader, writer}
     if (! is_function_handle (given{1}))
       error ("tetstream:bad-argument", "%s: reader and writer are function handles, not a %s", caller,
@@ -37,6 +36,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
                 "front_span", -1, "front_cells", -1, "indexed", false, "weights", [], "progress", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
+  need_target (caller, varargin);
   refuse_reading (caller, options, "a stream");
   state = containers.Map ("KeyType", "char", "ValueType", "any");  # what the writer is told when it begins
   core_writer = tetstream_core.Writer_create (@(info) begun (state, info),

@@ -24,11 +24,11 @@ class _Reading(TypedDict, total=False):
     memory: int | str
     tmpdir: str
     threads: int | str
-    split: Literal["no", "yes"]
-    recover: Literal["no", "yes"]
-    step: str
+    split: Literal["no", "yes"] | bool
+    recover: Literal["no", "yes"] | bool
+    step: str | int
     join_points: Literal["auto", "no", "yes"]
-    cells_to_points: Literal["no", "yes"]
+    cells_to_points: Literal["no", "yes"] | bool
 
 class _Ordering(_Reading, total=False):
     axis: Literal["auto", "x", "y", "z"]

@@ -50,7 +50,10 @@ def points(values):
     array = _array("points", values)
     needs_shape("points", array, "[n][3]", array.ndim == 2 and array.shape[1] == 3)
     dtype = _holding("points", array)
-    return _dense(array, dtype if dtype.kind == "f" else numpy.float64)
+    floats = _dense(array, dtype if dtype.kind == "f" else numpy.float64)
+    if dtype.kind == "i" and (floats.astype(array.dtype) != array).any():
+        raise TypeError(f"points: float64 does not hold all of their {array.dtype}")
+    return floats
 
 
 def ids(name, values, columns):

@@ -1,6 +1,8 @@
 """The library's options as properties, made from its own table."""
 import operator
 
+import numpy
+
 from . import _arrays, core
 from .errors import BadArgument
 
@@ -36,15 +38,23 @@ class _Row:
 
     def set(self, handle, value):
         if self.type == core.OPTION_IS_TEXT:
-            if not isinstance(value, str):
-                raise TypeError(f"{self.name}: a str is wanted, not {type(value).__name__}")
-            handle.set_text(self.id, value)
+            handle.set_text(self.id, self._text_of(value))
         elif isinstance(value, str):  # "2G", "1e6"
             handle.parse(self.flag, value)
         elif self.type == core.OPTION_IS_INT64:
             handle.set_int64(self.id, whole(self.name, value))
         else:
             handle.set_double(self.id, _real(self.name, value))
+
+    def _text_of(self, value):
+        """Of a text option: True and False are yes and no, a number of a step is its text."""
+        if isinstance(value, str):
+            return value
+        if isinstance(value, (bool, numpy.bool_)) and self.choices == "no yes":
+            return "yes" if value else "no"
+        if self.name == "step" and not isinstance(value, (bool, numpy.bool_)):
+            return str(whole(self.name, value))
+        raise TypeError(f"{self.name}: a str is wanted, not {type(value).__name__}")
 
 
 def whole(name, value, bits=64):
@@ -74,10 +84,10 @@ class Options:
     ``Options(ratio=0.1, memory="64M")``; numbers may be given as text, with a suffix k, M or G.
     """
 
-    __slots__ = ("_handle",)  # the name of an option that is misspelt is none
+    __slots__ = ("_handle", "_weights")  # the name of an option that is misspelt is none
 
     def __init__(self, **values):
-        self._handle = core.Options()
+        self._handle, self._weights = core.Options(), {}
         for name, value in values.items():
             if name not in ROWS:
                 raise TypeError(f"there is no option {name}; there are {', '.join(ROWS)}")
@@ -88,9 +98,21 @@ class Options:
         """Measures this field with this weight; 0: carried along. Fields that are not named are
         then carried."""
         self._handle.add_field(name, _real(f'the weight of "{name}"', weight))
+        self._weights[name] = weight
+
+    def __reduce__(self):
+        return _rebuilt, ({name: getattr(self, name) for name in ROWS}, self._weights)
 
     def __repr__(self):
         return f"Options({', '.join(f'{name}={getattr(self, name)!r}' for name in ROWS)})"
+
+
+def _rebuilt(values, weights):
+    """A copy of Options, also out of a pickle."""
+    options = Options(**values)
+    for name, weight in weights.items():
+        options.add_field(name, weight)
+    return options
 
 
 def _add_property(row):
@@ -116,13 +138,10 @@ _DOING = {core.SCOPE_READ: "opened", core.SCOPE_ORDER: "ordered or copied",
 
 def made(values, scope, weights=None):
     """Options from keyword arguments, each of which counts there, and a dict of fields' weights."""
-    options = Options(**values)
     for name, value in values.items():
-        if value is not None and not ROWS[name].scope & (scope | core.SCOPE_READ):
+        if name in ROWS and value is not None and not ROWS[name].scope & (scope | core.SCOPE_READ):
             raise TypeError(f"the option {name} does not count where a mesh is {_DOING[scope]}")
-    for name, weight in _arrays.named("weights", weights).items():
-        options.add_field(name, weight)
-    return options
+    return _rebuilt(values, _arrays.named("weights", weights))
 
 
 def documented(scope):

@@ -256,7 +256,8 @@ class Reader:
     def generate(cls, kind, cells, seed=1):
         """A mesh made on the fly, of about that many cells: "fluid", "ball", "fluid+stress",
         "ball+stress"."""
-        return cls(core.Reader.generate(kind, int(cells), seed))
+        return cls(core.Reader.generate(kind, _options.whole("cells", int(cells)),
+                                        _options.whole("seed", seed)))
 
     @classmethod
     def batches(cls, batches, points="float64", fields=None, cell_data=None, *, indexed=False,

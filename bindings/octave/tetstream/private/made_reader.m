@@ -15,6 +15,9 @@ function [reader, kept] = made_reader (caller, source, options, role = "")
     refuse_reading (caller, options, "a struct");
   endif
   mesh = complete_mesh (caller, source);
+  if (! isfield (source, "points") || ! isfield (source, "cells"))
+    error ("tetstream:bad-argument", "%s: a mesh needs the members points and cells", caller);
+  endif
   info = announced (caller, mesh);
   info.is_indexed = true;
   [batch, kept] = filled_batch (caller, mesh, rows (mesh.points));

@@ -51,6 +51,10 @@ function set_option (caller, options, row, value)
   elseif (! (isnumeric (value) || islogical (value)) || ! isscalar (value) || ! isreal (value))
     error ("tetstream:bad-argument", "%s: option \"%s\" is a %s of size %s", caller, row.name,
            class (value), mat2str (size (value)));
+  elseif (islogical (value) && strcmp (row.choices, "no yes"))
+    options.set_text (row.id, {"no", "yes"}{1 + value});
+  elseif (strcmp (row.name, "step") && value == fix (value))
+    options.set_text (row.id, sprintf ("%d", value));
   elseif (row.type == tetstream_core.OPTION_IS_TEXT)
     error ("tetstream:bad-argument", "%s: option \"%s\": a text is wanted", caller, row.name);
   elseif (row.type == tetstream_core.OPTION_IS_INT64)
