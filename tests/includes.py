@@ -61,7 +61,7 @@ NAMES = {
 # Of containers, each of which declares them for itself.
 CONTAINERS = {"array", "deque", "list", "map", "set", "string", "string_view", "unordered_map",
               "vector"}
-NAMES_OF_CONTAINERS = {"erase_if", "initializer_list", "size"}
+NAMES_OF_CONTAINERS = {"erase", "erase_if", "initializer_list", "size"}
 ANYWHERE = {"get"}  # of tuples, pairs, arrays, variants
 INTEGER = re.compile(r"\bu?int(?:8|16|32|64)_t\b")
 
