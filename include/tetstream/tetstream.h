@@ -419,7 +419,8 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory_with(const void *dat
 /* A file to be compared with another that is opened with these options: what they made of that one
  * (TETSTREAM_SCOPE_READ alone) may be made already in this one, as its only step or as a stream. They count
  * as in tetstream_reader_open_file_with, less those that this file does not take: `step`, then
- * join-points and cells-to-points, then all of them. Since 0.1. */
+ * join-points and cells-to-points, then all of them; of what is no regular file none counts. Since
+ * 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_result(const char *path, const char *format,
                                                             const tetstream_options *options,
                                                             tetstream_reader **reader);

@@ -1,4 +1,6 @@
 // api: readers of the public header.
+#include <sys/stat.h>
+
 #include "cells_to_points.h"
 #include "compressed_bytes.h"
 #include "generate.h"
@@ -139,7 +141,10 @@ static bool isLeftOut(const OptionRow& row, int attempt) {
 tetstream_status tetstream_reader_open_result(const char* path, const char* format,
                                               const tetstream_options* options,
                                               tetstream_reader** reader) {
-  for (int attempt = 0;; ++attempt) {
+  // What is no file is read once, as it is.
+  struct stat info;
+  const bool is_file = path && ::stat(path, &info) == 0 && S_ISREG(info.st_mode);
+  for (int attempt = is_file ? 0 : kLastAttempt;; ++attempt) {
     tetstream_options kept;
     const tetstream_status prepared = guard([&] {
       if (options) kept.values = options->values;

@@ -1,6 +1,7 @@
 #include "write_signals.h"
 
 #include <cerrno>
+#include <ctime>
 
 namespace tetstream {
 
@@ -25,8 +26,8 @@ WriteSignalsHeld::~WriteSignalsHeld() {
     sigset_t one;
     sigemptyset(&one);
     sigaddset(&one, number);
-    int taken;
-    sigwait(&one, &taken);
+    const struct timespec no_time = {};  // another thread may have taken one sent to the process
+    sigtimedwait(&one, nullptr, &no_time);
   }
   pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
   errno = saved;

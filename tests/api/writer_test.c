@@ -2,6 +2,7 @@
 #include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "check.h"
@@ -317,6 +318,31 @@ static void locks_that_a_format_cannot_hold_are_noted(void) {
   }
 }
 
+/* Whoever writes, and nobody ignores the signal: an error of the write, in every format. */
+static void a_limit_of_the_process_is_an_error(void) {
+  struct rlimit before, small;
+  const char *name, *extensions, *text;
+  int32_t reads, writes;
+  CHECK_EQUAL(getrlimit(RLIMIT_FSIZE, &before), 0);
+  small = before;
+  small.rlim_cur = 5000;
+  for (int32_t i = 0;
+       tetstream_format_at(i, &name, &extensions, &text, &reads, &writes) == TETSTREAM_OK; ++i) {
+    tetstream_reader* reader = NULL;
+    tetstream_writer* writer = NULL;
+    if (!writes) continue;
+    CHECK_EQUAL(tetstream_reader_generate("ball", 3000, 1, &reader), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_writer_create_file(in_folder("limited"), name, &writer), TETSTREAM_OK);
+    CHECK_EQUAL(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const tetstream_status status = tetstream_convert(reader, writer, NULL, NULL, NULL);
+    CHECK_EQUAL(setrlimit(RLIMIT_FSIZE, &before), 0);
+    CHECK_EQUAL(status, TETSTREAM_IO);
+    tetstream_writer_destroy(writer);
+    tetstream_reader_destroy(reader);
+    CHECK_EQUAL(files_in_folder(), 0);
+  }
+}
+
 static void null_is_refused_everywhere(void) {
   hostile_writer hostile = {0};
   tetstream_writer_callbacks writes = hostile_writer_callbacks(&hostile);
@@ -372,6 +398,7 @@ int main(void) {
   RUN_CASE(properties_belong_to_formats);
   RUN_CASE(what_a_format_cannot_hold_is_noted);
   RUN_CASE(locks_that_a_format_cannot_hold_are_noted);
+  RUN_CASE(a_limit_of_the_process_is_an_error);
   RUN_CASE(null_is_refused_everywhere);
   rmdir(folder);
   return check_end();

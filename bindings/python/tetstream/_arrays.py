@@ -51,7 +51,9 @@ def points(values):
     needs_shape("points", array, "[n][3]", array.ndim == 2 and array.shape[1] == 3)
     dtype = _holding("points", array)
     floats = _dense(array, dtype if dtype.kind == "f" else numpy.float64)
-    if dtype.kind == "i" and (floats.astype(array.dtype) != array).any():
+    with numpy.errstate(invalid="ignore"):  # of floats beyond the integers
+        is_exact = dtype.kind == "f" or (floats.astype(array.dtype) == array).all()
+    if not is_exact:
         raise TypeError(f"points: float64 does not hold all of their {array.dtype}")
     return floats
 

@@ -13,6 +13,7 @@
 #include "io_error.h"
 #include "status.h"
 #include "vtk_cells.h"
+#include "write_signals.h"
 
 namespace tetstream {
 
@@ -38,6 +39,7 @@ class SpoolStorage final : public Hdf5Storage {
   }
 
   void resize(uint64_t size) override {
+    const WriteSignalsHeld held;
     if (::ftruncate(spool_.descriptor(), static_cast<off_t>(size)) != 0)
       failIo(spool_.name(), "set the size");
     size_ = size;

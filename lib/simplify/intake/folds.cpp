@@ -28,19 +28,11 @@ double bendAt(const Window<S>& window, uint32_t v, uint32_t a, uint32_t b, uint3
          std::sqrt(dot(into[1], into[1]));
 }
 
-// Two directions that do not go back together.
-static bool goOn(const double a[3], const double b[3]) {
-  const double along = dot(a, b);
-  return !(along > 0 && 4 * along * along > dot(a, a) * dot(b, b));
-}
-
 template <class S>
-bool isOnRim(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& faces) {
+bool hasFold(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& faces) {
   const auto ends = [&](size_t i) {
     return std::pair(static_cast<uint32_t>(faces[i] >> 32), static_cast<uint32_t>(faces[i]));
   };
-  int folds = 0;
-  double way[2][3];
   for (size_t i = 0; i < faces.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
       const auto [a, b] = ends(i);
@@ -48,17 +40,14 @@ bool isOnRim(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& f
       const bool from_a = a == c || a == d;
       if (!from_a && b != c && b != d) continue;
       const uint32_t shared = from_a ? a : b;
-      if (!isFold(bendAt(window, v, shared, from_a ? b : a, shared == c ? d : c))) continue;
-      difference(window, shared, v, way[folds]);
-      if (folds == 1 && goOn(way[0], way[1])) return true;
-      folds = 1;
+      if (isFold(bendAt(window, v, shared, from_a ? b : a, shared == c ? d : c))) return true;
     }
   return false;
 }
 
 #define TETSTREAM_FOLDS(S)                                                          \
   template double bendAt(const Window<S>&, uint32_t, uint32_t, uint32_t, uint32_t); \
-  template bool isOnRim(const Window<S>&, uint32_t, const std::vector<uint64_t>&);
+  template bool hasFold(const Window<S>&, uint32_t, const std::vector<uint64_t>&);
 TETSTREAM_FOLDS(float)
 TETSTREAM_FOLDS(double)
 #undef TETSTREAM_FOLDS

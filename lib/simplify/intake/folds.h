@@ -2,7 +2,8 @@
 //
 // Round a crack, a slit or a baffle without thickness, and at a thin edge of the body, the surface
 // runs back beside itself: both sides lie nearly in one plane, their quadrics do not tell where it
-// ends, and the rim would recede. So the edges of such rims are curves (sheets.h).
+// ends, and the rim would recede. So the edges of such rims are curves (sheets.h), held by their
+// quadrics alone: a rough surface has folds that end and branch, and locks nothing.
 #pragma once
 
 #include <cstdint>
@@ -21,9 +22,9 @@ double bendAt(const Window<S>& window, uint32_t v, uint32_t a, uint32_t b, uint3
 constexpr bool isFold(double bend) {
   return bend > 0.866;  // by 150 degrees and more
 }
-// Whether the boundary's faces at v, of which these are the edges opposite v as (a << 32 | b), fold
-// at two edges that go on from one another: a single fold is an accident of a rough surface.
+// Whether any two of the boundary's faces at v do, of which these are the edges opposite v as
+// (a << 32 | b).
 template <class S>
-bool isOnRim(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& faces);
+bool hasFold(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& faces);
 
 }  // namespace tetstream

@@ -193,7 +193,7 @@ void Resolver<S>::findFaces(const uint32_t* vertices, size_t begin, size_t end, 
       const std::vector<uint64_t>& edges = part.border.edges();
       found.count = edges.size();
       found.is_disk = part.border.isCircle(edges);
-      found.on_rim = isOnRim(vertices[i], edges);
+      found.folds = foldsAt(vertices[i], edges);
       part.faces.insert(part.faces.end(), edges.begin(), edges.end());
     }
     part.found.push_back(found);
@@ -230,27 +230,28 @@ void Resolver<S>::addFound(uint32_t v, const Found& found, const Part& part) {
     addFace(v, static_cast<uint32_t>(face >> 32), static_cast<uint32_t>(face), SheetFace::kOuter,
             nullptr);
   }
-  finishFaces(v, found.is_disk, found.on_rim);
+  finishFaces(v, found.is_disk, found.folds);
 }
 
 template <class S>
 void Resolver<S>::resolveOpen(uint32_t v, Corners corners) {
   gather(corners, star());
   resolveFaces(v);
-  finishFaces(v, boundary_.empty() || parts_[0].border.isCircle(boundary_), isOnRim(v, boundary_));
+  finishFaces(v, boundary_.empty() || parts_[0].border.isCircle(boundary_), foldsAt(v, boundary_));
 }
 
 // The paper's modes know no curves.
 template <class S>
-bool Resolver<S>::isOnRim(uint32_t v, const std::vector<uint64_t>& faces) const {
-  return core_.keeps_body && tetstream::isOnRim(core_.window, v, faces);
+bool Resolver<S>::foldsAt(uint32_t v, const std::vector<uint64_t>& faces) const {
+  return core_.keeps_body && tetstream::hasFold(core_.window, v, faces);
 }
 
 template <class S>
-void Resolver<S>::finishFaces(uint32_t v, bool is_disk, bool on_rim) {
+void Resolver<S>::finishFaces(uint32_t v, bool is_disk, bool folds) {
   Topology& mesh = core_.window.mesh;
   if (!is_disk) lockNonManifold(v);
-  if ((sheets_.wanted() || on_rim) && !sheets_.classify(v, on_rim)) {
+  const bool may_move = !(sheets_.wanted() || folds) || sheets_.classify(v, folds);
+  if (!may_move && sheets_.wanted()) {
     mesh.flagVertex(v, kLocked);
     ++core_.locked.corners;
   }

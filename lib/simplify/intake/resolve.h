@@ -62,7 +62,7 @@ class Resolver {
   // rim.
   struct Found {
     size_t begin, count;
-    bool is_plain, is_disk, on_rim;
+    bool is_plain, is_disk, folds;
   };
   struct Part {
     explicit Part(Account& account) : star(account), border(account) {}
@@ -76,8 +76,8 @@ class Resolver {
   void resolveListed(const uint32_t* vertices, size_t count);
   void addFound(uint32_t v, const Found& found, const Part& part);
   void resolveOpen(uint32_t v, Corners corners);
-  void finishFaces(uint32_t v, bool is_disk, bool on_rim);
-  bool isOnRim(uint32_t v, const std::vector<uint64_t>& faces) const;
+  void finishFaces(uint32_t v, bool is_disk, bool folds);
+  bool foldsAt(uint32_t v, const std::vector<uint64_t>& faces) const;
   void resolveFaces(uint32_t v);
   template <class Visit>
   void forLinkEdges(Visit visit);

@@ -14,33 +14,40 @@ const typename Sheets<S>::Use* Sheets<S>::usesOf(uint32_t vertex) const {
                             [](const Use& use, uint32_t x) { return use.vertex < x; });
 }
 
+constexpr double kNever = 2;  // a cosine that no edge has, whatever its rounding
+
 // In a plane sheet the faces at an edge lead in opposite directions.
 template <class S>
 Sheets<S>::Sheets(Core<S>& core)
     : core_(core),
-      least_cosine_(core.options.feature_angle > 0
+      asks_(core.options.feature_angle > 0),
+      least_cosine_(core.options.feature_angle < 180
                         ? -std::cos(core.options.feature_angle * std::numbers::pi / 180)
-                        : 2) {}
+                        : kNever) {}
 
 // Whether the two faces bend at va by as much as was asked for, or fold.
 template <class S>
 bool Sheets<S>::isRidge(uint32_t v, uint32_t a, const Face& one, const Face& other,
-                        bool on_rim) const {
-  const bool is_asked_for = least_cosine_ <= 1;
-  const bool may_fold = on_rim && one.kind == SheetFace::kOuter && other.kind == SheetFace::kOuter;
-  if (!is_asked_for && !may_fold) return false;
+                        bool folds) const {
+  const bool may_fold = folds && one.kind == SheetFace::kOuter && other.kind == SheetFace::kOuter;
+  if (!asks_ && !may_fold) return false;
   const double bend = bendAt(core_.window, v, a, one.other(a), other.other(a));
-  return is_asked_for ? bend > least_cosine_ : isFold(bend);
+  return asks_ ? bend > least_cosine_ : isFold(bend);
 }
 
 // An end that was resolved before has told of its curves; it may have moved since.
 template <class S>
-bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree, bool on_rim) const {
+bool Sheets<S>::isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree, bool folds) const {
   if (core_.window.mesh.vertexFlags(a) & kResolved) return core_.window.curves.has(v, a);
+  return divides(uses, degree) || isRidge(v, a, faces_[uses[0].face], faces_[uses[1].face], folds);
+}
+
+// Whether sheets meet at the edge, or faces of different labels.
+template <class S>
+bool Sheets<S>::divides(const Use* uses, size_t degree) const {
   if (degree != 2) return true;
   const Face &one = faces_[uses[0].face], &other = faces_[uses[1].face];
-  return one.labelled != other.labelled || one.label != other.label ||
-         isRidge(v, a, one, other, on_rim);
+  return one.labelled != other.labelled || one.label != other.label;
 }
 
 // Along faces of the link from one of its vertices to the next node, or once round to the start;
@@ -79,7 +86,7 @@ bool Sheets<S>::isWhole(const std::vector<uint32_t>& nodes) const {
 }
 
 template <class S>
-bool Sheets<S>::classify(uint32_t v, bool on_rim) {
+bool Sheets<S>::classify(uint32_t v, bool folds) {
   uses_.clear();
   nodes_.clear();
   for (uint32_t f = 0; f < faces_.size(); ++f) {
@@ -92,11 +99,12 @@ bool Sheets<S>::classify(uint32_t v, bool on_rim) {
   for (size_t i = 0, j; i < uses_.size(); i = j) {
     const uint32_t a = uses_[i].vertex;
     for (j = i + 1; j < uses_.size() && uses_[j].vertex == a;) ++j;
-    if (!isCurve(v, a, &uses_[i], j - i, on_rim)) {
+    if (!isCurve(v, a, &uses_[i], j - i, folds)) {
       simple = simple && j - i == 2;
       continue;
     }
-    nodes_.push_back(a);
+    // A fold that nobody asked for is held by its quadrics, wherever it ends or branches.
+    if (asks_ || divides(&uses_[i], j - i)) nodes_.push_back(a);
     if (core_.window.curves.has(v, a)) continue;
     core_.window.curves.add(v, a);
     const bool inner = std::any_of(&uses_[i], &uses_[i] + (j - i), [this](const Use& use) {

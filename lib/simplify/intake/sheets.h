@@ -24,9 +24,9 @@ class Sheets {
     return !faces_.empty() && (!core_.region_picks.empty() || core_.exact_curves);
   }
   // Marks the edges of curves at v that no end resolved before has told of; returns whether v is
-  // inside a sheet or on a single curve, no corner. With `on_rim`, folds of the boundary are
-  // curves.
-  bool classify(uint32_t v, bool on_rim);
+  // inside a sheet or on a single curve, no corner. With `folds`, folds of the boundary are
+  // curves, which make no corner.
+  bool classify(uint32_t v, bool folds);
 
  private:
   struct Face {
@@ -41,13 +41,15 @@ class Sheets {
   };
 
   const Use* usesOf(uint32_t vertex) const;
-  bool isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree, bool on_rim) const;
-  bool isRidge(uint32_t v, uint32_t a, const Face& one, const Face& other, bool on_rim) const;
+  bool isCurve(uint32_t v, uint32_t a, const Use* uses, size_t degree, bool folds) const;
+  bool divides(const Use* uses, size_t degree) const;
+  bool isRidge(uint32_t v, uint32_t a, const Face& one, const Face& other, bool folds) const;
   size_t walk(uint32_t from, uint32_t face, uint32_t* end) const;
   bool isWhole(const std::vector<uint32_t>& nodes) const;
 
   Core<S>& core_;
-  double least_cosine_;  // of a ridge that was asked for (folds.h: bendAt); above 1: of none
+  bool asks_;            // for ridges
+  double least_cosine_;  // of one, as in folds.h
   std::vector<Face> faces_;
   std::vector<Use> uses_;        // sorted by vertex
   std::vector<uint32_t> nodes_;  // other ends of the curves' edges at v
