@@ -363,8 +363,7 @@ void Parser::addCompare(CLI::App* command) {
        "be left out (default: all of it)"},
       {TETSTREAM_OPTION_REGIONS,
        "cell array whose labels are regions; auto: the first of both with several values and no "
-       "ids; "
-       "none"},
+       "ids; none"},
       {TETSTREAM_OPTION_SEED, "another seed takes other samples"},
       {TETSTREAM_OPTION_MEMORY, "bytes that the comparison may take; 0: 512M"},
   };

@@ -115,7 +115,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_FIELD_RANGE 111     /* text: "free": values may leave their range; "keep" */
 #define TETSTREAM_OPTION_BALANCE 112         /* text: "auto": nothing starves a smooth field; "none" */
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
-#define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: 150 */
+#define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: folds */
 #define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */
 #define TETSTREAM_OPTION_SEED 131            /* int64, for the random choices of "paper" */
 #define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */
@@ -417,10 +417,10 @@ TETSTREAM_API tetstream_status tetstream_reader_open_memory_with(const void *dat
                                                                  const tetstream_options *options,
                                                                  tetstream_reader **reader);
 /* A file to be compared with another that is opened with these options: what they made of that one
- * (TETSTREAM_SCOPE_READ alone) may be made already in this one, as its only step or as a stream. They count
- * as in tetstream_reader_open_file_with, less those that this file does not take: `step`, then
- * join-points and cells-to-points, then all of them; of what is no regular file none counts. Since
- * 0.1. */
+ * (TETSTREAM_SCOPE_READ alone) may be made already in this one, as its only step or as a stream.
+ * They count as in tetstream_reader_open_file_with, less those that this file does not take: `step`,
+ * then join-points and cells-to-points, then all of them; of what is no regular file none counts.
+ * Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_result(const char *path, const char *format,
                                                             const tetstream_options *options,
                                                             tetstream_reader **reader);

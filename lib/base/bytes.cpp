@@ -273,14 +273,11 @@ class DescriptorSink final : public ByteSink {
 class NamedSink final : public ByteSink {
  public:
   NamedSink(const std::string& path, JointFiles* joint)
-      : ByteSink(path),
-        file_(std::make_unique<NamedTemporary>(path)),
-        entered_(file_.get()),
-        joint_(joint) {
+      : ByteSink(path), file_(std::make_unique<NamedTemporary>(path)), joint_(joint) {
     if (joint_) joint_->enter(*file_);
   }
   ~NamedSink() override {
-    if (joint_) joint_->leave(entered_);
+    if (joint_) joint_->leave(file_.get());
   }
   void write(const void* data, size_t size) override {
     writeFully(file_->descriptor(), data, size, name());
@@ -290,15 +287,13 @@ class NamedSink final : public ByteSink {
   }
   bool seekable() const override { return true; }
   void commit() override {
-    if (joint_)
-      joint_->add(std::move(file_));
-    else
-      file_->commit();
+    if (!joint_) return file_->commit();
+    joint_->leave(file_.get());
+    joint_->add(std::move(file_));
   }
 
  private:
-  std::unique_ptr<NamedTemporary> file_;  // until it is committed
-  const NamedTemporary* const entered_;
+  std::unique_ptr<NamedTemporary> file_;  // with others, until it is committed
   JointFiles* joint_;
 };
 

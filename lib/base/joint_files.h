@@ -12,7 +12,7 @@ namespace tetstream {
 
 class JointFiles {
  public:
-  // A file that is to be one of them, from its beginning to its end.
+  // A file that is to be one of them, until it is left or written.
   void enter(const NamedTemporary& file) { begun_.push_back(&file); }
   void leave(const NamedTemporary* file) noexcept { std::erase(begun_, file); }
   // Throws kBadArgument if two of those have the same name.

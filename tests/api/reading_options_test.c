@@ -197,13 +197,25 @@ static void a_damaged_file_is_read_only_if_asked_for(void) {
   tetstream_options_destroy(recover);
 }
 
-static void every_way_of_opening_takes_options(void) {
-  char path[] = "/tmp/tetstream_reading.XXXXXX";
+/* A temporary file, whose name goes to `path`; nothing in it if `text` is NULL. */
+#define TEMPORARY "/tmp/tetstream_reading.XXXXXX"
+static int made_file(char* path, const char* text) {
   const int fd = mkstemp(path);
+  CHECK(fd >= 0);
+  if (text) CHECK_EQUAL(write(fd, text, strlen(text)), (ssize_t)strlen(text));
+  return fd;
+}
+
+static void drop_file(const char* path, int fd) {
+  CHECK_EQUAL(close(fd), 0);
+  CHECK_EQUAL(unlink(path), 0);
+}
+
+static void every_way_of_opening_takes_options(void) {
+  char path[] = TEMPORARY;
+  const int fd = made_file(path, kPyramid);
   tetstream_options* split = with(TETSTREAM_OPTION_SPLIT, "yes");
   tetstream_reader* reader = NULL;
-  CHECK(fd >= 0);
-  CHECK_EQUAL(write(fd, kPyramid, sizeof kPyramid - 1), sizeof kPyramid - 1);
   CHECK_EQUAL(tetstream_reader_open_file_with(path, "mesh", split, &reader), TETSTREAM_OK);
   CHECK_EQUAL(cells_of(reader), 2);
   tetstream_reader_destroy(reader);
@@ -212,8 +224,7 @@ static void every_way_of_opening_takes_options(void) {
   CHECK_EQUAL(cells_of(reader), 2);
   tetstream_reader_destroy(reader);
   tetstream_options_destroy(split);
-  CHECK_EQUAL(close(fd), 0);
-  CHECK_EQUAL(unlink(path), 0);
+  drop_file(path, fd);
 }
 
 static void a_pipe_is_spooled_where_the_options_say(void) {
@@ -231,12 +242,10 @@ static void a_pipe_is_spooled_where_the_options_say(void) {
 
 /* What options made of the original may be made already in its result. */
 static void a_result_takes_what_it_can(void) {
-  char path[] = "/tmp/tetstream_reading.XXXXXX";
-  const int fd = mkstemp(path);
+  char path[] = TEMPORARY;
+  const int fd = made_file(path, kPyramid);
   tetstream_options* options = with(TETSTREAM_OPTION_SPLIT, "yes");
   tetstream_reader* reader = NULL;
-  CHECK(fd >= 0);
-  CHECK_EQUAL(write(fd, kPyramid, sizeof kPyramid - 1), sizeof kPyramid - 1);
   CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_STEP, "3"), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_options_set_text(options, TETSTREAM_OPTION_JOIN_POINTS, "yes"),
               TETSTREAM_OK);
@@ -254,20 +263,18 @@ static void a_result_takes_what_it_can(void) {
   tetstream_reader_destroy(reader);
   CHECK_EQUAL(tetstream_reader_open_result(path, "mesh", options, NULL), TETSTREAM_BAD_ARGUMENT);
   tetstream_options_destroy(options);
-  CHECK_EQUAL(close(fd), 0);
-  CHECK_EQUAL(unlink(path), 0);
+  drop_file(path, fd);
 }
 
 /* A stream takes none of them, save those of streams. */
 static void a_result_that_is_a_stream_is_read_as_it_is(void) {
-  char path[] = "/tmp/tetstream_reading.XXXXXX";
-  const int fd = mkstemp(path);
+  char path[] = TEMPORARY;
+  const int fd = made_file(path, NULL);
   static const char* const kNames[] = {"step", "split", "join-points", "cells-to-points"};
   static const char* const kValues[] = {"2", "yes", "yes", "yes"};
   tetstream_options* options = NULL;
   tetstream_reader* reader = NULL;
   tetstream_writer* writer = NULL;
-  CHECK(fd >= 0);
   CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
   for (int i = 0; i < 4; ++i)
     CHECK_EQUAL(tetstream_options_parse(options, kNames[i], kValues[i]), TETSTREAM_OK);
@@ -280,8 +287,7 @@ static void a_result_that_is_a_stream_is_read_as_it_is(void) {
   CHECK(cells_of(reader) > 20);
   tetstream_reader_destroy(reader);
   tetstream_options_destroy(options);
-  CHECK_EQUAL(close(fd), 0);
-  CHECK_EQUAL(unlink(path), 0);
+  drop_file(path, fd);
 }
 
 struct told {

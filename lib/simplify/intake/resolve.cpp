@@ -240,10 +240,11 @@ void Resolver<S>::resolveOpen(uint32_t v, Corners corners) {
   finishFaces(v, boundary_.empty() || parts_[0].border.isCircle(boundary_), foldsAt(v, boundary_));
 }
 
-// The paper's modes know no curves.
+// Where nothing is asked for; the paper's modes know no curves but those.
 template <class S>
 bool Resolver<S>::foldsAt(uint32_t v, const std::vector<uint64_t>& faces) const {
-  return core_.keeps_body && tetstream::hasFold(core_.window, v, faces);
+  const bool counts = core_.keeps_body && core_.options.feature_angle == 0;
+  return counts && hasFold(core_.window, v, faces);
 }
 
 template <class S>
