@@ -74,8 +74,9 @@ std::string ProgressBar::lineOf(const tetstream_progress& progress, Clock::time_
     line += textOf(" %3d%% [", static_cast<int>(fraction * 100));
     line += std::string(filled, '#') + std::string(kBarCharacters - filled, ' ') + "]";
   }
-  if (phase_ != "open") line += cellsOf(progress);
   const double seconds = secondsBetween(phase_start_, now);
+  if (phase_ == "write") return line + " for " + clockText(seconds);  // all cells have come
+  if (phase_ != "open") line += cellsOf(progress);
   const int64_t cells = progress.cells_read - phase_first_cell_;
   if (seconds > 0 && cells > 0)
     line.append(", ").append(shortCount(static_cast<double>(cells) / seconds)).append("/s");

@@ -208,7 +208,9 @@ typedef struct tetstream_progress {
   size_t struct_size;
   int64_t cells_read, cells_total, cells_written;
   double fraction; /* of the whole run, or of "open", 0 to 1, or -1 */
-  const char *phase; /* "open", "order", "pilot", "simplify", "convert", ...; static */
+  const char *phase; /* "open", "order", "pilot", "simplify", "convert", ..., and "write" when all
+                        cells have come and the file is completed, of which no fraction is known;
+                        static */
   int64_t temporary_bytes; /* of disk that ordering takes at once, about and at most: told from its
                               first call on. Since 0.1 */
 } tetstream_progress;

@@ -9,9 +9,10 @@ using namespace tetstream;
 static LayoutReport convertInto(Output& output, tetstream_reader& reader, const RunOptions& options,
                                 const ProgressFunction& progress) {
   ReaderUse use(reader);
+  const ProgressFunction watched = output.watchedBy(progress);
   output.start(options.temp_dir);
   Input& input = use.input(output.mustRound(use.schema()), options.temp_dir);
-  LayoutReport report = readNamed(input, [&] { return convert(input, output, options, progress); });
+  LayoutReport report = readNamed(input, [&] { return convert(input, output, options, watched); });
   use.done();
   return report;
 }

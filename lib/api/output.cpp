@@ -119,6 +119,8 @@ void Output::start(const std::string& temp_dir) {
     options_.temp_dir = temp_dir;
     options_.note = [this](const std::string& note) { addNote(note); };
     stays_with_caller_ = bytes_->waits();
+    if (progress_) options_.tell = [this] { tellWriting(); };
+    bytes_ = watched(std::move(bytes_), options_.tell);
     sink_ = format_->create(std::move(bytes_), options_);
   } else {
     sink_ = std::make_unique<CallbackSink>(callbacks_);
@@ -131,6 +133,30 @@ void Output::begin(const Schema& schema) {
     addNote(textOf(".%s has no names of labels; they are left out: %s", format_->name,
                    shownLabelNames(schema.label_names).c_str()));
   sink().begin(schema);
+}
+
+void Output::finish() {
+  is_finishing_ = true;
+  if (format_) tellWriting();
+  sink().finish();
+  is_finishing_ = false;
+}
+
+ProgressFunction Output::watchedBy(ProgressFunction progress) {
+  if (!progress) return progress;
+  progress_ = std::move(progress);
+  return [this](const Progress& p) {
+    told_ = p;
+    progress_(p);
+  };
+}
+
+// Nobody knows how much is still to come.
+void Output::tellWriting() {
+  if (!is_finishing_ || !progress_) return;
+  told_.phase = "write";
+  told_.fraction = -1;
+  progress_(told_);
 }
 
 Sink& Output::sink() {

@@ -12,6 +12,7 @@
 #include "callbacks.h"
 #include "guard.h"
 #include "joint_files.h"
+#include "options.h"
 #include "registry.h"
 
 namespace tetstream {
@@ -46,10 +47,13 @@ class Output final : public Sink {
   // them. If so, that is noted.
   bool mustRound(const Schema& schema);
 
+  // Before start: `progress`, or nothing, as a run is to get it. It is called, too, while a file is
+  // completed, in a phase "write"; what it throws ends that.
+  ProgressFunction watchedBy(ProgressFunction progress);
   void start(const std::string& temp_dir);
   void begin(const Schema& schema) override;
   void put(const BatchView& batch) override { sink().put(batch); }
-  void finish() override { sink().finish(); }
+  void finish() override;
   bool staysWithCaller() const override { return stays_with_caller_; }
   // `rest` is called before what is put into goes while the output runs: nobody may put meanwhile.
   void onStop(std::function<void()> rest) { rest_ = std::move(rest); }
@@ -60,6 +64,7 @@ class Output final : public Sink {
 
  private:
   Sink& sink();
+  void tellWriting();
   void addNote(const std::string& note);
 
   State state_ = State::kReady;
@@ -75,6 +80,9 @@ class Output final : public Sink {
   std::list<std::string> notes_;
   std::unique_ptr<Sink> sink_;
   std::function<void()> rest_;
+  ProgressFunction progress_;
+  Progress told_;  // last
+  bool is_finishing_ = false;
 };
 
 }  // namespace tetstream

@@ -11,21 +11,37 @@ using Clock = std::chrono::steady_clock;
 
 static constexpr std::chrono::milliseconds kPause{20};
 
-// Helpers may read, too, and count; but only the one thread looks at what tells.
+namespace {
+
+// When the thread that made it is to tell, and no other.
+class Turn {
+ public:
+  bool come() {
+    if (std::this_thread::get_id() != thread_) return false;
+    const Clock::time_point now = Clock::now();
+    if (now - told_ < kPause) return false;
+    told_ = now;
+    return true;
+  }
+
+ private:
+  const std::thread::id thread_ = std::this_thread::get_id();
+  Clock::time_point told_{};
+};
+
+}  // namespace
+
+// Helpers may read, too, and count.
 struct ByteWatch::State {
   Tell tell;
-  const std::thread::id thread = std::this_thread::get_id();
+  Turn turn;
   std::atomic<uint64_t> done{0};
   uint64_t total = 0;
   bool is_total_known = true;
-  Clock::time_point told{};
 
   size_t count(size_t bytes) {
     done.fetch_add(bytes, std::memory_order_relaxed);
-    if (std::this_thread::get_id() != thread || !tell) return bytes;
-    const Clock::time_point now = Clock::now();
-    if (now - told < kPause) return bytes;
-    told = now;
+    if (!turn.come() || !tell) return bytes;
     const double share =
         static_cast<double>(done) / static_cast<double>(std::max<uint64_t>(total, 1));
     tell(is_total_known ? std::min(share, 1.0) : -1);
@@ -54,6 +70,29 @@ class WatchedSource final : public ByteSource {
   Count count_;
 };
 
+class WatchedSink final : public ByteSink {
+ public:
+  WatchedSink(std::unique_ptr<ByteSink> bytes, std::function<void()> tell)
+      : ByteSink(bytes->name()), bytes_(std::move(bytes)), tell_(std::move(tell)) {}
+
+  void write(const void* data, size_t size) override {
+    if (turn_.come()) tell_();
+    bytes_->write(data, size);
+  }
+  void writeAt(uint64_t offset, const void* data, size_t size) override {
+    if (turn_.come()) tell_();
+    bytes_->writeAt(offset, data, size);
+  }
+  bool seekable() const override { return bytes_->seekable(); }
+  bool waits() const override { return bytes_->waits(); }
+  void commit() override { bytes_->commit(); }
+
+ private:
+  std::unique_ptr<ByteSink> bytes_;
+  std::function<void()> tell_;
+  Turn turn_;
+};
+
 }  // namespace
 
 ByteWatch::ByteWatch(Tell tell) {
@@ -74,6 +113,11 @@ std::unique_ptr<ByteSource> ByteWatch::watched(std::unique_ptr<ByteSource> bytes
     state_->is_total_known = false;
   return std::make_unique<WatchedSource>(
       std::move(bytes), [state = state_](size_t size) { return state->count(size); });
+}
+
+std::unique_ptr<ByteSink> watched(std::unique_ptr<ByteSink> bytes, std::function<void()> tell) {
+  if (!tell) return bytes;
+  return std::make_unique<WatchedSink>(std::move(bytes), std::move(tell));
 }
 
 }  // namespace tetstream

@@ -1,4 +1,5 @@
-// file: tells how much of a file was read while it is opened. Depends on bytes.h.
+// file: tells how much of a file was read while it is opened, and that one is being written.
+// Depends on bytes.h.
 #pragma once
 
 #include <functional>
@@ -27,5 +28,9 @@ class ByteWatch {
   struct State;
   std::shared_ptr<State> state_;  // null where nothing is watched
 };
+
+// The same sink; `tell`, if there is any, is called some times a second before the thread that
+// calls this writes to it, and what it throws leaves the write.
+std::unique_ptr<ByteSink> watched(std::unique_ptr<ByteSink> bytes, std::function<void()> tell);
 
 }  // namespace tetstream

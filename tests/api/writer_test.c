@@ -136,6 +136,55 @@ static void nothing_is_left_of_a_file_after_a_failure(void) {
   CHECK_EQUAL(files_in_folder(), 0);
 }
 
+/* Cancels when the end of the file was told so often. */
+typedef struct writing {
+  int told, most;
+} writing;
+
+static int32_t cancel_writing(void* user, const tetstream_progress* progress) {
+  writing* w = user;
+  if (strcmp(progress->phase, "write") != 0) return 0;
+  CHECK(progress->fraction == -1);
+  CHECK(progress->cells_read > 0);
+  return ++w->told == w->most;
+}
+
+static void the_end_is_cancelled(const char* format, int most) {
+  tetstream_writer *converted = NULL, *simplified = NULL;
+  tetstream_reader *first = NULL, *second = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  writing convert = {0, most}, simplify = {0, most};
+  CHECK_EQUAL(tetstream_reader_generate("ball", 3000, 1, &first), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_generate("ball", 3000, 1, &second), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_file(in_folder("d"), format, &converted), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(first, converted, NULL, cancel_writing, &convert),
+              TETSTREAM_CANCELLED);
+  CHECK_EQUAL(convert.told, most);
+  CHECK_EQUAL(tetstream_writer_create_file(in_folder("e"), format, &simplified), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_create(NULL, simplified, &simplifier), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_set_progress(simplifier, cancel_writing, &simplify),
+              TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_run(simplifier, second), TETSTREAM_CANCELLED);
+  CHECK_EQUAL(simplify.told, most);
+  CHECK_EQUAL(files_in_folder(), 0);
+  tetstream_simplifier_destroy(simplifier);
+  tetstream_writer_destroy(converted);
+  tetstream_writer_destroy(simplified);
+  tetstream_reader_destroy(first);
+  tetstream_reader_destroy(second);
+}
+
+/* Before it is written, and then, where all is written at the end, while it is. */
+static void the_end_of_a_file_is_told_and_can_be_cancelled(void) {
+  static const char* const at_end[] = {"vtu", "vtk", "exodus", "msh", "mesh", "meshb"};
+  const char *name, *extensions, *text;
+  int32_t reads, writes;
+  for (int32_t i = 0;
+       tetstream_format_at(i, &name, &extensions, &text, &reads, &writes) == TETSTREAM_OK; ++i)
+    if (writes) the_end_is_cancelled(name, 1);
+  for (size_t i = 0; i < sizeof at_end / sizeof at_end[0]; ++i) the_end_is_cancelled(at_end[i], 2);
+}
+
 static void a_failed_creation_leaves_a_handle_with_a_message(void) {
   tetstream_writer* writer = NULL;
   const void* data = NULL;
@@ -391,6 +440,7 @@ int main(void) {
   RUN_CASE(a_writer_that_was_never_used_is_not_closed);
   RUN_CASE(a_file_has_its_name_only_when_complete);
   RUN_CASE(nothing_is_left_of_a_file_after_a_failure);
+  RUN_CASE(the_end_of_a_file_is_told_and_can_be_cancelled);
   RUN_CASE(a_failed_creation_leaves_a_handle_with_a_message);
   RUN_CASE(memory_is_given_only_when_complete);
   RUN_CASE(a_descriptor_gets_the_bytes_that_memory_gets);

@@ -273,7 +273,8 @@ class MeditWriter final : public MeshCollector {
           "fields and cell data are left out: they go to a .sol file beside the mesh, and "
           "it is not written to a file");
     const std::string path = withExtension(options().path, binary_ ? ".solb" : ".sol");
-    const std::unique_ptr<ByteSink> beside = createFile(path, options().joint);
+    const std::unique_ptr<ByteSink> beside =
+        watched(createFile(path, options().joint), options().tell);
     MeditOut out(*beside, binary_, version_);
     writeSection(out, kMeditSolAtVertices, schema.fields, fields, mesh_->pointCount(),
                  [&](size_t c, uint64_t row, void* to) { mesh_->readField(c, row, 1, to); });
