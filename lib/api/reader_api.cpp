@@ -1,6 +1,8 @@
 // api: readers of the public header.
 #include <sys/stat.h>
 
+#include <utility>
+
 #include "cells_to_points.h"
 #include "compressed_bytes.h"
 #include "generate.h"
@@ -141,6 +143,7 @@ static bool isLeftOut(const OptionRow& row, int attempt) {
 tetstream_status tetstream_reader_open_result(const char* path, const char* format,
                                               const tetstream_options* options,
                                               tetstream_reader** reader) {
+  if (reader) *reader = nullptr;
   // What is no file is read once, as it is.
   struct stat info;
   const bool is_file = path && ::stat(path, &info) == 0 && S_ISREG(info.st_mode);
@@ -156,7 +159,7 @@ tetstream_status tetstream_reader_open_result(const char* path, const char* form
     const tetstream_status status =
         openFileFor(__func__, path, format, options ? &kept : nullptr, reader);
     if (status != TETSTREAM_UNSUPPORTED || attempt == kLastAttempt || !options) return status;
-    tetstream_reader_destroy(*reader);
+    tetstream_reader_destroy(std::exchange(*reader, nullptr));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "bytes.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -53,12 +54,19 @@ static size_t readFully(int fd, uint64_t offset, void* out, size_t size, const s
   return done;
 }
 
+// Somebody may have made a pipe or a terminal one that does not wait.
+static bool waitsForRoom(int fd) {
+  if (errno != EAGAIN) return false;
+  struct pollfd room = {fd, POLLOUT, 0};
+  return ::poll(&room, 1, -1) >= 0 || errno == EINTR;
+}
+
 static void writeFully(int fd, const void* data, size_t size, const std::string& name) {
   const WriteSignalsHeld held;
   size_t done = 0;
   while (done < size) {
     const ssize_t put = ::write(fd, static_cast<const char*>(data) + done, size - done);
-    if (put < 0 && errno != EINTR) failIo(name, "write");
+    if (put < 0 && errno != EINTR && !waitsForRoom(fd)) failIo(name, "write");
     if (put > 0) done += static_cast<size_t>(put);
   }
 }

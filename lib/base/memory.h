@@ -71,6 +71,7 @@ class Array {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
   }
+  Account& account() const noexcept { return *account_; }
   size_t size() const noexcept { return size_; }
   T* data() noexcept { return data_; }
   const T* data() const noexcept { return data_; }

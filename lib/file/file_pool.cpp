@@ -48,8 +48,9 @@ ByteSource& FilePool::open(size_t file) {
       files_[opened_.front()].reset();
       opened_.pop_front();
     }
-    files_[file] = makeSeekable(openFile(paths_[file]), "");
-    opened_.push_back(file);
+    std::unique_ptr<ByteSource> bytes = openFile(paths_[file]);
+    if (bytes->seekable()) opened_.push_back(file);
+    files_[file] = makeSeekable(std::move(bytes), temp_dir_);
   }
   return *files_[file];
 }

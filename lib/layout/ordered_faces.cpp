@@ -99,8 +99,7 @@ void OrderedFaces::sortFaces(const Tell& tell) {
   readInPieces(count_, tell, [&](uint64_t first, size_t count) {
     source_.readFaces(first, count, corners.data(), labels.data());
     for (size_t i = 0; i < count; ++i) {
-      const auto number = static_cast<int64_t>(source_.firstNumber() + first + i);
-      OrderedFace face{{0, 0, 0}, labels[i], number};
+      OrderedFace face{{0, 0, 0}, labels[i], source_.faceNumber(first + i)};
       for (int64_t& vertex : face.vertices) takeNext(*numbers_, &key, &vertex);
       add(sort, static_cast<uint64_t>(face.last()), face);
     }

@@ -16,7 +16,7 @@ class RankedVertices {
   struct Budget {
     size_t memory_bytes;
     Account& account;
-    const std::string& temp_dir;
+    std::string temp_dir;
   };
   // Reads the points once. Fills the box of `schema`, which is the source's, over the used points;
   // values of `measured` fields (empty: of none) that are not finite are kBadData. Equal keys rank

@@ -7,6 +7,7 @@
 namespace tetstream {
 
 constexpr SpoolShape kInSequence = {2, 256 << 10};
+constexpr size_t kFaceWords = 5;
 
 static std::vector<std::unique_ptr<RowSpool>> spoolsFor(const std::vector<Column>& columns,
                                                         const std::string& temp_dir) {
@@ -22,7 +23,7 @@ SpooledMesh::SpooledMesh(const Schema& schema, const std::string& temp_dir)
       temp_dir_(temp_dir),
       positions_(3 * sizeOf(schema_.position_type), temp_dir, kInSequence),
       cells_(4 * sizeof(int64_t), temp_dir, kInSequence),
-      faces_(4 * sizeof(int64_t), temp_dir, kInSequence),
+      faces_(kFaceWords * sizeof(int64_t), temp_dir, kInSequence),
       fields_(spoolsFor(schema_.fields, temp_dir)),
       cell_data_(spoolsFor(schema_.cell_data, temp_dir)),
       locked_(account_) {}
@@ -55,7 +56,9 @@ void SpooledMesh::takeFaces(const BatchView& batch) {
     if (batch.face_locks && batch.face_locks[i])
       lock("locked face", faces_.rows(), batch.faces + 3 * i, 3);
     const int64_t* v = batch.faces + 3 * i;
-    const int64_t row[4] = {v[0], v[1], v[2], batch.face_labels[i]};
+    const auto place = static_cast<int64_t>(faces_.rows());
+    const int64_t number = batch.face_origins ? batch.face_origins[i] : place;
+    const int64_t row[kFaceWords] = {v[0], v[1], v[2], batch.face_labels[i], number};
     faces_.append(row, 1);
   }
 }
@@ -109,22 +112,17 @@ void SpooledMesh::makeRoomForLocks(size_t vertices) {
   std::fill(locked_.data() + known, locked_.data() + locked_.size(), uint8_t{0});
 }
 
-static void readRows(RowSpool& spool, size_t bytes, uint64_t first, size_t count, void* out) {
-  auto* to = static_cast<unsigned char*>(out);
-  for (size_t i = 0; i < count; ++i) std::memcpy(to + i * bytes, spool.row(first + i), bytes);
-}
-
 void SpooledMesh::readPositions(uint64_t first, size_t count, void* out) {
-  readRows(positions_, 3 * sizeOf(schema_.position_type), first, count, out);
+  positions_.read(first, count, out);
 }
 void SpooledMesh::readField(size_t column, uint64_t first, size_t count, void* out) {
-  readRows(*fields_[column], schema_.fields[column].bytesPerRow(), first, count, out);
+  fields_[column]->read(first, count, out);
 }
 void SpooledMesh::readCells(uint64_t first, size_t count, int64_t* out) {
-  readRows(cells_, 4 * sizeof(int64_t), first, count, out);
+  cells_.read(first, count, out);
 }
 void SpooledMesh::readCellData(size_t column, uint64_t first, size_t count, void* out) {
-  readRows(*cell_data_[column], schema_.cell_data[column].bytesPerRow(), first, count, out);
+  cell_data_[column]->read(first, count, out);
 }
 
 void SpooledMesh::readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) {
@@ -135,9 +133,13 @@ void SpooledMesh::readFaces(uint64_t first, size_t count, int64_t* corners, int6
   }
 }
 
+int64_t SpooledMesh::faceNumber(uint64_t row) {
+  return static_cast<const int64_t*>(faces_.row(row))[kFaceWords - 1];
+}
+
 void SpooledMesh::readOrigins(uint64_t first, size_t count, int64_t* out) {
   if (!origins_) return IndexedSource::readOrigins(first, count, out);
-  readRows(*origins_, sizeof(int64_t), first, count, out);
+  origins_->read(first, count, out);
 }
 
 uint64_t SpooledMesh::diskBytes() const {

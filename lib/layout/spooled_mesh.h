@@ -19,6 +19,7 @@ class SpooledMesh : public IndexedSource {
 
   const Schema& schema() const override { return schema_; }
   const uint8_t* locked() const override { return any_locked_ ? locked_.data() : nullptr; }
+  int64_t faceNumber(uint64_t row) override;
   bool hasOrigins() const override { return origins_ != nullptr; }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
@@ -39,7 +40,7 @@ class SpooledMesh : public IndexedSource {
   Schema schema_;
   std::string temp_dir_;
   Account account_;
-  RowSpool positions_, cells_, faces_;  // of a face three vertices and the label
+  RowSpool positions_, cells_, faces_;  // of a face three vertices, label, number
   std::vector<std::unique_ptr<RowSpool>> fields_, cell_data_;
   std::unique_ptr<RowSpool> origins_;  // of a stream that has them
   Array<uint8_t> locked_;              // per vertex so far

@@ -21,7 +21,8 @@ class Front {
   void introduce(uint32_t slot);
   uint64_t introduced() const { return next_; }
 
-  // The slot of an active vertex, or kNoSlot.
+  // The slot of an active vertex, or kNoSlot. Of those that were introduced: others may be taken
+  // for one of them.
   uint32_t find(uint64_t vertex) const {
     const Entry& e = ring_[vertex & mask_];
     if (e.slot != kNoSlot && e.tag == tagOf(vertex)) return e.slot;
@@ -43,7 +44,7 @@ class Front {
     }
     return (wrong | largest >> 31) == 0;  // kNoSlot has the last bit
   }
-  // Makes an active vertex inactive; false if it was not active.
+  // Makes an active vertex inactive; false if it was not active. As for find.
   bool finalize(uint64_t vertex);
   // slot = new_slot[slot] for every active vertex.
   void remap(const uint32_t* new_slot);

@@ -1,7 +1,5 @@
 #include "id_hash.h"
 
-#include <utility>
-
 namespace tetstream {
 
 constexpr size_t kFirstSize = 1024;
@@ -37,9 +35,8 @@ void IdHash::clear() {
 }
 
 void IdHash::grow() {
-  Array<Entry> old(std::move(entries_));
-  const size_t size = old.size() ? 2 * old.size() : kFirstSize;
-  entries_.resize(size);
+  Array<Entry> old(entries_.account(), entries_.size() ? 2 * entries_.size() : kFirstSize);
+  old.swap(entries_);
   clear();
   for (size_t i = 0; i < old.size(); ++i)
     if (old[i].slot != kNoSlot) add(old[i].id, old[i].slot);

@@ -65,6 +65,8 @@ class IndexedSource {
   virtual const uint8_t* locked() const { return nullptr; }
   // Of the first point, cell and face, in messages.
   virtual uint64_t firstNumber() const { return 0; }
+  // Of a labelled face, in messages.
+  virtual int64_t faceNumber(uint64_t row) { return static_cast<int64_t>(firstNumber() + row); }
   // Whether the points have come out of another order; then readOrigins tells their ranks there.
   virtual bool hasOrigins() const { return false; }
   // Rows [first, first + count) into `out`, laid out as in BatchView.

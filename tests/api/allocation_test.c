@@ -20,6 +20,7 @@ int main(void) {
 #include <errno.h>
 #include <pthread.h>
 #include <sched.h>
+#include <unistd.h>
 
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
@@ -337,6 +338,28 @@ static tetstream_status open_long_text(void) {
   return status;
 }
 
+/* A result whose stream makes no fields of cells, so that it is opened again without that option.
+ */
+static char result_path[] = "/tmp/tetstream-result-XXXXXX";
+
+static tetstream_status open_result(void) {
+  tetstream_reader* reader = NULL;
+  tetstream_options* options = NULL;
+  tetstream_status status = tetstream_options_create(&options);
+  if (!status) status = tetstream_options_parse(options, "cells-to-points", "yes");
+  if (!status) status = tetstream_options_parse(options, "tmpdir", "/tmp/../tmp/../tmp/../tmp");
+  if (!status) status = tetstream_reader_open_result(result_path, names[kind], options, &reader);
+  if (status < 0 && reader && !tetstream_reader_message(reader)) status = TETSTREAM_INTERNAL;
+  tetstream_reader_destroy(reader);
+  tetstream_options_destroy(options);
+  return status;
+}
+
+static void write_result(const void* data, size_t size) {
+  const int fd = mkstemp(result_path);
+  CHECK(fd >= 0 && write(fd, data, size) == (ssize_t)size && !close(fd));
+}
+
 /* ---------------------------------------------------------------------------- one after another */
 
 static void fails_cleanly_wherever_memory_ends(const char* name, small_run run) {
@@ -432,6 +455,9 @@ int main(void) {
       window_cells = 64;
       fails_cleanly_wherever_memory_ends(".tets through a small window", simplify_file);
       fails_cleanly_wherever_memory_ends("stream through a small window", simplify_stream_to_tets);
+      write_result(bytes[kind], sizes[kind]);
+      fails_cleanly_wherever_memory_ends("a result", open_result);
+      unlink(result_path);
       traced = 1;
       fails_cleanly_wherever_memory_ends("stream, map and log", simplify_stream_to_tets);
       fails_cleanly_wherever_memory_ends("arrays, map and log", simplify_arrays);

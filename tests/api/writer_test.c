@@ -321,7 +321,13 @@ static void what_a_format_cannot_hold_is_noted(void) {
   hostile_mesh_destroy(mesh);
 }
 
-/* One cell, whose first edge must stay. */
+/* One cell, of which something must stay: its first edge, a vertex, or nothing. */
+typedef struct one_cell {
+  int64_t locked_edges;
+  const uint8_t* locked;
+  int at_end;
+} one_cell;
+
 static int32_t one_cell_open(void* user, tetstream_stream_info* info) {
   (void)user;
   info->position_type = TETSTREAM_TYPE_FLOAT32;
@@ -331,39 +337,49 @@ static int32_t one_cell_next(void* user, tetstream_batch* batch) {
   static const float positions[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
   static const int64_t cell[4] = {0, 1, 2, 3}, edge[2] = {0, 1};
   static const uint8_t all = 15;
-  int* at_end = user;
-  if (*at_end) return 0;
-  *at_end = 1;
+  one_cell* cell_of = user;
+  if (cell_of->at_end) return 0;
+  cell_of->at_end = 1;
   batch->vertex_count = 4;
   batch->positions = positions;
   batch->cell_count = 1;
   batch->cells = cell;
   batch->last_uses = &all;
-  batch->locked_edge_count = 1;
+  batch->locked_edge_count = cell_of->locked_edges;
   batch->locked_edges = edge;
+  batch->locked = cell_of->locked;
   return 0;
 }
 
+/* How many notes tell of locks where the cell is written. */
+static int notes_of_locks(const char* format, one_cell cell) {
+  tetstream_reader_callbacks reads = {0};
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  reads.struct_size = sizeof reads;
+  reads.user = &cell;
+  reads.open = one_cell_open;
+  reads.next = one_cell_next;
+  CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory(format, &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  int noted = 0;
+  for (int32_t k = 0; tetstream_writer_note(writer, k); ++k)
+    noted += strstr(tetstream_writer_note(writer, k), "lock") != NULL;
+  tetstream_reader_destroy(reader);
+  tetstream_writer_destroy(writer);
+  return noted;
+}
+
 static void locks_that_a_format_cannot_hold_are_noted(void) {
-  static const char* const formats[] = {"vtu", "sva", "svb"};
-  for (size_t i = 0; i < 3; ++i) {
-    int at_end = 0;
-    tetstream_reader_callbacks reads = {0};
-    tetstream_reader* reader = NULL;
-    tetstream_writer* writer = NULL;
-    reads.struct_size = sizeof reads;
-    reads.user = &at_end;
-    reads.open = one_cell_open;
-    reads.next = one_cell_next;
-    CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
-    CHECK_EQUAL(tetstream_writer_create_memory(formats[i], &writer), TETSTREAM_OK);
-    CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
-    int noted = 0;
-    for (int32_t k = 0; tetstream_writer_note(writer, k); ++k)
-      noted += strstr(tetstream_writer_note(writer, k), "lock") != NULL;
-    CHECK_EQUAL(noted, 1);
-    tetstream_reader_destroy(reader);
-    tetstream_writer_destroy(writer);
+  static const char* const formats[] = {"vtu", "vtk", "sva", "svb", "msh", "exodus", "mesh"};
+  static const uint8_t none[4] = {0, 0, 0, 0}, last[4] = {0, 0, 0, 1};
+  for (size_t i = 0; i < sizeof formats / sizeof formats[0]; ++i) {
+    const int holds_vertices = strcmp(formats[i], "mesh") == 0;
+    CHECK_EQUAL(notes_of_locks(formats[i], (one_cell){1, NULL, 0}), 1);
+    CHECK_EQUAL(notes_of_locks(formats[i], (one_cell){0, last, 0}), !holds_vertices);
+    CHECK_EQUAL(notes_of_locks(formats[i], (one_cell){0, none, 0}), 0);
+    CHECK_EQUAL(notes_of_locks(formats[i], (one_cell){0, NULL, 0}), 0);
   }
 }
 

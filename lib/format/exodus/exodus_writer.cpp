@@ -401,7 +401,7 @@ class ExodusWriter final : public MeshCollector {
 }  // namespace
 
 std::unique_ptr<Sink> createExodus(std::unique_ptr<ByteSink> bytes, const WriteOptions& options) {
-  return std::make_unique<ExodusWriter>(std::move(bytes), options);
+  return std::make_unique<ExodusWriter>(std::move(bytes), options, "Exodus II");
 }
 
 }  // namespace tetstream

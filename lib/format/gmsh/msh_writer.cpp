@@ -410,7 +410,7 @@ class MshWriter final : public MeshCollector {
 }  // namespace
 
 std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options) {
-  return std::make_unique<MshWriter>(std::move(bytes), options);
+  return std::make_unique<MshWriter>(std::move(bytes), options, ".msh");
 }
 
 }  // namespace tetstream

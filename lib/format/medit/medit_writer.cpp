@@ -87,7 +87,7 @@ struct Solution {
 class MeditWriter final : public MeshCollector {
  public:
   MeditWriter(std::unique_ptr<ByteSink> bytes, const WriteOptions& options, bool binary)
-      : MeshCollector(std::move(bytes), options), binary_(binary) {}
+      : MeshCollector(std::move(bytes), options, binary ? ".meshb" : ".mesh"), binary_(binary) {}
 
  protected:
   bool holdsLocks() const override { return true; }

@@ -68,11 +68,8 @@ class PendingVertices {
 
 class SvSink final : public Sink {
  public:
-  SvSink(std::unique_ptr<SvEncoder> encoder, const WriteOptions& options, const char* format)
-      : encoder_(std::move(encoder)),
-        note_(options.note),
-        post_order_(options.post_order),
-        format_(format) {}
+  SvSink(std::unique_ptr<SvEncoder> encoder, DroppedMarks dropped, bool post_order)
+      : encoder_(std::move(encoder)), dropped_(std::move(dropped)), post_order_(post_order) {}
 
   void begin(const Schema& schema) override {
     checkSchema(schema);
@@ -82,7 +79,7 @@ class SvSink final : public Sink {
   }
 
   void put(const BatchView& batch) override {
-    noteLosses(batch);
+    dropped_.look(batch);
     if (batch.vertex_count > 0) pending_->add(batch);
     for (size_t i = 0; i < batch.cell_count; ++i) {
       const uint8_t last_uses = batch.last_uses ? batch.last_uses[i] : 0;
@@ -221,33 +218,21 @@ class SvSink final : public Sink {
            static_cast<unsigned long long>(block_->rows.firstVertex() + bad));
   }
 
-  void noteLosses(const BatchView& batch) {
-    if (!note_) return;
-    const bool locked = batch.locked || batch.face_locks || batch.edge_count > 0;
-    if (locked && !noted_locked_)
-      note_(std::string(format_) + " cannot mark anything as locked; the marks are left out");
-    if (batch.face_count > 0 && !noted_faces_)
-      note_(std::string(format_) + " has no labelled faces; they are left out");
-    noted_locked_ = noted_locked_ || locked;
-    noted_faces_ = noted_faces_ || batch.face_count > 0;
-  }
-
   std::unique_ptr<SvEncoder> encoder_;
-  std::function<void(const std::string&)> note_;
+  DroppedMarks dropped_;
   bool post_order_;
-  const char* format_;
   Schema schema_;
   std::optional<PendingVertices> pending_;
   std::optional<SvBlock> block_;
   int64_t cells_ = 0;
-  bool begun_ = false, noted_locked_ = false, noted_faces_ = false;
+  bool begun_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Sink> makeSvSink(std::unique_ptr<SvEncoder> encoder, const WriteOptions& options,
-                                 const char* format) {
-  return std::make_unique<SvSink>(std::move(encoder), options, format);
+std::unique_ptr<Sink> makeSvSink(std::unique_ptr<SvEncoder> encoder, DroppedMarks dropped,
+                                 const WriteOptions& options) {
+  return std::make_unique<SvSink>(std::move(encoder), std::move(dropped), options.post_order);
 }
 
 }  // namespace tetstream

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "dropped_marks.h"
 #include "format_rows.h"
 #include "sv_block.h"
 
@@ -13,7 +14,7 @@ namespace tetstream {
 // last uses are negative references, explicit finalizations elements of their own.
 // Post-order: ranks stay the numbering, so vertex elements stand in the order of ranks, each as
 // soon as it and all lower ranks are final; memory is bounded by the stream's span.
-std::unique_ptr<Sink> makeSvSink(std::unique_ptr<SvEncoder> encoder, const WriteOptions& options,
-                                 const char* format);
+std::unique_ptr<Sink> makeSvSink(std::unique_ptr<SvEncoder> encoder, DroppedMarks dropped,
+                                 const WriteOptions& options);
 
 }  // namespace tetstream

@@ -114,7 +114,8 @@ class SvaEncoder final : public SvEncoder {
 }  // namespace
 
 std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options) {
-  return makeSvSink(std::make_unique<SvaEncoder>(std::move(bytes), options), options, ".sva");
+  const DroppedMarks dropped(*bytes, options, ".sva");
+  return makeSvSink(std::make_unique<SvaEncoder>(std::move(bytes), options), dropped, options);
 }
 
 }  // namespace tetstream

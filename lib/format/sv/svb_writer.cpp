@@ -193,7 +193,8 @@ class SvbEncoder final : public SvEncoder {
 }  // namespace
 
 std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options) {
-  return makeSvSink(std::make_unique<SvbEncoder>(std::move(bytes), options), options, ".svb");
+  const DroppedMarks dropped(*bytes, options, ".svb");
+  return makeSvSink(std::make_unique<SvbEncoder>(std::move(bytes), options), dropped, options);
 }
 
 }  // namespace tetstream

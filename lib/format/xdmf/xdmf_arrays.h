@@ -17,8 +17,12 @@ class Hdf5File;
 
 class XdmfArrays {
  public:
-  XdmfArrays(std::shared_ptr<ByteSource> bytes, const XdmfText& text, const Helpers& helpers)
-      : bytes_(std::move(bytes)), text_(text), helpers_(helpers) {}
+  XdmfArrays(std::shared_ptr<ByteSource> bytes, const XdmfText& text, const Helpers& helpers,
+             const std::string& temp_dir)
+      : bytes_(std::move(bytes)),
+        text_(text),
+        helpers_(helpers),
+        pool_(std::make_shared<FilePool>(temp_dir)) {}
 
   // The item's values, which are as many as its sizes say: throws if they are not.
   MeshArray arrayOf(const XdmfItem& item, const std::string& name, int components);
@@ -38,7 +42,7 @@ class XdmfArrays {
   const XdmfText text_;
   const Helpers helpers_;  // of text
   std::map<std::string, std::shared_ptr<Hdf5File>> files_;
-  std::shared_ptr<FilePool> pool_ = std::make_shared<FilePool>();
+  const std::shared_ptr<FilePool> pool_;
   std::map<std::string, std::shared_ptr<ByteSource>> raw_files_;
 };
 

@@ -28,7 +28,7 @@ class Xdmf {
         mesh_(mesh),
         file_(readXdmfTree(*bytes)),
         text_(bytes, file_.entities),
-        arrays_(bytes, text_, {options.threads, std::this_thread::get_id()}),
+        arrays_(bytes, text_, {options.threads, std::this_thread::get_id()}, options.temp_dir),
         grids_(file_.grids) {
     mesh_.name = bytes->name();
     followXdmfReferences(file_, text_);

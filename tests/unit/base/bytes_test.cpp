@@ -308,6 +308,22 @@ TEST(Waiting, IsDoneForDescriptorsThatDoNot) {
   ::close(fds[0]);
 }
 
+TEST(CreateDescriptor, WaitsForDescriptorsThatDoNot) {
+  int fds[2];
+  ASSERT_EQ(::pipe(fds), 0);
+  ASSERT_EQ(::fcntl(fds[1], F_SETFL, O_NONBLOCK), 0);
+  const std::string text(3 << 20, 'x');  // more than a pipe holds
+  std::thread writer([&] {
+    const auto sink = createDescriptor(fds[1], "pipe");
+    EXPECT_NO_THROW(sink->write(text.data(), text.size()));
+    ::close(fds[1]);
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_EQ(contents(*openDescriptor(fds[0], "pipe")).size(), text.size());
+  writer.join();
+  ::close(fds[0]);
+}
+
 TEST(MakeSeekable, SpoolsAPipe) {
   int fds[2];
   ASSERT_EQ(::pipe(fds), 0);

@@ -104,6 +104,20 @@ TEST(Msh, LabelsFacesByGroupsIfThereAreAny) {
             (std::vector<TestFace>{{0, 1, 3, 6}, {1, 3, 4, 7}, {0, 1, 2, 8}}));
 }
 
+// A node whose value comes twice has the last one, and stands for no other.
+TEST(Msh, CountsTheNodesThatHaveNoValue) {
+  const std::string before(kSparse2, std::strstr(kSparse2, "$NodeData"));
+  const std::string head = "$NodeData\n1\n\"p\"\n1\n0.5\n3\n0\n1\n5\n";
+  for (const char* rows : {"5 50\n4 40\n5 51\n70 700\n900000000000 900\n",
+                           "70 700\n900000000000 900\n4 40\n4 40\n5 51\n"}) {
+    std::vector<std::string> notes;
+    Input input = openText(openMsh, before + head + rows + "$EndNodeData\n", {}, &notes);
+    const SvMesh m = readAll(input);
+    EXPECT_EQ(m.fields[0], (std::vector<double>{700, 0, 900, 40, 51}));
+    EXPECT_TRUE(anyNote(notes, "\"p\" has no value at 1 points, where it is taken as 0")) << rows;
+  }
+}
+
 // As Gmsh writes version 2: an element is there for each group that its entity is in, with a number
 // of its own; faces of a negative group are the other way round.
 TEST(Msh, ReadsElementsOfSeveralGroupsOnce) {

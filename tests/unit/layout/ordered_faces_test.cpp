@@ -59,6 +59,43 @@ void expectFaces(IndexedSource& source, const OrderOptions& options, const FaceL
   }
 }
 
+// In messages faces have the numbers that the input gave them, however often they were ordered.
+void expectNumbers(IndexedSource& source, const OrderOptions& options, const FacedMesh& faced) {
+  SCOPED_TRACE(options.order + ", memory " + std::to_string(options.memory_bytes));
+  OrderedSource ordered(source, options);
+  std::vector<int64_t> originals;
+  size_t seen = 0;
+  for (BatchView batch; ordered.next(batch); seen += batch.face_count) {
+    for (size_t i = 0; i < batch.vertex_count; ++i)
+      originals.push_back(static_cast<const int64_t*>(batch.fields[0])[i]);
+    for (size_t i = 0; i < batch.face_count; ++i) {
+      const auto number = static_cast<size_t>(batch.face_origins[i]);
+      ASSERT_LT(number, faced.labels.size());
+      Face face, wanted;
+      for (size_t j = 0; j < 3; ++j) {
+        face[j] = originals[static_cast<size_t>(batch.faces[3 * i + j])];
+        wanted[j] = faced.corners[3 * number + j];
+      }
+      std::sort(face.begin(), face.end());
+      std::sort(wanted.begin(), wanted.end());
+      ASSERT_EQ(face, wanted);
+    }
+  }
+  EXPECT_EQ(seen, faced.labels.size());
+}
+
+TEST(OrderedFaces, KeepTheirNumbers) {
+  FacedMesh faced = labelledGrid(5, 6, 8);
+  MemorySource memory(faced.mesh.schema, faced.view());
+  for (const char* order : {"none", "hilbert", "breadth-first", "spectral"})
+    for (size_t memory_bytes : {0, 1}) {
+      OrderOptions options;
+      options.order = order;
+      options.memory_bytes = memory_bytes;
+      expectNumbers(memory, options, faced);
+    }
+}
+
 // From arrays, and from a spool.
 TEST(OrderedFaces, ComeWithTheirVerticesInEveryOrder) {
   FacedMesh faced = labelledGrid(5, 6, 8);

@@ -6,6 +6,7 @@
 
 #include "memory_source.h"
 #include "mesh_facts.h"
+#include "named_input.h"
 #include "shapes.h"
 #include "status.h"
 
@@ -251,6 +252,25 @@ TEST(Inspect, TellsTheSameOfAStreamAndOfTheMeshItCameFrom) {
   EXPECT_EQ(a.box_min, b.box_min);
   EXPECT_EQ(a.box_max, b.box_max);
   EXPECT_EQ(a.box_min.size(), 5u);
+}
+
+// Unless it is told already: a name that is a word of the sentence is not.
+TEST(ReadNamed, TellsWhichFileIsWrong) {
+  const auto sentence = [](const std::string& name, const char* text) {
+    Input input;
+    input.name = name;
+    try {
+      readNamed(input, [&] { fail(Status::kBadData, "%s", text); });
+    } catch (const Error& error) {
+      return error.text();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(sentence("cell", "cell 7: vertex 9 is not known"),
+            "cell: cell 7: vertex 9 is not known");
+  EXPECT_EQ(sentence("a.vtu", "a.vtu: cell 7 is flat"), "a.vtu: cell 7 is flat");
+  EXPECT_EQ(sentence("a.vtu", "a.vtu, byte 7: no number"), "a.vtu, byte 7: no number");
+  EXPECT_EQ(sentence("", "cell 7 is flat"), "cell 7 is flat");
 }
 
 }  // namespace

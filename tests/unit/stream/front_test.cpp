@@ -112,6 +112,20 @@ uint32_t steps() {
   return slowRun() ? 9000 : 60000;
 }
 
+TEST(IdHash, IsAsItWasWhereItCannotGrow) {
+  Account small(30000);
+  IdHash hash(small);
+  uint64_t id = 0;
+  const auto fill = [&] {
+    for (; id < 5000; ++id) hash.add(7 * id, static_cast<uint32_t>(id));
+  };
+  EXPECT_THROW(fill(), Error);
+  EXPECT_GT(id, 100u);
+  EXPECT_EQ(hash.count(), id);
+  for (uint64_t k = 0; k < id; ++k) EXPECT_EQ(hash.find(7 * k), k);
+  EXPECT_EQ(hash.find(7 * id), kNoSlot);
+}
+
 TEST(Front, IsAMapForStreamsOfLowSpan) {
   drive({steps(), 300, 1000000, 0}, 1);
 }

@@ -1,0 +1,55 @@
+// mesh/topology: the edges of the window that are parts of curves: where sheets meet, or along a
+// ridge. Depends on base.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <shared_mutex>
+
+#include "memory.h"
+
+namespace tetstream {
+
+// A set of edges, asked for by their ends: a hash of (vertex, neighbour), each edge twice. Curves
+// are thin: it stays small beside the window, and takes nothing where the mesh has none.
+//
+// Patches that are worked on at the same time ask and merge at the same time: a lock keeps the hash
+// whole. What they are told does not hang on who comes first, since nobody else merges a vertex of
+// theirs, and a vertex on their rim, which another patch may have on its own, stays on as many
+// curves: collapses that would make two edges one are not legal.
+class Curves {
+ public:
+  explicit Curves(Account& account) : account_(&account), places_(account) {}
+
+  bool empty() const { return !any_.load(std::memory_order_relaxed); }
+  void add(uint32_t u, uint32_t v);  // no effect if it is there
+  bool has(uint32_t u, uint32_t v) const;
+  // Whether there is an edge at v.
+  bool passes(uint32_t v) const;
+  // v becomes u, and an edge uv nothing.
+  void merge(uint32_t u, uint32_t v);
+  // Vertex v becomes keep[v]; edges of vertices that become 0xffffffff are forgotten.
+  void remap(const uint32_t* keep);
+
+ private:
+  // Vertices are below 2^31: neither is an entry.
+  static constexpr uint64_t kEmpty = ~uint64_t{0}, kRemoved = kEmpty - 1;
+  static uint64_t entryOf(uint32_t u, uint32_t v) { return uint64_t{u} << 32 | v; }
+
+  size_t placeOf(uint32_t v) const;
+  uint64_t firstOf(uint32_t v) const;
+  bool holds(uint32_t u, uint32_t v) const;
+  bool holdsAny(uint32_t v) const { return count_ > 0 && firstOf(v) != kEmpty; }
+  void put(uint32_t u, uint32_t v);
+  void insert(uint64_t entry);
+  void remove(uint64_t entry);
+  void rebuild(size_t entries, const uint32_t* keep);
+
+  Account* account_;
+  Array<uint64_t> places_;       // a power of two of them, at most half in use
+  size_t count_ = 0, used_ = 0;  // entries; places that are in use or were
+  std::atomic<bool> any_ = false;
+  mutable std::shared_mutex mutex_;
+};
+
+}  // namespace tetstream
