@@ -18,6 +18,9 @@ struct SpoolShape {
   size_t block_bytes = 32 << 10;
 };
 
+// Of rows that are written and read in sequence.
+constexpr SpoolShape kSpooledInSequence = {2, 256 << 10};
+
 // Rows go to an unnamed temporary file, each block with a check sum that is looked at when it comes
 // back: a file that was damaged is no mesh that is wrong. What fits the memory stays there.
 class RowSpool {

@@ -57,7 +57,7 @@ static void rankByKeys(IndexedSource& source, const VertexKey& key, Account& acc
   const auto points = static_cast<size_t>(source.schema().vertex_count);
   const ScalarType type = source.schema().position_type;
   Array<uint64_t> keys(account, points);
-  std::vector<double> rows(3 * std::min(kRowsAtOnce, points));
+  std::vector<double> rows(3 * std::min(kRowsOfPiece, points));
   readInPieces(
       points, [](double) {},
       [&](uint64_t first, size_t count) {

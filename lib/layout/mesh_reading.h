@@ -9,7 +9,7 @@
 
 namespace tetstream {
 
-constexpr size_t kRowsAtOnce = 16384;
+constexpr size_t kRowsOfPiece = 16384;
 
 // A share of something that is done; may throw to stop.
 using Tell = std::function<void(double)>;
@@ -17,8 +17,8 @@ using Tell = std::function<void(double)>;
 // visit(first, count) for each piece of `rows` rows.
 template <class Visit>
 void readInPieces(uint64_t rows, const Tell& tell, Visit visit) {
-  for (uint64_t at = 0; at < rows; at += kRowsAtOnce) {
-    visit(at, static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, rows - at)));
+  for (uint64_t at = 0; at < rows; at += kRowsOfPiece) {
+    visit(at, static_cast<size_t>(std::min<uint64_t>(kRowsOfPiece, rows - at)));
     tell(static_cast<double>(at) / static_cast<double>(rows));
   }
 }
@@ -41,7 +41,7 @@ template <class Visit>
 void readAllCells(IndexedSource& source, const Tell& tell, Visit visit) {
   const auto cells = static_cast<uint64_t>(source.schema().cell_count);
   const int64_t points = source.schema().vertex_count;
-  std::vector<int64_t> corners(4 * std::min<uint64_t>(kRowsAtOnce, cells));
+  std::vector<int64_t> corners(4 * std::min<uint64_t>(kRowsOfPiece, cells));
   readInPieces(cells, tell, [&](uint64_t first, size_t count) {
     source.readCells(first, count, corners.data());
     for (size_t i = 0; i < count; ++i) checkCell(source, first + i, &corners[4 * i], points);

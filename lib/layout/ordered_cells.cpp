@@ -89,8 +89,8 @@ class DataRows {
  public:
   DataRows(IndexedSource& source, size_t bytes) : source_(source), bytes_(bytes) {
     if (bytes == 0) return;
-    rows_.resize(bytes * kRowsAtOnce);
-    column_.resize(static_cast<size_t>(kMaxComponents) * kRowsAtOnce);
+    rows_.resize(bytes * kRowsOfPiece);
+    column_.resize(static_cast<size_t>(kMaxComponents) * kRowsOfPiece);
   }
   void read(uint64_t first, size_t count) {
     if (bytes_ == 0) return;
@@ -158,7 +158,7 @@ class OrderedCells::Passage {
     uint64_t key, count = 0;
     while (const unsigned char* row = sorts_ ? sort_.next(&key) : nullptr) {
       to_.rows_.append(row, 1);
-      if (++count % kRowsAtOnce == 0) tell(static_cast<double>(count) / all);
+      if (++count % kRowsOfPiece == 0) tell(static_cast<double>(count) / all);
     }
     to_.rows_.finish();
     to_.disk_ = std::max(to_.disk_, sort_.diskBytes());
@@ -203,7 +203,7 @@ class OrderedCells::Passage {
       std::memcpy(corners, row_.data(), kCorners);
       std::memcpy(&known, row_.data() + row_bytes_, sizeof known);
       pass(corners, known);
-      if (i % kRowsAtOnce == 0) tell(0);
+      if (i % kRowsOfPiece == 0) tell(0);
     }
   }
 
@@ -346,7 +346,7 @@ void OrderedCells::listLastUses(UsesOf usesOf, const Tell& tell) {
     std::memcpy(corners, rows_.row(left), kCorners);
     const auto uses = static_cast<unsigned char>(usesOf(corners, left));
     last_uses_.append(&uses, 1);
-    if (left % kRowsAtOnce == 0)
+    if (left % kRowsOfPiece == 0)
       tell(1 - static_cast<double>(left) / static_cast<double>(rows_.rows()));
   }
   last_uses_.finish();

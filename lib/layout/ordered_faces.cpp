@@ -52,7 +52,7 @@ void OrderedFaces::finish(const Tell& tell) {
 void OrderedFaces::sortCorners() {
   const int64_t points = source_.schema().vertex_count;
   const uint64_t number = source_.firstNumber();
-  std::vector<int64_t> corners(3 * kRowsAtOnce), labels(kRowsAtOnce);
+  std::vector<int64_t> corners(3 * kRowsOfPiece), labels(kRowsOfPiece);
   ExternalSort& sort = sorted(corners_, sizeof(uint64_t));
   readInPieces(
       count_, [](double) {},
@@ -93,7 +93,7 @@ void OrderedFaces::joinNumbers() {
 }
 
 void OrderedFaces::sortFaces(const Tell& tell) {
-  std::vector<int64_t> corners(3 * kRowsAtOnce), labels(kRowsAtOnce);
+  std::vector<int64_t> corners(3 * kRowsOfPiece), labels(kRowsOfPiece);
   ExternalSort sort(sizeof(OrderedFace), budget_.memory_bytes, budget_.account, budget_.temp_dir);
   uint64_t key;
   readInPieces(count_, tell, [&](uint64_t first, size_t count) {

@@ -30,7 +30,7 @@ RankedVertices::RankedVertices(IndexedSource& source, const Survey& survey, cons
   uint64_t sorted_key;
   while (const unsigned char* row = sort.next(&sorted_key)) {
     rows_.append(row, 1);
-    if (rows_.rows() % kRowsAtOnce == 0) tell(0.7 + 0.3 * static_cast<double>(rows_.rows()) / all);
+    if (rows_.rows() % kRowsOfPiece == 0) tell(0.7 + 0.3 * static_cast<double>(rows_.rows()) / all);
   }
   rows_.finish();
   disk_ = sort.diskBytes() + rows_.diskBytes();
@@ -66,7 +66,7 @@ std::vector<PieceColumn> columnsOf(const Schema& schema, const std::vector<bool>
   size_t place = 0, in_box = 0;
   const auto add = [&](size_t components, ScalarType type, const Column* field) {
     PieceColumn column{{}, components * sizeOf(type), components, place, in_box, type, field};
-    column.values.resize(components * kRowsAtOnce);
+    column.values.resize(components * kRowsOfPiece);
     place += column.bytes;
     in_box += components;
     columns.push_back(std::move(column));
@@ -89,7 +89,7 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
   schema.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
   std::vector<PieceColumn> columns = columnsOf(schema, measured);
   const uint64_t number = source_.firstNumber();
-  std::vector<int64_t> origins(source_.hasOrigins() ? kRowsAtOnce : 0);
+  std::vector<int64_t> origins(source_.hasOrigins() ? kRowsOfPiece : 0);
   readInPieces(static_cast<uint64_t>(schema.vertex_count), tell, [&](uint64_t first, size_t count) {
     source_.readPositions(first, count, columns[0].values.data());
     for (size_t f = 0; f < schema.fields.size(); ++f)

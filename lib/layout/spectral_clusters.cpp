@@ -32,7 +32,7 @@ SpectralClusters::SpectralClusters(IndexedSource& mesh, RankedVertices::Budget b
 
 void SpectralClusters::findCentres(const Tell& tell) {
   const ScalarType type = mesh_.schema().position_type;
-  std::vector<double> rows(3 * kRowsAtOnce);
+  std::vector<double> rows(3 * kRowsOfPiece);
   std::vector<double> count(clusters_.size());
   readInPieces(
       static_cast<uint64_t>(mesh_.schema().vertex_count), tell, [&](uint64_t first, size_t n) {

@@ -50,7 +50,7 @@ void Survey::readCells(const Tell& tell) {
 
 void Survey::readPoints(const Tell& tell) {
   const ScalarType type = source_.schema().position_type;
-  std::vector<double> rows(3 * kRowsAtOnce);
+  std::vector<double> rows(3 * kRowsOfPiece);
   places_.resize(3 * sampled_.size());
   readInPieces(static_cast<uint64_t>(source_.schema().vertex_count), tell,
                [&](uint64_t first, size_t count) {

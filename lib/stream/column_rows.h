@@ -71,6 +71,7 @@ class ColumnRows {
   }
   void finish() { spool_.finish(); }  // before the first read
   uint64_t rows() const { return spool_.rows() + placed_.rows(); }
+  uint64_t diskBytes() const { return spool_.diskBytes(); }
   void read(uint64_t first, size_t count, void* out);
 
  private:

@@ -9,37 +9,43 @@
 
 namespace tetstream {
 
-// Written and read in sequence.
-constexpr SpoolShape kInSequence = {2, 256 << 10};
 constexpr size_t kFaceWords = 4;
 
 MeshSpool::MeshSpool(ScalarType position_type, const std::string& temp_dir, const Tasks* tasks)
     : temp_dir_(temp_dir),
       tasks_(tasks),
-      positions_(3 * sizeOf(position_type), temp_dir, kInSequence, tasks),
-      cells_(4 * sizeof(int32_t), temp_dir, kInSequence, tasks),
-      wide_cells_(4 * sizeof(int64_t), temp_dir, kInSequence, tasks),
+      positions_(3 * sizeOf(position_type), temp_dir, kSpooledInSequence, tasks),
+      cells_(4 * sizeof(int32_t), temp_dir, kSpooledInSequence, tasks),
+      wide_cells_(4 * sizeof(int64_t), temp_dir, kSpooledInSequence, tasks),
       faces_(openFaces()),
       locked_(account_) {
   schema_.position_type = position_type;
 }
 
+MeshSpool::MeshSpool(const Schema& schema, const std::string& temp_dir)
+    : MeshSpool(schema.position_type, temp_dir) {
+  for (const Column& c : schema.fields) addField(c);
+  for (const Column& c : schema.cell_data) addCellData(c);
+  schema_ = schema;
+}
+
 size_t MeshSpool::addField(const Column& column) {
   schema_.fields.push_back(column);
   fields_.push_back(
-      std::make_unique<ColumnRows>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
+      std::make_unique<ColumnRows>(column.bytesPerRow(), temp_dir_, kSpooledInSequence, tasks_));
   return fields_.size() - 1;
 }
 
 size_t MeshSpool::addCellData(const Column& column) {
   schema_.cell_data.push_back(column);
   cell_data_.push_back(
-      std::make_unique<ColumnRows>(column.bytesPerRow(), temp_dir_, kInSequence, tasks_));
+      std::make_unique<ColumnRows>(column.bytesPerRow(), temp_dir_, kSpooledInSequence, tasks_));
   return cell_data_.size() - 1;
 }
 
 std::unique_ptr<RowSpool> MeshSpool::openFaces() const {
-  return std::make_unique<RowSpool>(kFaceWords * sizeof(int64_t), temp_dir_, kInSequence, tasks_);
+  return std::make_unique<RowSpool>(kFaceWords * sizeof(int64_t), temp_dir_, kSpooledInSequence,
+                                    tasks_);
 }
 
 static void removeAt(std::vector<Column>& columns, std::vector<std::unique_ptr<ColumnRows>>& rows,
@@ -77,6 +83,21 @@ void MeshSpool::removeCellData(size_t column) {
 void MeshSpool::appendFace(const int64_t corners[3], int64_t label) {
   const int64_t row[kFaceWords] = {corners[0], corners[1], corners[2], label};
   faces_->append(row, 1);
+}
+
+// Arrays without rows may be null, and so may the lists of them.
+void MeshSpool::append(const BatchView& batch) {
+  if (batch.vertex_count > 0) {
+    appendPositions(batch.positions, batch.vertex_count);
+    for (size_t i = 0; i < fields_.size(); ++i) appendField(i, batch.fields[i], batch.vertex_count);
+  }
+  if (batch.cell_count > 0) {
+    appendCells(batch.cells, batch.cell_count);
+    for (size_t i = 0; i < cell_data_.size(); ++i)
+      appendCellData(i, batch.cell_data[i], batch.cell_count);
+  }
+  for (size_t i = 0; i < batch.face_count; ++i)
+    appendFace(batch.faces + 3 * i, batch.face_labels[i]);
 }
 
 void MeshSpool::lock(uint64_t point) {
@@ -166,6 +187,14 @@ void MeshSpool::readFaces(uint64_t first, size_t count, int64_t* corners, int64_
     std::memcpy(corners, row, 3 * sizeof(int64_t));
     labels[i] = row[3];
   }
+}
+
+uint64_t MeshSpool::diskBytes() const {
+  uint64_t bytes = positions_.diskBytes() + faces_->diskBytes();
+  for (const RowSpool* spool : {&cells_, &wide_cells_}) bytes += spool->diskBytes();
+  for (const Columns* columns : {&fields_, &cell_data_})
+    for (const auto& rows : *columns) bytes += rows->diskBytes();
+  return bytes;
 }
 
 }  // namespace tetstream

@@ -19,6 +19,8 @@ class MeshSpool : public IndexedSource {
  public:
   // `tasks`, which may be null, help to write up to finish and finishFaces.
   MeshSpool(ScalarType position_type, const std::string& temp_dir, const Tasks* tasks = nullptr);
+  // With the columns of the schema and what else it knows; counts are those of what comes.
+  MeshSpool(const Schema& schema, const std::string& temp_dir);
 
   size_t addField(const Column& column);
   size_t addCellData(const Column& column);
@@ -51,6 +53,8 @@ class MeshSpool : public IndexedSource {
     cell_data_[column]->place(count, std::move(rows));
   }
   void appendFace(const int64_t corners[3], int64_t label);
+  // The vertices, cells and labelled faces of a batch; nothing of locks, origins, finalizations.
+  void append(const BatchView& batch);
   void forgetFaces() { faces_ = openFaces(); }  // that came
   void lock(uint64_t point);                    // of those that came
   uint64_t pointCount() const { return positions_.rows(); }
@@ -61,6 +65,7 @@ class MeshSpool : public IndexedSource {
   void finishFaces();
   // Of the finished faces, those of which keep(three points) is true. Returns how many are gone.
   uint64_t keepFaces(const std::function<bool(const int64_t*)>& keep);
+  uint64_t diskBytes() const;  // of its temporary files
 
   const Schema& schema() const override { return schema_; }
   const uint8_t* locked() const override { return locked_.size() > 0 ? locked_.data() : nullptr; }

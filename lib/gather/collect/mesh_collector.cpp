@@ -10,30 +10,18 @@ void MeshCollector::note(const std::string& text) const {
 
 void MeshCollector::begin(const Schema& schema) {
   checkSchema(schema);
-  mesh_ = std::make_unique<MeshSpool>(schema.position_type, options_.temp_dir);
-  for (const Column& c : schema.fields) mesh_->addField(c);
-  for (const Column& c : schema.cell_data) mesh_->addCellData(c);
-  mesh_->nameLabels(schema.label_names);
+  mesh_ = std::make_unique<MeshSpool>(schema, options_.temp_dir);
 }
 
 void MeshCollector::put(const BatchView& batch) {
-  if (batch.vertex_count > 0) {
-    const uint64_t first = mesh_->pointCount();
-    mesh_->appendPositions(batch.positions, batch.vertex_count);
-    for (size_t i = 0; i < mesh_->schema().fields.size(); ++i)
-      mesh_->appendField(i, batch.fields[i], batch.vertex_count);
-    for (size_t i = 0; batch.locked && holdsLocks() && i < batch.vertex_count; ++i)
-      if (batch.locked[i]) mesh_->lock(first + i);
-  }
-  if (batch.cell_count > 0) {
-    mesh_->appendCells(batch.cells, batch.cell_count);
-    for (size_t i = 0; i < mesh_->schema().cell_data.size(); ++i)
-      mesh_->appendCellData(i, batch.cell_data[i], batch.cell_count);
-  }
-  for (size_t i = 0; i < batch.face_count; ++i)
-    mesh_->appendFace(batch.faces + 3 * i, batch.face_labels[i]);
+  const uint64_t first = mesh_->pointCount();
+  mesh_->append(batch);
   BatchView lost = batch;
-  if (holdsLocks()) lost.locked = nullptr;
+  if (holdsLocks()) {
+    for (size_t i = 0; batch.locked && i < batch.vertex_count; ++i)
+      if (batch.locked[i]) mesh_->lock(first + i);
+    lost.locked = nullptr;
+  }
   dropped_.lookAtLocks(lost);
 }
 

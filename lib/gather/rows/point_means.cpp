@@ -4,8 +4,6 @@
 
 namespace tetstream {
 
-constexpr SpoolShape kMeansInSequence = {2, 256 << 10};
-
 // note: by steps that cannot overflow, and of equal values exactly that.
 double PointMeans::meanOf(const Value* values, size_t count) {
   double mean = values[0].value, finite = 0;
@@ -19,7 +17,7 @@ double PointMeans::meanOf(const Value* values, size_t count) {
 
 void PointMeans::addComponent(Buckets<Value>& sorted, const std::string& temp_dir) {
   Account account;
-  auto means = std::make_unique<RowSpool>(sizeof(double), temp_dir, kMeansInSequence);
+  auto means = std::make_unique<RowSpool>(sizeof(double), temp_dir, kSpooledInSequence);
   const auto fillUpTo = [&](uint64_t point) {
     constexpr double nothing = 0;
     while (means->rows() < point) means->append(&nothing, 1);

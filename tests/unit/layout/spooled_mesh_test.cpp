@@ -45,7 +45,7 @@ void expectSame(const TestMesh& mesh, IndexedSource& source) {
 }
 
 TEST(SpooledMesh, GivesAStreamBack) {
-  const int n = slowRun() ? 4 : 16;  // beyond the memory, where time allows
+  const int n = slowRun() ? 4 : 20;  // beyond the memory, where time allows
   TestMesh mesh = inStreamOrder(withThreeColumns(fullGrid(n, n, n, 0.1)));
   for (size_t batch : {size_t{100}, size_t{100000}}) {
     Cut cut;
