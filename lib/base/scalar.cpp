@@ -44,4 +44,18 @@ void convertScalars(const void* in, ScalarType in_type, void* out, ScalarType ou
   }
 }
 
+double valueAt(const void* values, ScalarType type, size_t index) {
+  switch (type) {
+    case ScalarType::kFloat32:
+      return static_cast<double>(static_cast<const float*>(values)[index]);
+    case ScalarType::kFloat64:
+      return static_cast<const double*>(values)[index];
+    case ScalarType::kInt32:
+      return static_cast<const int32_t*>(values)[index];
+    case ScalarType::kInt64:
+      return static_cast<double>(static_cast<const int64_t*>(values)[index]);
+  }
+  return 0;
+}
+
 }  // namespace tetstream

@@ -24,4 +24,11 @@ inline size_t sizeOf(ScalarType t) {
 void convertScalars(const void* in, ScalarType in_type, void* out, ScalarType out_type,
                     size_t count);
 
+double valueAt(const void* values, ScalarType type, size_t index);
+
+// Row `row` of positions, which are floats.
+inline void placeAt(const void* positions, ScalarType type, size_t row, double place[3]) {
+  for (size_t k = 0; k < 3; ++k) place[k] = valueAt(positions, type, 3 * row + k);
+}
+
 }  // namespace tetstream

@@ -64,7 +64,7 @@ static void rankByKeys(IndexedSource& source, const VertexKey& key, Account& acc
         source.readPositions(first, count, rows.data());
         for (size_t i = 0; i < count; ++i) {
           double place[3];
-          for (size_t k = 0; k < 3; ++k) place[k] = valueAt(rows.data(), type, 3 * i + k);
+          placeAt(rows.data(), type, i, place);
           keys[static_cast<size_t>(first) + i] = key(first + i, place);
         }
       });

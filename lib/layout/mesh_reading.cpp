@@ -20,18 +20,4 @@ void refuseCell(const IndexedSource& source, uint64_t cell, const int64_t corner
   }
 }
 
-double valueAt(const void* rows, ScalarType type, size_t index) {
-  switch (type) {
-    case ScalarType::kFloat32:
-      return static_cast<double>(static_cast<const float*>(rows)[index]);
-    case ScalarType::kFloat64:
-      return static_cast<const double*>(rows)[index];
-    case ScalarType::kInt32:
-      return static_cast<const int32_t*>(rows)[index];
-    case ScalarType::kInt64:
-      return static_cast<double>(static_cast<const int64_t*>(rows)[index]);
-  }
-  return 0;
-}
-
 }  // namespace tetstream

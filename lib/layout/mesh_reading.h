@@ -49,6 +49,4 @@ void readAllCells(IndexedSource& source, const Tell& tell, Visit visit) {
   });
 }
 
-double valueAt(const void* rows, ScalarType type, size_t index);
-
 }  // namespace tetstream

@@ -100,8 +100,7 @@ void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, Exte
       if (!survey.isUsed(point)) continue;
       for (const PieceColumn& column : columns) growBox(column, i, number + point, schema);
       double place[3];
-      for (size_t k = 0; k < 3; ++k)
-        place[k] = valueAt(columns[0].values.data(), columns[0].type, 3 * i + k);
+      placeAt(columns[0].values.data(), columns[0].type, i, place);
       checkPlace(number + point, place);
       unsigned char* row = sort.add(key(point, place));
       const bool locked = source_.locked() && source_.locked()[point];

@@ -58,7 +58,7 @@ void Survey::readPoints(const Tell& tell) {
                  for (size_t i = 0; i < count; ++i) {
                    if (!isUsed(first + i)) continue;
                    double place[3];
-                   for (size_t k = 0; k < 3; ++k) place[k] = valueAt(rows.data(), type, 3 * i + k);
+                   placeAt(rows.data(), type, i, place);
                    takePoint(first + i, place);
                  }
                });

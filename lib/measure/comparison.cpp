@@ -278,17 +278,18 @@ void Comparison::measureDistances(const Tasks* tasks, const Done& done) {
 }
 
 void Comparison::compareRegions() {
+  std::string array;
   for (size_t i = 0; i < region_arrays_.size(); ++i) {
     const RegionParts& ours = original_->regions(i);
     const RegionParts& theirs = simplified_->regions(i);
     const bool is_wished = plan_.regions != "auto";
     if (ours.dropped() || (!is_wished && ours.regions().size() < 2)) continue;
-    region_array_ = region_arrays_[i];
+    array = region_arrays_[i];
     regions_ = pairByLabel<RegionComparison>(ours.regions(), theirs.regions());
     break;
   }
-  if (!region_array_.empty())
-    region_words_ = "by " + region_array_;
+  if (!array.empty())
+    region_words_ = "by " + array;
   else if (region_words_.empty())
     region_words_ = "none";
 }

@@ -102,7 +102,6 @@ class Comparison {
   const DistanceFigures& toOriginal() const { return distances_[1]; }
   const std::vector<RegionComparison>& regions() const { return regions_; }
   const std::vector<FaceLabelComparison>& faceLabels() const { return face_labels_; }
-  const std::string& regionArray() const { return region_array_; }  // empty: none
   const std::string& regionWords() const { return region_words_; }
   const CutComparison* cut() const { return cut_ ? &*cut_ : nullptr; }
   bool isExact() const { return plan_.options.samples == 0; }
@@ -139,7 +138,7 @@ class Comparison {
   DistanceFigures distances_[2];
   std::vector<RegionComparison> regions_;
   std::vector<FaceLabelComparison> face_labels_;
-  std::string region_array_, region_words_;
+  std::string region_words_;
   std::optional<CutComparison> cut_;
 };
 

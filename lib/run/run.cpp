@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "front_meter.h"
 #include "ordering.h"
@@ -32,13 +33,27 @@ RunOptions withTasks(RunOptions options, const Tasks* tasks) {
   return options;
 }
 
-// `before`: the share of the time that ordering took.
-void tellCells(Progress& p, size_t more, double before, const ProgressFunction& progress) {
-  p.cells_read += static_cast<int64_t>(more);
-  if (p.cells_total > 0)
-    p.fraction = before + (1 - before) * std::min(1.0, static_cast<double>(p.cells_read) /
-                                                           static_cast<double>(p.cells_total));
-  if (progress) progress(p);
+// A reading of a stream, as a part of all the time, from 0 to 1.
+struct Stage {
+  const char* phase;
+  double begin, end;
+};
+
+// use(batch, progress) for all batches.
+template <class Use>
+void readAll(Source& source, const Stage& stage, const ProgressFunction& progress, Use use) {
+  Progress p;
+  p.cells_total = source.schema().cell_count;
+  p.phase = stage.phase;
+  for (BatchView batch; source.next(batch);) {
+    use(batch, p);
+    p.cells_read += static_cast<int64_t>(batch.cell_count);
+    if (p.cells_total > 0) {
+      const double share = static_cast<double>(p.cells_read) / static_cast<double>(p.cells_total);
+      p.fraction = stage.begin + (stage.end - stage.begin) * std::min(1.0, share);
+    }
+    if (progress) progress(p);
+  }
 }
 
 }  // namespace
@@ -190,17 +205,13 @@ LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
   Account account;
   FrontMeter checker(account);
   LayoutReport report;
-  BatchView batch;
-  Progress p;
-  p.cells_total = schema.cell_count;
-  p.phase = "convert";
-  while (stream.source().next(batch)) {
-    if (!stream.isOrdered()) checker.put(batch);
-    out.put(batch);
-    report.vertices += static_cast<int64_t>(batch.vertex_count);
-    report.cells = p.cells_written += static_cast<int64_t>(batch.cell_count);
-    tellCells(p, batch.cell_count, stream.share(), progress);
-  }
+  readAll(stream.source(), {"convert", stream.share(), 1}, progress,
+          [&](const BatchView& batch, Progress& p) {
+            if (!stream.isOrdered()) checker.put(batch);
+            out.put(batch);
+            report.vertices += static_cast<int64_t>(batch.vertex_count);
+            report.cells = p.cells_written += static_cast<int64_t>(batch.cell_count);
+          });
   out.finish();
   report.order = stream.chosen();
   report.front_width = stream.isOrdered() ? schema.front_width : checker.statistics().width;
@@ -214,16 +225,9 @@ LayoutReport convert(Input& input, Sink& out, const RunOptions& options,
 
 Inspection inspect(Input& input, const RunOptions& options, const ProgressFunction& progress) {
   Ordering stream(input, inLittleMemory(options), progress);
-  const int64_t total = stream.source().schema().cell_count;
   StreamFacts facts(stream.source().schema());
-  BatchView batch;
-  Progress p;
-  p.cells_total = total;
-  p.phase = "inspect";
-  while (stream.source().next(batch)) {
-    facts.put(batch);
-    tellCells(p, batch.cell_count, stream.share(), progress);
-  }
+  readAll(stream.source(), {"inspect", stream.share(), 1}, progress,
+          [&](const BatchView& batch, Progress&) { facts.put(batch); });
   facts.finish();
   const Schema schema = facts.schema();
   SimplifyOptions simplify;
@@ -235,8 +239,8 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
           facts.faceLabels()};
 }
 
-// The schema with the box and the counts, from a first reading if need be.
-static Schema sweptSchema(Source& source, const ProgressFunction& progress) {
+// The schema with the box and the counts, from a first reading if need be: a half of what is left.
+static Schema sweptSchema(Source& source, double* share, const ProgressFunction& progress) {
   if (SweepViews::serves(source.schema())) return source.schema();
   const std::unique_ptr<Source> first = source.again(Part::kAll);
   if (!first)
@@ -244,13 +248,9 @@ static Schema sweptSchema(Source& source, const ProgressFunction& progress) {
          "a sweep is drawn to the measure of the mesh's box and number of cells, which this stream "
          "tells only at its end: convert it to .tets first");
   StreamFacts facts(first->schema());
-  BatchView batch;
-  Progress p;
-  p.phase = "measure";
-  while (first->next(batch)) {
-    facts.put(batch);
-    tellCells(p, batch.cell_count, 0, progress);
-  }
+  const double before = std::exchange(*share, (1 + *share) / 2);
+  readAll(*first, {"measure", before, *share}, progress,
+          [&](const BatchView& batch, Progress&) { facts.put(batch); });
   facts.finish();
   return facts.schema();
 }
@@ -260,18 +260,14 @@ Diagram readDiagram(Input& input, DiagramSize size, bool with_sweep, const RunOp
   Ordering stream(input, options, progress);
   const Schema& schema = stream.source().schema();
   Diagram diagram;
+  double share = stream.share();
   if (with_sweep)
-    diagram.sweep = std::make_unique<SweepViews>(sweptSchema(stream.source(), progress));
+    diagram.sweep = std::make_unique<SweepViews>(sweptSchema(stream.source(), &share, progress));
   diagram.layout = std::make_unique<LayoutDiagram>(schema, size.columns, size.rows);
-  BatchView batch;
-  Progress p;
-  p.cells_total = schema.cell_count;
-  p.phase = "diagram";
-  while (stream.source().next(batch)) {
+  readAll(stream.source(), {"diagram", share, 1}, progress, [&](const BatchView& batch, Progress&) {
     diagram.layout->put(batch);
     if (diagram.sweep) diagram.sweep->put(batch);
-    tellCells(p, batch.cell_count, stream.share(), progress);
-  }
+  });
   diagram.layout->finish();
   if (diagram.sweep) diagram.sweep->finish();
   return diagram;

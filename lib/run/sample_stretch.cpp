@@ -6,13 +6,6 @@
 
 namespace tetstream {
 
-void placeOf(const Schema& schema, const void* positions, size_t row, double place[3]) {
-  for (size_t i = 0; i < 3; ++i)
-    place[i] = schema.position_type == ScalarType::kFloat32
-                   ? static_cast<double>(static_cast<const float*>(positions)[3 * row + i])
-                   : static_cast<const double*>(positions)[3 * row + i];
-}
-
 static void copyBytes(const void* from, size_t row, size_t bytes, void* to) {
   std::memcpy(to, static_cast<const char*>(from) + row * bytes, bytes);
 }
@@ -52,7 +45,7 @@ void SampleStretch::copyCell(const BatchView& from, size_t row, const uint32_t r
 
 void SampleStretch::addVertex(const BatchView& batch, size_t row) {
   double place[3];
-  placeOf(schema_, batch.positions, row, place);
+  placeAt(batch.positions, schema_.position_type, row, place);
   const uint32_t brick = bricks_.at(place);
   const uint64_t rank = batch.first_vertex + row;
   uint32_t& row_of = row_of_[rank & (row_of_.size() - 1)];

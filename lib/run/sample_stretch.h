@@ -64,7 +64,4 @@ class alignas(64) SampleStretch {
   uint64_t next_cell_;
 };
 
-// The place of a vertex of a batch.
-void placeOf(const Schema& schema, const void* positions, size_t row, double place[3]);
-
 }  // namespace tetstream

@@ -130,7 +130,7 @@ void Sampler::countInStretches(size_t stretches) {
 void Sampler::count(const BatchView& batch, size_t stretch) {
   double place[3];
   for (size_t row = 0; row < batch.vertex_count; ++row) {
-    placeOf(schema_, batch.positions, row, place);
+    placeAt(batch.positions, schema_.position_type, row, place);
     counts_[stretch].count(place);
   }
 }
@@ -196,7 +196,7 @@ double Sampler::ratioFor(double left) const {
 void Sampler::countSurvivors(const BatchView& simplified) {
   for (size_t row = 0; row < simplified.vertex_count; ++row) {
     double place[3];
-    placeOf(schema_, simplified.positions, row, place);
+    placeAt(simplified.positions, schema_.position_type, row, place);
     const uint32_t brick = counts_[0].at(place);
     if (brick != Bricks::kNone) ++brick_[brick].survivors;
   }

@@ -3,13 +3,12 @@
 #include "exodus_sides.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <tuple>
 
 #include "exodus_blocks.h"
+#include "face_key.h"
 #include "label_column.h"
-#include "mix.h"
 #include "point_set.h"
 #include "rows_at_once.h"
 
@@ -20,8 +19,8 @@ namespace {
 constexpr size_t kBuckets = 64;
 
 struct Row {
-  std::array<int64_t, 3> key;  // the corners, ascending
-  int64_t element;             // 0: the labelled face itself
+  FaceKey key;
+  int64_t element;  // 0: the labelled face itself
   int64_t side_or_label;
   uint64_t rank;  // of labelled faces
   bool operator<(const Row& other) const {
@@ -33,12 +32,9 @@ class FaceRows {
  public:
   explicit FaceRows(const std::string& temp_dir) : buckets_(kBuckets, temp_dir) {}
   Buckets<Row>& buckets() { return buckets_; }
-  void add(std::array<int64_t, 3> corners, int64_t element, int64_t side_or_label,
-           uint64_t rank = 0) {
-    std::sort(corners.begin(), corners.end());
-    uint64_t hash = 0;
-    for (const int64_t corner : corners) hash = mix(hash ^ static_cast<uint64_t>(corner));
-    buckets_.add(static_cast<size_t>(hash % kBuckets), {corners, element, side_or_label, rank});
+  void add(const int64_t corners[3], int64_t element, int64_t side_or_label, uint64_t rank = 0) {
+    const FaceKey key = faceKey(corners);
+    buckets_.add(bucketOf(key, kBuckets), {key, element, side_or_label, rank});
   }
 
  private:
@@ -62,7 +58,7 @@ uint64_t addFaces(MeshSpool& mesh, FaceRows& rows, PointSet& points) {
         continue;
       }
       known.insert(labels[i]);
-      rows.add({face[0], face[1], face[2]}, 0, labels[i], at + i);
+      rows.add(face, 0, labels[i], at + i);
       for (int k = 0; k < 3; ++k) points.add(static_cast<uint64_t>(face[k]));
     }
   }
@@ -80,8 +76,8 @@ void addSides(MeshSpool& mesh, RowSpool& elements, FaceRows& rows, const PointSe
       for (int64_t side = 1; side <= 4; ++side) {
         int places[4];
         exodusSide(CellShape::kTetra, side, places);
-        const std::array<int64_t, 3> face = {cell[places[0]], cell[places[1]], cell[places[2]]};
-        if (std::any_of(face.begin(), face.end(),
+        const int64_t face[3] = {cell[places[0]], cell[places[1]], cell[places[2]]};
+        if (std::any_of(face, face + 3,
                         [&](int64_t corner) { return !points.has(static_cast<uint64_t>(corner)); }))
           continue;
         const auto element = *static_cast<const int64_t*>(elements.row(at + i));

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "integer_window.h"
 #include "point_set.h"
-#include "rows_at_once.h"
 #include "vtk_cells.h"
 
 namespace tetstream {
@@ -15,29 +15,6 @@ namespace {
 constexpr uint64_t kLeastCells = 16;   // fewer may well be apart in truth
 constexpr uint64_t kFewestPoints = 3;  // of a cell, as a rule; joined ones have hardly two
 constexpr int64_t kMostPoints = 64;    // of a cell that is read
-
-// Integers of an array, some at a time.
-class Integers {
- public:
-  Integers(const MeshArray& array, uint64_t count) : count_(count) {
-    if (count > 0) values_ = array.open(count);
-  }
-  bool ended() const { return at_ == count_; }
-  int64_t next() {
-    if (at_ == filled_) {
-      const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count_ - at_));
-      values_->read(at_, n, held_, ScalarType::kInt64);
-      filled_ = at_ + n;
-      first_ = at_;
-    }
-    return held_[at_++ - first_];
-  }
-
- private:
-  std::unique_ptr<Values> values_;
-  uint64_t count_, at_ = 0, first_ = 0, filled_ = 0;
-  int64_t held_[kRowsAtOnce];
-};
 
 // The cells of one piece, each as the numbers of its points.
 class PieceCells {
@@ -54,13 +31,13 @@ class PieceCells {
   bool next(std::vector<int64_t>& points) {
     for (;;) {
       points.clear();
-      if (!names_ || names_->ended() || (types_ && types_->ended())) return false;
+      if (!names_ || names_->hasEnded() || (types_ && types_->hasEnded())) return false;
       const bool is_solid = !types_ || isSolid(types_->next());
       int64_t count = countOfNext();
       ++cells_;
       if (count < 0) return false;
       const bool is_wanted = is_solid && count <= kMostPoints;
-      for (; count > 0 && !names_->ended(); --count) {
+      for (; count > 0 && !names_->hasEnded(); --count) {
         const int64_t point = names_->next();
         if (is_wanted) points.push_back(point);
       }
@@ -94,7 +71,7 @@ class PieceCells {
   }
 
   CellForm form_;
-  std::optional<Integers> ends_, names_, types_;
+  std::optional<IntegerWindow> ends_, names_, types_;
   int64_t end_ = 0;
   uint64_t cells_ = 0;
 };

@@ -3,43 +3,19 @@
 #include <algorithm>
 #include <cstring>
 
+#include "integer_window.h"
 #include "status.h"
 
 namespace tetstream {
 
 namespace {
 
-constexpr size_t kWindowValues = 2048;
 // Of VTK's ghost marks: the cell is another piece's, was refined, is hidden.
 constexpr int64_t kGhostBits = 1 | 8 | 32;
 
 struct KeptCell {
   int64_t points[4];
   uint64_t cell;
-};
-
-// Integers of an array in sequence, some thousands read at once.
-class Window {
- public:
-  Window(const MeshArray& array, uint64_t count)
-      : values_(count > 0 ? array.open(count) : nullptr), count_(count) {}
-  uint64_t count() const { return count_; }
-  // `n` values, at most kWindowValues, from `first` on, which never goes back: they live until the
-  // next call. There must be so many.
-  const int64_t* at(uint64_t first, size_t n) {
-    if (first + n > begin_ + filled_) {
-      begin_ = first;
-      filled_ = static_cast<size_t>(std::min<uint64_t>(kWindowValues, count_ - first));
-      values_->read(first, filled_, held_, ScalarType::kInt64);
-    }
-    return held_ + (first - begin_);
-  }
-
- private:
-  std::unique_ptr<Values> values_;
-  uint64_t count_, begin_ = 0;
-  size_t filled_ = 0;
-  int64_t held_[kWindowValues];
 };
 
 const MeshArray& needArray(const MeshPieces& mesh, size_t piece,
@@ -57,14 +33,14 @@ class PieceWalk {
         types_(needArray(mesh, piece, piece_.types, "types"), piece_.cell_count) {
     const MeshArray& connectivity = needArray(mesh, piece, piece_.connectivity, "connectivity");
     if (const MeshArray* marks = ghostMarks(piece_))
-      ghosts_ = std::make_unique<Window>(*marks, piece_.cell_count);
+      ghosts_ = std::make_unique<IntegerWindow>(*marks, piece_.cell_count);
     uint64_t size = piece_.connectivity_size;
     if (mesh.form == CellForm::kOffsets) {
       const MeshArray& offsets = needArray(mesh, piece, piece_.offsets, "offsets");
       size = lastOffset(offsets);
-      offsets_ = std::make_unique<Window>(offsets, piece_.cell_count);
+      offsets_ = std::make_unique<IntegerWindow>(offsets, piece_.cell_count);
     }
-    points_ = std::make_unique<Window>(connectivity, size);
+    points_ = std::make_unique<IntegerWindow>(connectivity, size);
   }
 
   int64_t type(uint64_t cell) { return *types_.at(cell, 1); }
@@ -116,8 +92,8 @@ class PieceWalk {
 
   const MeshPieces& mesh_;
   const MeshPiece& piece_;
-  Window types_;
-  std::unique_ptr<Window> ghosts_, offsets_, points_;
+  IntegerWindow types_;
+  std::unique_ptr<IntegerWindow> ghosts_, offsets_, points_;
   uint64_t begin_ = 0, end_ = 0;
 };
 

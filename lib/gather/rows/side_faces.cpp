@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "mix.h"
-
 namespace tetstream {
 
 constexpr size_t kBuckets = 32;  // of two million faces each has 4 MB
@@ -13,14 +11,8 @@ SideFaces::SideFaces(const std::string& temp_dir)
     : rows_(kBuckets, temp_dir), kept_(sizeof(Kept), temp_dir, {4, 32 << 10}) {}
 
 void SideFaces::add(const int64_t corners[3], int64_t label) {
-  Row row = {{}, added_++, {}, label};
-  std::copy_n(corners, 3, row.corners.begin());
-  row.key = row.corners;
-  std::sort(row.key.begin(), row.key.end());
-  const uint64_t hash =
-      mix(static_cast<uint64_t>(row.key[0]) ^
-          mix(static_cast<uint64_t>(row.key[1]) ^ mix(static_cast<uint64_t>(row.key[2]))));
-  rows_.add(static_cast<size_t>(hash % kBuckets), row);
+  const FaceKey key = faceKey(corners);
+  rows_.add(bucketOf(key, kBuckets), {key, added_++, {corners[0], corners[1], corners[2]}, label});
 }
 
 uint64_t SideFaces::finish() {

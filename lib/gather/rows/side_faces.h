@@ -1,5 +1,5 @@
 // gather/rows: faces with labels that a file names apart from its cells, each kept once. Depends on
-// buckets.h, row_spool.h.
+// buckets.h, face_key.h, row_spool.h.
 #pragma once
 
 #include <array>
@@ -7,6 +7,7 @@
 #include <string>
 
 #include "buckets.h"
+#include "face_key.h"
 #include "row_spool.h"
 
 namespace tetstream {
@@ -25,7 +26,7 @@ class SideFaces {
 
  private:
   struct Row {
-    std::array<int64_t, 3> key;  // the corners, ascending
+    FaceKey key;
     uint64_t rank;
     std::array<int64_t, 3> corners;
     int64_t label;

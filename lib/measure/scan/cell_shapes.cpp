@@ -4,24 +4,27 @@
 #include <cmath>
 #include <limits>
 
+#include "cell_faces.h"
+#include "vector3.h"
+
 namespace tetstream {
 
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
 
-struct Vector {
-  double x, y, z;
-  Vector operator-(Vector o) const { return {x - o.x, y - o.y, z - o.z}; }
-  double dot(Vector o) const { return x * o.x + y * o.y + z * o.z; }
-  Vector cross(Vector o) const { return {y * o.z - z * o.y, z * o.x - x * o.z, x * o.y - y * o.x}; }
-  double length() const { return std::sqrt(dot(*this)); }
-};
+double lengthOf(const double a[3]) {
+  return std::sqrt(dot(a, a));
+}
 
 // With a, b, c the products of opposite edges' lengths, the circumradius is
 // sqrt((a + b + c)(a + b - c)(a - b + c)(b + c - a)) / 24 V, the inradius 3 V / area.
-double aspectOf(const Vector p[4], double doubled_area, double volume) {
-  const auto length = [&](int i, int j) { return (p[i] - p[j]).length(); };
+double aspectOf(const double* corners, double doubled_area, double volume) {
+  const auto length = [&](int i, int j) {
+    double edge[3];
+    subtract(corners + 3 * i, corners + 3 * j, edge);
+    return lengthOf(edge);
+  };
   const double a = length(0, 1) * length(2, 3), b = length(0, 2) * length(1, 3),
                c = length(0, 3) * length(1, 2);
   const double product = (a + b + c) * (a + b - c) * (a - b + c) * (b + c - a);
@@ -34,27 +37,27 @@ double aspectOf(const Vector p[4], double doubled_area, double volume) {
 }  // namespace
 
 void CellShapes::add(const double* corners, int side) {
-  Vector p[4], normal[4];
-  for (int i = 0; i < 4; ++i) p[i] = {corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]};
-  static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-  double area[4];
+  double normal[4][3], area[4];  // twice the area
   for (int i = 0; i < 4; ++i) {
-    const Vector a = p[kFaces[i][0]];
-    normal[i] = (p[kFaces[i][1]] - a).cross(p[kFaces[i][2]] - a);
-    area[i] = normal[i].length();
+    const double* const a = corners + 3 * kOpposite[i][0];
+    double u[3], v[3];
+    subtract(corners + 3 * kOpposite[i][1], a, u);
+    subtract(corners + 3 * kOpposite[i][2], a, v);
+    cross(u, v, normal[i]);
+    area[i] = lengthOf(normal[i]);
   }
   double least = -1, largest = 1;  // cosines
   for (int i = 0; i < 4; ++i)
     for (int j = i + 1; j < 4; ++j) {
       // A face without area has no direction: its angles count as none.
-      const double cosine = -normal[i].dot(normal[j]) / (area[i] * area[j]);
+      const double cosine = -dot(normal[i], normal[j]) / (area[i] * area[j]);
       least = std::max(least, std::isnan(cosine) ? 1.0 : cosine);
       largest = std::min(largest, std::isnan(cosine) ? 1.0 : cosine);
     }
   const double angle = kDegrees * std::acos(std::clamp(least, -1.0, 1.0));
   const double widest = kDegrees * std::acos(std::clamp(largest, -1.0, 1.0));
-  last_volume_ = std::fabs((p[1] - p[0]).dot((p[2] - p[0]).cross(p[3] - p[0]))) / 6;
-  const double aspect = aspectOf(p, area[0] + area[1] + area[2] + area[3], last_volume_);
+  last_volume_ = std::fabs(sixVolume(corners, corners + 3, corners + 6, corners + 9)) / 6;
+  const double aspect = aspectOf(corners, area[0] + area[1] + area[2] + area[3], last_volume_);
   sums_.least_angle = cells_ == 0 ? angle : std::min(sums_.least_angle, angle);
   sums_.largest_angle = std::max(sums_.largest_angle, widest);
   sums_.largest_aspect = std::max(sums_.largest_aspect, aspect);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cell_faces.h"
 #include "mix.h"
 #include "status.h"
 
@@ -80,11 +81,9 @@ void FaceFront::addCell(uint32_t cell, const uint32_t vertices[4], int side) {
   if (cell >= cell_held_.size())
     cell_held_.resize(std::max<size_t>({1024, size_t{cell} + 1, 2 * cell_held_.size()}));
   cell_held_[cell] = 1;
-  // Opposite each vertex; outward where the cell's volume is positive.
-  static constexpr int kFaces[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   bool is_duplicate = false;
   for (int j = 0; j < 4; ++j) {
-    const int* f = kFaces[j];
+    const uint8_t* f = kOpposite[j];
     const uint32_t face[3] = {vertices[f[0]], vertices[f[1]], vertices[f[2]]};
     is_duplicate = addFace(cell, face, vertices[j], side) || is_duplicate;
   }

@@ -7,14 +7,10 @@
 
 namespace tetstream {
 
-static void minus(const double a[3], const double b[3], double out[3]) {
-  for (int k = 0; k < 3; ++k) out[k] = a[k] - b[k];
-}
-
 double triangleArea(const double* corners) {
   double u[3], v[3], n[3];
-  minus(corners + 3, corners, u);
-  minus(corners + 6, corners, v);
+  subtract(corners + 3, corners, u);
+  subtract(corners + 6, corners, v);
   cross(u, v, n);
   return std::sqrt(dot(n, n)) / 2;
 }
@@ -23,8 +19,8 @@ double triangleArea(const double* corners) {
 static double squaredToSegment(const double a[3], const double b[3], const double place[3],
                                double& share) {
   double along[3], to[3];
-  minus(b, a, along);
-  minus(place, a, to);
+  subtract(b, a, along);
+  subtract(place, a, to);
   const double length = dot(along, along);
   share = length > 0 ? std::clamp(dot(to, along) / length, 0.0, 1.0) : 0;
   for (int k = 0; k < 3; ++k) to[k] -= share * along[k];
@@ -34,9 +30,9 @@ static double squaredToSegment(const double a[3], const double b[3], const doubl
 // The foot of the perpendicular if it is inside, else the best of the three edges.
 double squaredDistance(const double* corners, const double place[3], double coordinates[3]) {
   double u[3], v[3], w[3];
-  minus(corners + 3, corners, u);
-  minus(corners + 6, corners, v);
-  minus(place, corners, w);
+  subtract(corners + 3, corners, u);
+  subtract(corners + 6, corners, v);
+  subtract(place, corners, w);
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
   const double d = uu * vv - uv * uv;
   if (d > 0) {

@@ -9,10 +9,6 @@ namespace tetstream {
 
 constexpr double kOnPlane = 1e-4;  // of the longest edge
 
-static void subtract(const double a[3], const double b[3], double out[3]) {
-  for (int i = 0; i < 3; ++i) out[i] = a[i] - b[i];
-}
-
 void PlacedFace::setPlane() {
   double a[3], b[3], c[3];
   subtract(at[1], at[0], a);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "cell_faces.h"
 #include "memory.h"
 
 namespace tetstream {
@@ -47,9 +48,6 @@ struct StarCell {
   uint32_t t[3];
   bool has(uint32_t v) const { return (t[0] == v) | (t[1] == v) | (t[2] == v); }
 };
-
-// The face opposite corner j, so that (j, t0, t1, t2) is an even permutation of 0 1 2 3.
-constexpr uint8_t kOpposite[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
 
 class Star {
  public:
