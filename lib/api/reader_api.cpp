@@ -5,6 +5,7 @@
 
 #include "cells_to_points.h"
 #include "compressed_bytes.h"
+#include "descriptor_name.h"
 #include "generate.h"
 #include "handles.h"
 #include "memory_source.h"
@@ -169,7 +170,7 @@ static tetstream_status openDescriptorFor(const char* function, int32_t fd, cons
   return guardCreate(function, reader, [&](tetstream_reader& r) {
     needPlace(format, "format");
     const Format& found = needFormat(format, "");
-    openBytes(r, found, openDescriptor(fd, textOf("descriptor %d", fd)), options);
+    openBytes(r, found, openDescriptor(fd, descriptorName(fd)), options);
   });
 }
 

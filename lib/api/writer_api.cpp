@@ -1,4 +1,5 @@
 // api: writers of the public header.
+#include "descriptor_name.h"
 #include "handles.h"
 #include "registry.h"
 
@@ -25,7 +26,7 @@ tetstream_status tetstream_writer_create_fd(int32_t fd, const char* format,
   return guardCreate(__func__, writer, [&](tetstream_writer& w) {
     needPlace(format, "format");
     const Format& found = writtenFormat(format, "");
-    w.output = std::make_shared<Output>(found, createDescriptor(fd, textOf("descriptor %d", fd)));
+    w.output = std::make_shared<Output>(found, createDescriptor(fd, descriptorName(fd)));
   });
 }
 

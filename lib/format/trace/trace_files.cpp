@@ -1,5 +1,6 @@
 #include "trace_files.h"
 
+#include "descriptor_name.h"
 #include "status.h"
 
 namespace tetstream {
@@ -55,13 +56,11 @@ std::unique_ptr<LogSink> createLogFile(const std::string& path, const std::strin
 }
 
 std::unique_ptr<MapSink> createMapDescriptor(int fd, const std::string& format) {
-  return create<MapFiles>("", format,
-                          [&] { return createDescriptor(fd, textOf("descriptor %d", fd)); });
+  return create<MapFiles>("", format, [&] { return createDescriptor(fd, descriptorName(fd)); });
 }
 
 std::unique_ptr<LogSink> createLogDescriptor(int fd, const std::string& format) {
-  return create<LogFiles>("", format,
-                          [&] { return createDescriptor(fd, textOf("descriptor %d", fd)); });
+  return create<LogFiles>("", format, [&] { return createDescriptor(fd, descriptorName(fd)); });
 }
 
 }  // namespace tetstream
