@@ -6,6 +6,7 @@
 
 #include "budget.h"
 #include "intake.h"
+#include "missed_target.h"
 #include "regions.h"
 #include "release.h"
 #include "resolve.h"
@@ -375,34 +376,7 @@ class WindowedEngine final : public Simplifier::Engine {
     else if (by_count && r.cells_out <= r.target_cells)
       r.reached = std::min(target.cells, r.cells_in) == r.target_cells ? "cells" : "ratio";
     else if (by_count)
-      explainMiss();
-  }
-
-  void explainMiss() {
-    std::string kept;
-    const auto name = [&kept](int64_t count, const char* what) {
-      if (count > 0)
-        kept += textOf("%s%lld %s", kept.empty() ? "" : ", ", static_cast<long long>(count), what);
-    };
-    name(core_.locked.corners, "vertices where interfaces or their curves end, branch or touch");
-    name(core_.locked.non_manifold, "vertices at non-manifold places of the boundary");
-    name(core_.locked.bad_cells, "flat or folded cells of the input");
-    name(core_.locked.by_caller, "vertices locked by the stream");
-    core_.report.limited_by = "no legal collapse is left";
-    if (core_.tally.rejected_large > 0)
-      core_.report.limited_by += " but with errors of a tenth of the range of the fields and more";
-    if (core_.report.window_cells < 2 * core_.report.front_cells)
-      core_.report.limited_by += textOf(
-          "; the window of %lld cells is less than two fronts of %lld: give it more cells or "
-          "memory",
-          static_cast<long long>(core_.report.window_cells),
-          static_cast<long long>(core_.report.front_cells));
-    if (!kept.empty()) core_.report.limited_by += "; kept as they are: " + kept;
-    core_.report.limited_by += textOf(
-        "; refused: %lld collapses that would turn a cell over or flatten it, %lld that would "
-        "change the topology or push the boundary through itself",
-        static_cast<long long>(core_.report.rejected_orientation),
-        static_cast<long long>(core_.report.rejected_link));
+      r.limited_by = missInWords(core_);
   }
 
   const Plan plan_;

@@ -206,7 +206,8 @@ static std::string fieldsInWords(const Balance& balance, const std::vector<Colum
     text += textOf("%s%s %.0f times", heavier == 1 ? "smoother fields count for more: " : ", ",
                    fields[f].name.c_str(), balance.fields[f]);
   }
-  return heavier <= kNamed ? text : text + textOf(" and %zu others", heavier - kNamed);
+  if (heavier <= kNamed) return text;
+  return text + textOf(" and %zu other%s", heavier - kNamed, heavier == kNamed + 1 ? "" : "s");
 }
 
 std::string inWords(const Balance& balance, bool has_interfaces,

@@ -163,6 +163,9 @@ TEST(FieldWeights, OfManyAreToldOfTheFirst) {
   EXPECT_EQ(inWords(balance, false, fields),
             "smoother fields count for more: f1 8 times, f2 8 times, f3 8 times, f4 8 times, f5 8 "
             "times, f6 8 times and 2 others");
+  balance.fields.back() = 1;
+  const std::string words = inWords(balance, false, fields);
+  EXPECT_TRUE(words.ends_with("f6 8 times and 1 other")) << words;
 }
 
 }  // namespace

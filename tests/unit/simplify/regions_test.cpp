@@ -226,24 +226,44 @@ double cornersLost(const TestMesh& mesh, int n) {
 
 // The target is missed, and the body is what it was.
 void expectBodyKept(const TestMesh& mesh, int n, double ratio, double lost, double error,
-                    int64_t cells) {
+                    int64_t cells, const std::string& array) {
   const Result result = simplified(mesh, toRatio(ratio));
   expectSound(mesh, result);
   EXPECT_LT(cornersLost(result.out.mesh, n), lost);
   EXPECT_LT(result.report.estimated_error, error);
   EXPECT_LT(result.report.cells_out, cells);
-  EXPECT_NE(result.report.limited_by.find("a tenth of the range"), std::string::npos);
+  const std::string& why = result.report.limited_by;
+  EXPECT_NE(why.find("a tenth of the range of the fields"), std::string::npos);
+  EXPECT_NE(why.find("regions by " + array + " keep"), std::string::npos) << why;
+  EXPECT_NE(why.find("--regions none"), std::string::npos) << why;
 }
 
 // Edges across blocks are not legal, and no number of others that are dear makes up for them.
 TEST(SimplifierRegions, DoNotCostTheBodyWhereTheyKeepTheTargetAway) {
-  expectBodyKept(blocks(12, 3), 12, 0.02, 0.75, 10, 1500);
+  expectBodyKept(blocks(12, 3), 12, 0.02, 0.75, 10, 1500, "material");
 }
 
 // Nor are the few edges that are legal collapsed at any error where the target is out of reach:
 // that brought 57 cells of 860, and cost a corner and three times the error.
 TEST(SimplifierRegions, DoNotCostTheBodyForNothing) {
-  expectBodyKept(grains(12, 20), 12, 0.1, 0.5, 3, 1950);
+  expectBodyKept(grains(12, 20), 12, 0.1, 0.5, 3, 1950, "grain");
+}
+
+// Where no field is measured nothing is said of one; without regions, nothing of these.
+TEST(SimplifierRegions, AreBlamedForAMissWhereTheyAreThere) {
+  SimplifyOptions options = toRatio(0.02);
+  options.fields = {{"f", 0}};
+  const TestMesh mesh = blocks(12, 3);
+  const std::string with = simplified(mesh, options).report.limited_by;
+  EXPECT_EQ(with.find("fields"), std::string::npos) << with;
+  EXPECT_NE(with.find("a tenth of the extent of the mesh"), std::string::npos) << with;
+  EXPECT_NE(with.find("regions by material keep"), std::string::npos) << with;
+  options = toRatio(1e-5);
+  options.regions = "none";
+  options.feature_angle = 30;  // of a cube no single cell is left
+  const std::string without = simplified(mesh, options).report.limited_by;
+  EXPECT_NE(without, "");
+  EXPECT_EQ(without.find("regions"), std::string::npos) << without;
 }
 
 double volumeOfLabel(const TestMesh& mesh, int64_t label) {
