@@ -36,8 +36,9 @@ ExitCode compare(const Arguments& arguments) {
   const tetstream_status status = tetstream_comparison_read(
       comparison.get(), original.get(), simplified.get(), ProgressBar::callback, &bar);
   bar.clear();
-  printNotes(arguments, original.get(), nullptr);
-  printNotes(arguments, simplified.get(), nullptr);
+  std::vector<std::string> notes = printNotes(arguments, original.get(), nullptr);
+  for (const std::string& note : printNotes(arguments, simplified.get(), nullptr))
+    notes.push_back(note);
   check(status, comparison.get());
   if (!arguments.out.path.empty())
     check(tetstream_comparison_write(
@@ -46,7 +47,7 @@ ExitCode compare(const Arguments& arguments) {
           comparison.get());
   if (!arguments.quiet || !arguments.report.empty()) {
     const ComparisonFigures figures = figuresOf(comparison.get());
-    printOut(arguments.report == "json" ? comparisonJson(figures) : comparisonText(figures));
+    printOut(arguments.report == "json" ? comparisonJson(figures, notes) : comparisonText(figures));
   }
   return kOk;
 }

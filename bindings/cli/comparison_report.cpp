@@ -325,7 +325,7 @@ std::string comparisonText(const ComparisonFigures& f) {
          row("memory", megabytes(f.info.peak_bytes) + " of arrays");
 }
 
-std::string comparisonJson(const ComparisonFigures& f) {
+std::string comparisonJson(const ComparisonFigures& f, const std::vector<std::string>& notes) {
   JsonText json;
   const tetstream_comparison_info& i = f.info;
   json.open('{');
@@ -361,6 +361,7 @@ std::string comparisonJson(const ComparisonFigures& f) {
   json.key("face_labels").open('[');
   for (const auto& label : f.face_labels) addFaceLabel(json, label);
   json.close(']');
+  json.key("notes").values(notes);
   return json.close('}').take();
 }
 

@@ -19,7 +19,7 @@ struct ComparisonFigures {
 
 ComparisonFigures figuresOf(const tetstream_comparison* comparison);
 std::string comparisonText(const ComparisonFigures& figures);
-// One object with every member of the structs by its name.
-std::string comparisonJson(const ComparisonFigures& figures);
+// One object with every member of the structs by its name, and the notes.
+std::string comparisonJson(const ComparisonFigures& figures, const std::vector<std::string>& notes);
 
 }  // namespace tetstream::cli

@@ -166,20 +166,15 @@ void setLog(tetstream_simplifier* simplifier, const Place& log) {
         simplifier);
 }
 
-// `note_at` gives note number i or null.
-template <class NoteAt>
-static std::vector<std::string> collectNotes(NoteAt note_at) {
+std::vector<std::string> notesOf(const tetstream_reader* reader, const tetstream_writer* writer) {
   std::vector<std::string> notes;
-  for (int32_t i = 0; const char* note = note_at(i); ++i) notes.emplace_back(note);
+  if (reader)
+    for (int32_t i = 0; const char* note = tetstream_reader_note(reader, i); ++i)
+      notes.emplace_back(note);
+  if (writer)
+    for (int32_t i = 0; const char* note = tetstream_writer_note(writer, i); ++i)
+      notes.emplace_back(note);
   return notes;
-}
-
-std::vector<std::string> notesOf(const tetstream_reader* reader) {
-  return collectNotes([=](int32_t i) { return tetstream_reader_note(reader, i); });
-}
-
-std::vector<std::string> notesOf(const tetstream_writer* writer) {
-  return collectNotes([=](int32_t i) { return tetstream_writer_note(writer, i); });
 }
 
 }  // namespace tetstream::cli

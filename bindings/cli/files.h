@@ -40,7 +40,7 @@ void setMap(tetstream_simplifier* simplifier, const Place& map);
 void setLog(tetstream_simplifier* simplifier, const Place& log);
 Reader generateReader(const std::string& kind, int64_t cells, int64_t seed);
 
-std::vector<std::string> notesOf(const tetstream_reader* reader);
-std::vector<std::string> notesOf(const tetstream_writer* writer);
+// What both have noted, once a run is over; a null handle has nothing to say.
+std::vector<std::string> notesOf(const tetstream_reader* reader, const tetstream_writer* writer);
 
 }  // namespace tetstream::cli

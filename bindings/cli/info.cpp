@@ -198,9 +198,7 @@ std::string infoJson(const Arguments& arguments, const tetstream_stream_info& in
   json.key("mean_life").value(front.mean_life);
   json.key("longest_life").value(front.longest_life);
   json.key("window_cells").value(front.window_cells);
-  json.key("notes").open('[');
-  for (const std::string& note : notes) json.value(std::string_view(note));
-  json.close(']');
+  json.key("notes").values(notes);
   return json.close('}').take();
 }
 
@@ -215,13 +213,13 @@ ExitCode info(const Arguments& arguments) {
   const tetstream_status status =
       tetstream_inspect(reader.get(), options.get(), ProgressBar::callback, &bar, &found);
   bar.clear();
-  printNotes(arguments, reader.get(), nullptr);
+  const auto notes = printNotes(arguments, reader.get(), nullptr);
   check(status, reader.get());
   tetstream_front_info front = {};
   front.struct_size = sizeof front;
   check(tetstream_reader_get_front(reader.get(), &front), reader.get());
   const FaceLabels labels = faceLabelsOf(reader.get());
-  printOut(arguments.json ? infoJson(arguments, found, labels, front, notesOf(reader.get()))
+  printOut(arguments.json ? infoJson(arguments, found, labels, front, notes)
                           : infoText(found, labels, front));
   return exitCodeOf(status);
 }

@@ -28,6 +28,12 @@ JsonText& JsonText::values(const double* numbers, int32_t count) {
   return close(']');
 }
 
+JsonText& JsonText::values(const std::vector<std::string>& texts) {
+  open('[');
+  for (const std::string& text : texts) value(std::string_view(text));
+  return close(']');
+}
+
 JsonText& JsonText::raw(std::string_view word) {
   separate();
   text_ += word;

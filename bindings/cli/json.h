@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace tetstream::cli {
 
@@ -17,6 +18,7 @@ class JsonText {
   JsonText& value(std::string_view text);                  // bytes that are no UTF-8 become U+FFFD
   JsonText& value(double number);                          // null if it is not finite
   JsonText& values(const double* numbers, int32_t count);  // an array; without numbers null
+  JsonText& values(const std::vector<std::string>& texts);
   JsonText& null() { return raw("null"); }
   template <class Integer>
   requires std::is_integral_v<Integer> JsonText& value(Integer number) {

@@ -15,10 +15,11 @@ ExitCode layout(const Arguments& arguments) {
   const tetstream_status status = tetstream_layout(reader.get(), writer.get(), options.get(),
                                                    ProgressBar::callback, &bar, &report);
   bar.clear();
-  printNotes(arguments, reader.get(), writer.get());
+  const auto notes = printNotes(arguments, reader.get(), writer.get());
   check(status, writer.get());
   if (!arguments.quiet || !arguments.report.empty())
-    printReport(arguments, arguments.report == "json" ? layoutJson(report) : layoutText(report));
+    printReport(arguments,
+                arguments.report == "json" ? layoutJson(report, notes) : layoutText(report));
   return exitCodeOf(status);
 }
 

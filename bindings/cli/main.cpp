@@ -19,13 +19,12 @@ ProgressBar::Show progressOf(const Arguments& arguments) {
   return quiet ? ProgressBar::Show::kNever : ProgressBar::Show::kOnTerminal;
 }
 
-void printNotes(const Arguments& arguments, const tetstream_reader* reader,
-                const tetstream_writer* writer) {
-  if (arguments.quiet) return;
-  if (reader)
-    for (const std::string& note : notesOf(reader)) printNote(note);
-  if (writer)
-    for (const std::string& note : notesOf(writer)) printNote(note);
+std::vector<std::string> printNotes(const Arguments& arguments, const tetstream_reader* reader,
+                                    const tetstream_writer* writer) {
+  std::vector<std::string> notes = notesOf(reader, writer);
+  if (!arguments.quiet)
+    for (const std::string& note : notes) printNote(note);
+  return notes;
 }
 
 void printReport(const Arguments& arguments, const std::string& text) {

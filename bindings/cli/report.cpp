@@ -67,7 +67,7 @@ std::string reportText(const tetstream_report& r) {
                      row("front", frontText(r)) + row("collapses", countText(r.collapses)) +
                      row("rejected", rejectionText(r)) +
                      row("error", errorText(r.estimated_error)) +
-                     row("largest error", textOf("%.6g", r.largest_error)) +
+                     row("quadric error", textOf("%.6g at most", r.largest_error)) +
                      row("order", oneLine(r.order ? r.order : "")) +
                      row("regions", oneLine(r.regions ? r.regions : ""));
   text += volumeRow(r);
@@ -94,7 +94,7 @@ std::string layoutText(const tetstream_layout_report& r) {
   return text;
 }
 
-std::string layoutJson(const tetstream_layout_report& r) {
+std::string layoutJson(const tetstream_layout_report& r, const std::vector<std::string>& notes) {
   JsonText json;
   json.open('{');
   json.key("order").value(std::string_view(r.order ? r.order : ""));
@@ -106,10 +106,12 @@ std::string layoutJson(const tetstream_layout_report& r) {
   json.key("front_cells").value(r.front_cells);
   json.key("temporary_bytes").value(r.temporary_bytes);
   json.key("seconds").value(r.seconds);
+  json.key("notes").values(notes);
   return json.close('}').take();
 }
 
-std::string reportJson(const tetstream_report& r, tetstream_status status) {
+std::string reportJson(const tetstream_report& r, tetstream_status status,
+                       const std::vector<std::string>& notes) {
   JsonText json;
   const auto add = [&](const char* name, auto value) { json.key(name).value(value); };
   const auto words = [](const char* text) { return std::string_view(text ? text : ""); };
@@ -143,6 +145,7 @@ std::string reportJson(const tetstream_report& r, tetstream_status status) {
   add("balance", words(r.balance));
   add("reached", words(r.reached));
   add("limited_by", words(r.limited_by));
+  json.key("notes").values(notes);
   return json.close('}').take();
 }
 

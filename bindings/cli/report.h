@@ -4,13 +4,17 @@
 #include <tetstream/tetstream.h>
 
 #include <string>
+#include <vector>
 
 namespace tetstream::cli {
 
 std::string reportText(const tetstream_report& report);
 std::string layoutText(const tetstream_layout_report& report);
-std::string layoutJson(const tetstream_layout_report& report);
-// One object with every member of tetstream_report by its name, and the status.
-std::string reportJson(const tetstream_report& report, tetstream_status status);
+// One object with every member of the struct by its name, and the notes.
+std::string layoutJson(const tetstream_layout_report& report,
+                       const std::vector<std::string>& notes);
+// The same, and the status.
+std::string reportJson(const tetstream_report& report, tetstream_status status,
+                       const std::vector<std::string>& notes);
 
 }  // namespace tetstream::cli

@@ -43,10 +43,10 @@ static void needPlaces(const Arguments& arguments) {
 }
 
 static void printClosing(const Arguments& arguments, const tetstream_report& report,
-                         tetstream_status status) {
+                         tetstream_status status, const std::vector<std::string>& notes) {
   if (arguments.quiet && arguments.report.empty()) return;
   printReport(arguments,
-              arguments.report == "json" ? reportJson(report, status) : reportText(report));
+              arguments.report == "json" ? reportJson(report, status, notes) : reportText(report));
 }
 
 static void printMissed(const tetstream_report& report) {
@@ -75,13 +75,13 @@ ExitCode simplify(const Arguments& arguments) {
   check(tetstream_simplifier_set_progress(handle, ProgressBar::callback, &bar), handle);
   status = tetstream_simplifier_run(handle, reader.get());
   bar.clear();
-  printNotes(arguments, reader.get(), writer.get());
+  const auto notes = printNotes(arguments, reader.get(), writer.get());
   check(status, handle);
 
   tetstream_report report = {};
   report.struct_size = sizeof report;
   check(tetstream_simplifier_get_report(handle, &report), handle);
-  printClosing(arguments, report, status);
+  printClosing(arguments, report, status, notes);
   if (status == TETSTREAM_TARGET_MISSED) printMissed(report);
   return exitCodeOf(status);
 }

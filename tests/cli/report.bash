@@ -4,7 +4,7 @@ source "${BASH_SOURCE%/*}/common.bash"
 tetstream generate fluid --cells 6000 in.tets
 
 expect 0 simplify in.tets out.tets --ratio 0.5
-for row in cells vertices time memory window front collapses rejected error "largest error" \
+for row in cells vertices time memory window front collapses rejected error "quadric error" \
   regions reached; do
   contains $'\n'"$out" $'\n'"$row"
 done
@@ -97,3 +97,20 @@ if [[ -n ${TETSTREAM_PYTHON:-} ]]; then
   printf '%s' "$json" | "$TETSTREAM_PYTHON" -m json.tool >/dev/null || fail "no JSON: $json"
 fi
 expect_error 1 "--report" simplify in.tets out.tets --ratio 0.5 --report xml
+
+# What reader and writer left out is told to programs, too, with or without --quiet.
+printf '%s\n' '# vtk DataFile Version 3.0' two ASCII 'DATASET UNSTRUCTURED_GRID' 'POINTS 5 float' \
+  '0 0 0 1 0 0 0 1 0 0 0 1 1 1 1' 'CELLS 3 13' '4 0 1 2 3' '4 1 2 3 4' '2 0 1' 'CELL_TYPES 3' 10 10 3 \
+  >line.vtk
+expect 0 info line.vtk
+[[ $err == "tetstream: note: "* ]] || fail "no note of the line: $err"
+note=${err#tetstream: note: }
+for words in "simplify line.vtk a.tets --ratio 1" "layout line.vtk b.tets" "compare line.vtk line.vtk"; do
+  expect 0 $words --report json
+  contains "$err" "$note"
+  expect 0 $words --quiet --report json
+  [[ -z $err ]] || fail "--quiet is not quiet: $err"
+  contains "$out" $'"notes": [\n    "'"$note"
+done
+expect 0 layout b.tets c.tets --quiet --report json
+contains "$out" '"notes": []'
