@@ -938,10 +938,10 @@ TETSTREAM_API tetstream_status tetstream_comparison_create(const tetstream_optio
 /* Since 0.1. */
 TETSTREAM_API void tetstream_comparison_destroy(tetstream_comparison *comparison);
 /* Reads both meshes to their ends and compares them. Fields are matched by name. BAD_ARGUMENT if
- * an option names a field or cell array that is not in both, or a `box` without cells; BAD_DATA,
- * naming the vertex or the cell, for values that are not finite; NO_MEMORY where the front does
- * not fit the memory. Once per comparison; after a failure it can only be asked for its message,
- * and destroyed. Since 0.1. */
+ * an option names a field or cell array that is not in both, a `box` without cells or a `cut` that
+ * meets none; BAD_DATA, naming the vertex or the cell, for values that are not finite; NO_MEMORY
+ * where the front does not fit the memory. Once per comparison; after a failure it can only be
+ * asked for its message, and destroyed. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_comparison_read(tetstream_comparison *comparison,
                                                          tetstream_reader *original,
                                                          tetstream_reader *simplified,

@@ -319,6 +319,17 @@ void Comparison::drawCut() {
   const double bytes = 2.0 * (4 + 4 * static_cast<double>(shown.components));
   const double pixels = std::min(kCutPixels, static_cast<double>(memory_) / 8 / bytes);
   const double ratio = std::clamp(wide / tall, 0.05, 20.0);
+// Of the plane, which may lie beside the meshes or in a gap between their parts. Beside the part
+// that is compared the simplified mesh goes on, which tells nothing of that part.
+void Comparison::checkCutMeets(const CutComparison& cut) const {
+  if (cut.original->cellsCut() > 0 || (isWhole() && cut.simplified->cellsCut() > 0)) return;
+  const int axis = cut.plane.axis;
+  const Box& box = original_->cells().box();
+  fail(Status::kBadArgument, "the cut at %c = %.6g meets no cell: the %s lies in %.6g:%.6g",
+       "xyz"[axis], cut.plane.at, isWhole() ? "original" : "part of the original", box.low[axis],
+       box.high[axis]);
+}
+
   const auto width = static_cast<size_t>(std::max(std::sqrt(pixels * ratio), 1.0));
   const auto height = static_cast<size_t>(std::max(std::sqrt(pixels / ratio), 1.0));
   const auto draw = [&](MeshScan& scan) {
@@ -332,3 +343,4 @@ void Comparison::drawCut() {
 }
 
 }  // namespace tetstream
+  checkCutMeets(cut);

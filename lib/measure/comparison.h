@@ -128,6 +128,7 @@ class Comparison {
   Schema schemas_[2];
   std::vector<FieldComparison> fields_;
   size_t values_ = 0;                       // of a corner
+  void checkCutMeets(const CutComparison& cut) const;
   std::vector<std::string> region_arrays_;  // candidates
   std::unique_ptr<MeshScan> original_, simplified_;
   MeshFigures figures_[2];

@@ -107,3 +107,5 @@ done
 [[ $(head -c 5 a.svg) == "<?xml" && $(tail -n 1 a.svg) == "</svg>" ]] || fail "a.svg is no SVG"
 [[ $(head -c 4 a.png | tr -d '\0') == $'\x89PNG' ]] || fail "a.png is no PNG"
 only_files in.tets out.vtu cut.tets a.svg a.png
+expect_error 1 "the cut at x = 1e+09 meets no cell: the original lies in -1:1" compare in.tets \
+  out.vtu --picture b.png --cut x=1e9 "${less_pixels[@]}"

@@ -75,6 +75,6 @@ only_files in.tets out.tets
 expect 0 compare in.tets out.tets --quiet --picture part.svg --box $box "${less_pixels[@]}"
 expect 0 compare in.tets out.tets --quiet --picture whole.svg "${less_pixels[@]}"
 cmp -s part.svg whole.svg && fail "the picture of a part is that of the whole"
-expect 0 compare in.tets out.tets --quiet --picture part.png "${less_pixels[@]}" --box $box \
-  --cut z=0.9 # beside the part
-only_files in.tets out.tets part.svg whole.svg part.png
+expect_error 1 "the cut at z = 0.9 meets no cell: the part of the original lies in " compare \
+  in.tets out.tets --quiet --picture part.png "${less_pixels[@]}" --box $box --cut z=0.9
+only_files in.tets out.tets part.svg whole.svg
