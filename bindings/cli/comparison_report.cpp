@@ -54,14 +54,23 @@ double percentOf(double part, double whole) {
   return whole > 0 ? 100 * part / whole : 0;
 }
 
+// Of sums over all cells, which are rounded.
+std::string changeText(double from, double to) {
+  constexpr double kRounding = 1e-10;
+  const double percent = percentOf(to - from, from);
+  return std::fabs(percent) < kRounding ? "0 %" : textOf("%+.3g %%", percent);
+}
+
 std::string placeText(const double place[3]) {
   return textOf("(%.6g, %.6g, %.6g)", place[0], place[1], place[2]);
 }
 
+constexpr size_t kNameWidth = 24;
+
 // A line of the table of both meshes.
 std::string both(const char* name, const std::string& a, const std::string& b,
-                 const std::string& note = "") {
-  std::string line = textOf("  %-24s%16s%16s", name, a.c_str(), b.c_str());
+                 const std::string& note = "", size_t width = kNameWidth) {
+  std::string line = textOf("  %-*s%16s%16s", static_cast<int>(width), name, a.c_str(), b.c_str());
   if (!note.empty()) line += "   " + note;
   return line + "\n";
 }
@@ -83,10 +92,35 @@ std::string meshesText(const tetstream_mesh_figures& a, const tetstream_mesh_fig
          both("cells", countText(a.cells), countText(b.cells), share(a.cells, b.cells)) +
          both("vertices", countText(a.vertices), countText(b.vertices),
               share(a.vertices, b.vertices)) +
-         both("volume", number(a.volume), number(b.volume),
-              textOf("%+.3g %%", percentOf(b.volume - a.volume, a.volume))) +
+         both("volume", number(a.volume), number(b.volume), changeText(a.volume, b.volume)) +
          both("boundary area", number(a.boundary_area), number(b.boundary_area),
-              textOf("%+.3g %%", percentOf(b.boundary_area - a.boundary_area, a.boundary_area)));
+              changeText(a.boundary_area, b.boundary_area));
+}
+
+std::string cpsnrText(double cpsnr) {
+  return std::isnan(cpsnr) ? "none" : short3(cpsnr);
+}
+
+// The names in a text, one a line.
+std::vector<std::string> linesIn(std::string_view text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const size_t end = std::min(text.find('\n'), text.size());
+    lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return lines;
+}
+
+std::string leftOutText(const char* mesh, const char* only) {
+  constexpr size_t kNamed = 6;
+  const std::vector<std::string> names = linesIn(only);
+  if (names.empty()) return "";
+  std::string text = textOf("  left out, only in the %s: ", mesh);
+  for (size_t i = 0; i < std::min(kNamed, names.size()); ++i)
+    text += (i > 0 ? ", " : "") + oneLine(names[i]);
+  if (names.size() > kNamed) text += textOf(" and %zu more", names.size() - kNamed);
+  return text + "\n";
 }
 
 std::string fieldLine(const tetstream_field_comparison& f, size_t width) {
@@ -95,8 +129,8 @@ std::string fieldLine(const tetstream_field_comparison& f, size_t width) {
                   oneLine(f.name).c_str());
   return textOf("  %-*s%12s%12s%10s%12s%12s%10s\n", static_cast<int>(width),
                 oneLine(f.name).c_str(), short3(f.rms_percent).c_str(),
-                short3(f.largest_percent).c_str(), short3(f.cpsnr).c_str(), short3(f.rms).c_str(),
-                short3(f.largest).c_str(), short3(f.range).c_str());
+                short3(f.largest_percent).c_str(), cpsnrText(f.cpsnr).c_str(),
+                short3(f.rms).c_str(), short3(f.largest).c_str(), short3(f.range).c_str());
 }
 
 bool isPart(const ComparisonFigures& f) {
@@ -113,7 +147,9 @@ std::string partText(const ComparisonFigures& f) {
 std::string fieldsText(const ComparisonFigures& f) {
   const std::string how =
       f.info.is_exact ? "exact" : "by " + shortCount(static_cast<double>(f.info.samples));
-  if (f.fields.empty()) return "fields\n  none that both meshes have\n";
+  const std::string left_out = leftOutText("original", f.info.only_original) +
+                               leftOutText("simplified mesh", f.info.only_simplified);
+  if (f.fields.empty()) return "fields\n  none that both meshes have\n" + left_out;
   size_t width = 14;
   for (const auto& field : f.fields) width = std::max(width, oneLine(field.name).size() + 2);
   std::string text =
@@ -130,12 +166,14 @@ std::string fieldsText(const ComparisonFigures& f) {
                      " %"
                : "") +
           "\n";
-  return text;
+  return text + left_out;
 }
 
 std::string boundaryText(const ComparisonFigures& f) {
   const tetstream_comparison_info& i = f.info;
   const auto line = [&](const char* name, double largest, double rms, const double place[3]) {
+    if (std::isnan(largest))
+      return textOf("  %-24s%12s\n", name, isPart(f) ? "none in the box" : "none");
     return textOf("  %-24s%12s%12s%12s%12s   at %s\n", name,
                   short3(percentOf(largest, i.diagonal)).c_str(),
                   short3(percentOf(rms, i.diagonal)).c_str(), short3(largest).c_str(),
@@ -186,21 +224,34 @@ std::string shapesText(const tetstream_mesh_figures& a, const tetstream_mesh_fig
          faults("duplicate cells", a.duplicate_cells, b.duplicate_cells);
 }
 
-std::string regionLine(const tetstream_region_comparison& r) {
-  std::string note =
-      textOf("%+.3g %%", percentOf(r.simplified_volume - r.original_volume, r.original_volume));
+// What a line tells of a label, with its name.
+template <class Row>
+std::string labelText(const char* what, const Row& row) {
+  std::string text = textOf("%s of %lld", what, static_cast<long long>(row.label));
+  return *row.name ? text + ", " + oneLine(row.name) : text;
+}
+
+std::string regionLine(const tetstream_region_comparison& r, const std::string& name,
+                       size_t width) {
+  std::string note = changeText(r.original_volume, r.simplified_volume);
   if (r.simplified_cells == 0) note = "LOST";
   if (r.original_cells == 0) note = "NEW";
   if (r.original_parts != r.simplified_parts && note != "LOST" && note != "NEW")
     note += ", parts " + countText(r.original_parts) + " -> " + countText(r.simplified_parts);
-  return both(textOf("volume of %lld", static_cast<long long>(r.label)).c_str(),
-              number(r.original_volume), number(r.simplified_volume), note);
+  return both(name.c_str(), number(r.original_volume), number(r.simplified_volume), note, width);
 }
 
 template <class Row>
-std::string linesOf(const std::vector<Row>& rows, std::string (*line)(const Row&)) {
+std::string linesOf(const std::vector<Row>& rows, const char* what,
+                    std::string (*line)(const Row&, const std::string& name, size_t width)) {
+  std::vector<std::string> names;
+  size_t width = kNameWidth;
+  for (size_t i = 0; i < std::min(kMostListed, rows.size()); ++i) {
+    names.push_back(labelText(what, rows[i]));
+    width = std::max(width, names.back().size());
+  }
   std::string text;
-  for (size_t i = 0; i < std::min(kMostListed, rows.size()); ++i) text += line(rows[i]);
+  for (size_t i = 0; i < names.size(); ++i) text += line(rows[i], names[i], width);
   if (rows.size() > kMostListed)
     text += textOf("  and %zu more, which --report json tells\n", rows.size() - kMostListed);
   return text;
@@ -216,16 +267,15 @@ std::string regionsText(const ComparisonFigures& f) {
   const std::string text =
       "regions, " + oneLine(f.info.regions) +
       textOf(": %zu, %zu lost, parts changed in %zu\n", f.regions.size(), lost, changed);
-  return text + linesOf(f.regions, regionLine);
+  return text + linesOf(f.regions, "volume", regionLine);
 }
 
-std::string faceLabelLine(const tetstream_face_label_comparison& l) {
-  std::string note =
-      textOf("%+.3g %%", percentOf(l.simplified_area - l.original_area, l.original_area));
+std::string faceLabelLine(const tetstream_face_label_comparison& l, const std::string& name,
+                          size_t width) {
+  std::string note = changeText(l.original_area, l.simplified_area);
   if (l.simplified_faces == 0) note = "LOST";
   if (l.original_faces == 0) note = "NEW";
-  return both(textOf("area of %lld", static_cast<long long>(l.label)).c_str(),
-              number(l.original_area), number(l.simplified_area), note);
+  return both(name.c_str(), number(l.original_area), number(l.simplified_area), note, width);
 }
 
 // Nothing where there are none: most meshes have none.
@@ -234,7 +284,7 @@ std::string faceLabelsText(const ComparisonFigures& f) {
   size_t lost = 0;
   for (const auto& l : f.face_labels) lost += l.simplified_faces == 0;
   return textOf("labels of faces: %zu, %zu lost\n", f.face_labels.size(), lost) +
-         linesOf(f.face_labels, faceLabelLine) + "\n";
+         linesOf(f.face_labels, "area", faceLabelLine) + "\n";
 }
 
 // ---------------------------------------------------------------------------------- for programs
@@ -290,9 +340,24 @@ void addField(JsonText& json, const tetstream_field_comparison& f) {
   json.close('}');
 }
 
+// A label that has no name has null.
+void addName(JsonText& json, const char* name) {
+  json.key("name");
+  if (*name)
+    json.value(std::string_view(name));
+  else
+    json.null();
+}
+
+// Of a distance, which is nowhere where there is none.
+void addPlace(JsonText& json, const char* name, const double place[3], double distance) {
+  json.key(name).values(std::isnan(distance) ? nullptr : place, 3);
+}
+
 void addRegion(JsonText& json, const tetstream_region_comparison& r) {
   json.open('{');
   json.key("label").value(r.label);
+  addName(json, r.name);
   json.key("original_cells").value(r.original_cells);
   json.key("simplified_cells").value(r.simplified_cells);
   json.key("original_volume").value(r.original_volume);
@@ -305,6 +370,7 @@ void addRegion(JsonText& json, const tetstream_region_comparison& r) {
 void addFaceLabel(JsonText& json, const tetstream_face_label_comparison& l) {
   json.open('{');
   json.key("label").value(l.label);
+  addName(json, l.name);
   json.key("original_faces").value(l.original_faces);
   json.key("simplified_faces").value(l.simplified_faces);
   json.key("original_area").value(l.original_area);
@@ -345,11 +411,13 @@ std::string comparisonJson(const ComparisonFigures& f, const std::vector<std::st
   json.key("rms_distance").value(i.rms_distance);
   json.key("distance_back").value(i.distance_back);
   json.key("rms_distance_back").value(i.rms_distance_back);
-  json.key("distance_place").values(i.distance_place, 3);
-  json.key("distance_back_place").values(i.distance_back_place, 3);
+  addPlace(json, "distance_place", i.distance_place, i.distance);
+  addPlace(json, "distance_back_place", i.distance_back_place, i.distance_back);
   json.key("regions").value(std::string_view(i.regions));
   json.key("seconds").value(i.seconds);
   json.key("peak_bytes").value(i.peak_bytes);
+  json.key("only_original").values(linesIn(i.only_original));
+  json.key("only_simplified").values(linesIn(i.only_simplified));
   addMesh(json, "original", f.original);
   addMesh(json, "simplified", f.simplified);
   json.key("fields").open('[');

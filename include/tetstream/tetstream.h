@@ -857,7 +857,8 @@ typedef struct tetstream_comparison_info {
   double repeated_volume;      /* the same in more than one simplified cell; 0 if sampled */
   double distance, rms_distance;   /* from the original's boundary to the simplified one: the
                                       largest, and the root of the mean square; infinite, as are
-                                      fields' errors, of a simplified mesh without cells */
+                                      fields' errors, of a simplified mesh without cells; NaN, as
+                                      their places are, where there is no boundary in the `box` */
   double distance_back, rms_distance_back; /* from the simplified boundary to the original's */
   double distance_place[3];        /* where `distance` is */
   double distance_back_place[3];   /* where `distance_back` is */
@@ -868,6 +869,8 @@ typedef struct tetstream_comparison_info {
   int64_t compared_cells;      /* of the original: all, or those in the option `box` */
   double compared_volume;      /* of these */
   int64_t boundary_samples;    /* about so many points of each boundary, beside its vertices */
+  const char *only_original;   /* fields that the simplified mesh does not have, a name a line, */
+  const char *only_simplified; /* and that only it has; "" for none, and where fields were added */
 } tetstream_comparison_info;
 
 /* The figures of one mesh. Members may be added at the end. */
@@ -909,7 +912,8 @@ typedef struct tetstream_field_comparison {
   double cmse;                /* mean of the squared error over the volume that is compared */
   double rms;                 /* root of it */
   double rms_inside;          /* over the volume inside the simplified mesh */
-  double cpsnr;               /* 20 log10(range / rms), decibels; infinite if there is no error */
+  double cpsnr;               /* 20 log10(range / rms), decibels; infinite if there is no error,
+                                 else NaN of a constant field */
   double largest_percent, rms_percent; /* of the range; of a constant field the error times 100 */
 } tetstream_field_comparison;
 
@@ -920,6 +924,7 @@ typedef struct tetstream_region_comparison {
   int64_t original_cells, simplified_cells; /* 0: the label is not there */
   double original_volume, simplified_volume;
   int64_t original_parts, simplified_parts; /* sets of cells joined through faces */
+  const char *name;                         /* of the label, "" if it has none */
 } tetstream_region_comparison;
 
 /* The labelled faces of one label. Members may be added at the end. */
@@ -928,6 +933,7 @@ typedef struct tetstream_face_label_comparison {
   int64_t label;
   int64_t original_faces, simplified_faces; /* 0: the label is not there */
   double original_area, simplified_area;
+  const char *name;                         /* of the label, "" if it has none */
 } tetstream_face_label_comparison;
 
 /* The options are copied; NULL: the defaults. Those count that count for `inspect`, and `samples`,

@@ -55,6 +55,8 @@ static tetstream_comparison_info publicInfo(const tetstream_comparison& c) {
   out.compared_cells = static_cast<int64_t>(found.cellsCompared());
   out.compared_volume = found.volumeCompared();
   out.boundary_samples = found.surfaceSamples();
+  out.only_original = found.onlyOriginal().c_str();
+  out.only_simplified = found.onlySimplified().c_str();
   return out;
 }
 
@@ -119,6 +121,7 @@ static tetstream_region_comparison publicRegion(const RegionComparison& region) 
   out.simplified_volume = region.simplified.volume;
   out.original_parts = region.original.parts;
   out.simplified_parts = region.simplified.parts;
+  out.name = region.name.c_str();
   return out;
 }
 
@@ -129,6 +132,7 @@ static tetstream_face_label_comparison publicFaceLabel(const FaceLabelComparison
   out.simplified_faces = label.simplified.faces;
   out.original_area = label.original.area;
   out.simplified_area = label.simplified.area;
+  out.name = label.name.c_str();
   return out;
 }
 

@@ -21,6 +21,7 @@ constexpr double kFoot = 232;        // histogram and figures
 constexpr double kTallest = 400;     // panel
 constexpr double kSideBySide = 1.7;  // wider ones stand one upon another
 constexpr double kStackTallest = 250, kBeside = 96;
+constexpr double kRounding = 1e-10;  // percent: less is no change of a volume that is a sum
 constexpr const char* kAxes[] = {"x", "y", "z"};
 
 // Where the three panels lie.
@@ -62,6 +63,29 @@ Layout layoutOf(const CutPlane& plane) {
 
 std::string percentText(double value) {
   return textOf("%.3g %%", value);
+}
+
+std::string cpsnrText(double cpsnr) {
+  if (std::isnan(cpsnr)) return "none, of a constant field";
+  return std::isinf(cpsnr) && cpsnr > 0 ? "no error" : textOf("%.1f dB", cpsnr);
+}
+
+// Of both ways the larger ones.
+std::string distanceText(const Comparison& c) {
+  const DistanceFigures &there = c.toSimplified(), &back = c.toOriginal();
+  if (!there.areThere() && !back.areThere()) return c.isWhole() ? "none" : "none in the box";
+  const double unit = 100 / (c.diagonal() > 0 ? c.diagonal() : 1);
+  return percentText(unit * std::fmax(there.largest, back.largest)) + " of the diagonal at most, " +
+         percentText(unit * std::fmax(there.rms, back.rms)) + " RMS";
+}
+
+std::string volumeText(const Comparison& c) {
+  const double before = c.original().shapes.volume, after = c.simplified().shapes.volume;
+  const double compared = c.volumeCompared() > 0 ? c.volumeCompared() : 1;
+  const double change = 100 * (after - before) / (before > 0 ? before : 1);
+  return (std::fabs(change) < kRounding ? "0 %" : textOf("%+.3g %%", change)) + ", " +
+         percentText(100 * c.volumes().outside / compared) +
+         (c.isWhole() ? " of the original outside" : " of the part outside");
 }
 
 class ComparisonPage {
@@ -262,30 +286,18 @@ void ComparisonPage::drawHistogram(const Frame& f) {
 void ComparisonPage::drawFigures(double left, double top) {
   const Comparison& c = comparison_;
   const MeshFigures &a = c.original(), &b = c.simplified();
-  const double diagonal = c.diagonal() > 0 ? c.diagonal() : 1;
-  const double volume = a.shapes.volume > 0 ? a.shapes.volume : 1;
-  const double compared = c.volumeCompared() > 0 ? c.volumeCompared() : 1;
   std::vector<std::pair<std::string, std::string>> rows;
   if (field_) {
     rows.emplace_back("RMS error", percentText(field_->percent(field_->rms())) +
                                        textOf(" of the range %.4g", field_->range));
     rows.emplace_back("Largest error", percentText(field_->percent(field_->largest)));
-    rows.emplace_back(
-        "CPSNR", std::isinf(field_->cpsnr()) ? "no error" : textOf("%.1f dB", field_->cpsnr()));
+    rows.emplace_back("CPSNR", cpsnrText(field_->cpsnr()));
   }
   rows.emplace_back("Cells kept",
                     percentText(100 * static_cast<double>(b.topology.cells) /
                                 static_cast<double>(std::max<int64_t>(a.topology.cells, 1))));
-  rows.emplace_back(
-      "Boundary distance",
-      percentText(100 * std::max(c.toSimplified().largest, c.toOriginal().largest) / diagonal) +
-          " of the diagonal at most, " +
-          percentText(100 * std::max(c.toSimplified().rms, c.toOriginal().rms) / diagonal) +
-          " RMS");
-  rows.emplace_back("Volume",
-                    textOf("%+.3g %%", 100 * (b.shapes.volume - a.shapes.volume) / volume) + ", " +
-                        percentText(100 * c.volumes().outside / compared) +
-                        (c.isWhole() ? " of the original outside" : " of the part outside"));
+  rows.emplace_back("Boundary distance", distanceText(c));
+  rows.emplace_back("Volume", volumeText(c));
   rows.emplace_back("Topology", c.topologyKept() ? "kept" : "changed");
   rows.emplace_back("Least dihedral angle",
                     textOf("%.3g\xc2\xb0 (%.3g\xc2\xb0 before), %.3g %% below 10\xc2\xb0",

@@ -47,13 +47,14 @@ DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
                                  const SurfaceSampling& sampling, const DistanceBudget& budget,
                                  const std::function<void(double)>& share) {
   DistanceFigures figures;
-  if (from.count() == 0) return figures;
-  if (to.count() == 0) {
-    figures.largest = figures.rms = figures.mean = std::numeric_limits<double>::infinity();
-    return figures;
-  }
   NearestPoints places(1, 0, budget.temp_dir);
   addPlaces(from, sampling, budget.account, places);
+  if (places.count() == 0) return figures;
+  const bool is_far = to.count() == 0;
+  figures.largest = figures.rms = figures.mean =
+      is_far ? std::numeric_limits<double>::infinity() : 0;
+  std::fill_n(figures.place, 3, 0.0);
+  if (is_far) return figures;
   double samples = 0, squares = 0, sum = 0;
   places.search(
       to, {budget.account, budget.bytes, budget.tasks},

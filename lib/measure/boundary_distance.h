@@ -1,17 +1,22 @@
 // measure: how far one boundary is from another. Depends on nearest_points.h, part_box.h.
 #pragma once
 
+#include <cmath>
 #include <functional>
+#include <limits>
 
 #include "nearest_points.h"
 #include "part_box.h"
 
 namespace tetstream {
 
+// No numbers where there is nothing to measure from.
 struct DistanceFigures {
-  double largest = 0;  // over the samples and all vertices of those triangles
-  double place[3] = {0, 0, 0};
-  double rms = 0, mean = 0;  // over the samples
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  double largest = kNone;  // over the samples and all vertices of those triangles
+  double place[3] = {kNone, kNone, kNone};
+  double rms = kNone, mean = kNone;  // over the samples
+  bool areThere() const { return !std::isnan(largest); }
 };
 
 // About `samples` points, uniform by area, of those triangles of a boundary whose centres lie in
@@ -30,8 +35,7 @@ struct DistanceBudget {
   const Tasks* tasks;
 };
 
-// From `from` to the nearest points of all of `to`; all zero where `from` has no triangles,
-// infinite where only `to` has none.
+// From `from` to the nearest points of all of `to`; infinite, nowhere, where that has none.
 DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
                                  const SurfaceSampling& sampling, const DistanceBudget& budget,
                                  const std::function<void(double)>& share);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "label_names.h"
 #include "status.h"
 
 namespace tetstream {
@@ -28,6 +29,7 @@ double FieldComparison::rmsInside() const {
 
 double FieldComparison::cpsnr() const {
   if (mean_square == 0) return std::numeric_limits<double>::infinity();
+  if (range == 0) return std::numeric_limits<double>::quiet_NaN();
   return 20 * std::log10(range / rms());
 }
 
@@ -69,6 +71,16 @@ void Comparison::matchFields(const Schema& original, const Schema& simplified, S
   }
 }
 
+void Comparison::findLeftOut() {
+  if (!plan_.fields.empty()) return;
+  for (int i = 0; i < 2; ++i)
+    for (const Column& column : schemas_[i].fields) {
+      if (findColumn(schemas_[1 - i].fields, column.name) >= 0) continue;
+      if (!only_[i].empty()) only_[i] += '\n';
+      only_[i] += column.name;
+    }
+}
+
 // Integer arrays of one component; of "auto" all that both have are followed, and the first one
 // that labels regions is told.
 void Comparison::matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]) {
@@ -104,6 +116,7 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
   plans[0].mesh = "the original";
   plans[1].mesh = "the simplified mesh";
   matchFields(original, simplified, plans);
+  findLeftOut();
   matchRegions(original, simplified, plans);
   plans[0].are_finite = plans[1].are_finite = !plan.fields.empty();  // those that were named
   plans[0].drops_ids = plan.regions == "auto";
@@ -152,11 +165,21 @@ static std::vector<Pair> pairByLabel(const std::map<int64_t, Figures>& ours,
   std::vector<Pair> pairs;
   for (const auto& [label, figures] : ours) {
     const auto found = theirs.find(label);
-    pairs.push_back({label, figures, found == theirs.end() ? Figures() : found->second});
+    pairs.push_back({label, figures, found == theirs.end() ? Figures() : found->second, ""});
   }
   for (const auto& [label, figures] : theirs)
-    if (!ours.count(label)) pairs.push_back({label, Figures(), figures});
+    if (!ours.count(label)) pairs.push_back({label, Figures(), figures, ""});
   return pairs;
+}
+
+// As the original has it, or else the simplified mesh.
+template <class Pair>
+void Comparison::nameLabels(std::vector<Pair>& pairs, const std::string& array) const {
+  for (Pair& pair : pairs)
+    for (const Schema& schema : schemas_)
+      if (const LabelName* found = findLabelName(schema.label_names, array, pair.label);
+          found && pair.name.empty())
+        pair.name = found->name;
 }
 
 double Comparison::diagonal() const {
@@ -187,6 +210,7 @@ void Comparison::measure(const Tasks* tasks, const Done& done) {
   compareRegions();
   face_labels_ = pairByLabel<FaceLabelComparison>(original_->faceLabels().labels(),
                                                   simplified_->faceLabels().labels());
+  nameLabels(face_labels_, "");
   if (plan_.options.cut != "none") drawCut();
   measureFields(tasks, [&](double share) { done(kOutsideEnd * share); });
   measureDistances(tasks, [&](double share) { done(kOutsideEnd + (1 - kOutsideEnd) * share); });
@@ -286,12 +310,24 @@ void Comparison::compareRegions() {
     if (ours.dropped() || (!is_wished && ours.regions().size() < 2)) continue;
     array = region_arrays_[i];
     regions_ = pairByLabel<RegionComparison>(ours.regions(), theirs.regions());
+    nameLabels(regions_, array);
     break;
   }
   if (!array.empty())
     region_words_ = "by " + array;
   else if (region_words_.empty())
     region_words_ = "none";
+}
+
+// Of the plane, which may lie beside the meshes or in a gap between their parts. Beside the part
+// that is compared the simplified mesh goes on, which tells nothing of that part.
+void Comparison::checkCutMeets(const CutComparison& cut) const {
+  if (cut.original->cellsCut() > 0 || (isWhole() && cut.simplified->cellsCut() > 0)) return;
+  const int axis = cut.plane.axis;
+  const Box& box = original_->cells().box();
+  fail(Status::kBadArgument, "the cut at %c = %.6g meets no cell: the %s lies in %.6g:%.6g",
+       "xyz"[axis], cut.plane.at, isWhole() ? "original" : "part of the original", box.low[axis],
+       box.high[axis]);
 }
 
 // The first field, on a raster that takes an eighth of the memory at most.
@@ -319,17 +355,6 @@ void Comparison::drawCut() {
   const double bytes = 2.0 * (4 + 4 * static_cast<double>(shown.components));
   const double pixels = std::min(kCutPixels, static_cast<double>(memory_) / 8 / bytes);
   const double ratio = std::clamp(wide / tall, 0.05, 20.0);
-// Of the plane, which may lie beside the meshes or in a gap between their parts. Beside the part
-// that is compared the simplified mesh goes on, which tells nothing of that part.
-void Comparison::checkCutMeets(const CutComparison& cut) const {
-  if (cut.original->cellsCut() > 0 || (isWhole() && cut.simplified->cellsCut() > 0)) return;
-  const int axis = cut.plane.axis;
-  const Box& box = original_->cells().box();
-  fail(Status::kBadArgument, "the cut at %c = %.6g meets no cell: the %s lies in %.6g:%.6g",
-       "xyz"[axis], cut.plane.at, isWhole() ? "original" : "part of the original", box.low[axis],
-       box.high[axis]);
-}
-
   const auto width = static_cast<size_t>(std::max(std::sqrt(pixels * ratio), 1.0));
   const auto height = static_cast<size_t>(std::max(std::sqrt(pixels / ratio), 1.0));
   const auto draw = [&](MeshScan& scan) {
@@ -339,8 +364,8 @@ void Comparison::checkCutMeets(const CutComparison& cut) const {
   };
   cut.original = draw(*original_);
   cut.simplified = draw(*simplified_);
+  checkCutMeets(cut);
   cut_ = std::move(cut);
 }
 
 }  // namespace tetstream
-  checkCutMeets(cut);

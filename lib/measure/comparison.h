@@ -44,7 +44,7 @@ struct FieldComparison {
   double cmse() const;
   double rms() const;
   double rmsInside() const;
-  double cpsnr() const;                // decibels; infinite where there is no error
+  double cpsnr() const;  // decibels; infinite where there is no error, none of a constant field
   double percent(double error) const;  // of the range; of a constant field: the error times 100
   ErrorHistogram histogram;            // volumes
 };
@@ -58,11 +58,13 @@ struct MeshFigures {
 struct RegionComparison {
   int64_t label;
   RegionFigures original, simplified;
+  std::string name;  // of the label, if it has one
 };
 
 struct FaceLabelComparison {
   int64_t label;
   FaceLabelFigures original, simplified;
+  std::string name;
 };
 
 // What the picture shows of one field.
@@ -97,6 +99,9 @@ class Comparison {
   bool topologyKept() const;
   const std::vector<FieldComparison>& fields() const { return fields_; }
   const FieldComparison* firstField() const;  // that was compared; null if none was
+  // Fields that only one of the meshes has, a name a line; none where fields were asked for.
+  const std::string& onlyOriginal() const { return only_[0]; }
+  const std::string& onlySimplified() const { return only_[1]; }
   const VolumeSums& volumes() const { return volumes_; }
   const DistanceFigures& toSimplified() const { return distances_[0]; }
   const DistanceFigures& toOriginal() const { return distances_[1]; }
@@ -112,6 +117,7 @@ class Comparison {
 
  private:
   void matchFields(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
+  void findLeftOut();
   void matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void checkPart();
   void findRanges();
@@ -119,7 +125,10 @@ class Comparison {
   void measureFields(const Tasks* tasks, const Done& done);
   void measureDistances(const Tasks* tasks, const Done& done);
   void compareRegions();
+  template <class Pair>
+  void nameLabels(std::vector<Pair>& pairs, const std::string& array) const;
   void drawCut();
+  void checkCutMeets(const CutComparison& cut) const;
 
   ComparePlan plan_;
   Box part_;
@@ -127,8 +136,8 @@ class Comparison {
   Account account_;
   Schema schemas_[2];
   std::vector<FieldComparison> fields_;
+  std::string only_[2];
   size_t values_ = 0;                       // of a corner
-  void checkCutMeets(const CutComparison& cut) const;
   std::vector<std::string> region_arrays_;  // candidates
   std::unique_ptr<MeshScan> original_, simplified_;
   MeshFigures figures_[2];

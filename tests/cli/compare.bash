@@ -81,8 +81,32 @@ tetstream convert in.tets - | tetstream compare - out.vtu --quiet --report json 
   fail "no comparison of a pipe"
 [[ $(member "$(<"$logs/piped")" distance) == "$(member "$json" distance)" ]] || fail "a pipe differs"
 
+# Fields that only one of them has are told, unless fields were asked for.
+{
+  printf '%s\n' '# vtk DataFile Version 3.0' one ASCII 'DATASET UNSTRUCTURED_GRID' \
+    'POINTS 4 double' '0 0 0 1 0 0 0 1 0 0 0 1' 'CELLS 1 5' '4 0 1 2 3' 'CELL_TYPES 1' 10
+  printf '%s\n' 'POINT_DATA 4' 'FIELD f 3' 'same 1 4 double' '1 2 3 4' 'flat 1 4 double' '3 3 3 3'
+} >one.vtk
+cp one.vtk two.vtk
+printf '%s\n' 'u 3 4 double' '1 2 3 4 5 6 7 8 9 1 2 3' >>one.vtk
+printf '%s\n' 'v 1 4 double' '1 2 3 4' >>two.vtk
+sed -i -e 's/^FIELD f 3/FIELD f 9/' -e 's/^3 3 3 3/3 3 3 4/' two.vtk
+for i in 1 2 3 4 5 6; do printf '%s\n' "w$i 1 4 double" '1 2 3 4' >>two.vtk; done
+expect 0 compare one.vtk two.vtk
+contains "$out" $'\n  left out, only in the original: u\n'
+contains "$out" $'\n  left out, only in the simplified mesh: v, w1, w2, w3, w4, w5 and 1 more\n'
+# Nor has a field of no range a ratio of it to its error, or the volume changed.
+[[ $out =~ flat\ +[0-9.]+\ +[0-9.]+\ +none\  ]] || fail "a constant field has a CPSNR: $out"
+[[ $out =~ volume\ +[0-9.]+\ +[0-9.]+\ +0\ % ]] || fail "the volume has changed: $out"
+expect 0 compare one.vtk two.vtk --report json
+contains "$(tr -d ' \n' <<<"$out")" \
+  '"only_original":["u"],"only_simplified":["v","w1","w2","w3","w4","w5","w6"]'
+[[ $(member "${out#*'"name": "flat"'}" cpsnr) == null ]] || fail "a constant field has a CPSNR: $out"
+expect 0 compare one.vtk two.vtk --field same
+contains_not "$out" "left out"
+
 # What cannot be.
-rm -f large.json small.json
+rm -f large.json small.json one.vtk two.vtk
 expect_error 1 "standard input" compare - -
 expect_error 1 "nothing" compare in.tets out.vtu --field nothing
 expect_error 1 "--cut" compare in.tets out.vtu --cut x
@@ -104,8 +128,8 @@ for picture in a.svg a.png; do
   expect 0 compare in.tets out.vtu --quiet --picture $picture --cut z=0.1 --title "Two balls" \
     "${less_pixels[@]}"
 done
+expect_error 1 "the cut at x = 1e+09 meets no cell: the original lies in -1:1" compare in.tets \
+  out.vtu --picture b.png --cut x=1e9 "${less_pixels[@]}"
 [[ $(head -c 5 a.svg) == "<?xml" && $(tail -n 1 a.svg) == "</svg>" ]] || fail "a.svg is no SVG"
 [[ $(head -c 4 a.png | tr -d '\0') == $'\x89PNG' ]] || fail "a.png is no PNG"
 only_files in.tets out.vtu cut.tets a.svg a.png
-expect_error 1 "the cut at x = 1e+09 meets no cell: the original lies in -1:1" compare in.tets \
-  out.vtu --picture b.png --cut x=1e9 "${less_pixels[@]}"

@@ -35,3 +35,11 @@ contains "$out" 'cell label    4, steel'
 contains "$out" 'face label    9, 1 faces, outer wall'
 expect 0 convert e.exo f.msh --encoding text --msh-version 2.2 --quiet
 contains "$(<f.msh)" $'$PhysicalNames\n2\n2 9 "outer wall"\n3 4 "steel"\n$EndPhysicalNames'
+
+# Compared, labels have their names.
+expect 0 compare b.tets b.tets
+contains "$out" $'\n  volume of 4, steel '
+contains "$out" $'\n  area of 9, outer wall '
+expect 0 compare b.tets b.tets --report json --quiet
+contains "$(tr -d ' \n' <<<"$out")" '"label":9,"name":"outerwall",'
+contains "$(tr -d ' \n' <<<"$out")" '"label":5,"name":null,'

@@ -47,6 +47,12 @@ tetstream_convert (mesh, at ("packed.vtu"), "properties", struct ("compress", "y
 assert (dir (at ("plain.vtu")).bytes > dir (at ("packed.vtu")).bytes);
 figures = tetstream_compare (mesh, mesh);
 assert (figures.fields.von_mises.largest_percent, 0, 1e-9);
+assert (isempty (figures.only_original) && isempty (figures.only_simplified));
+renamed = mesh;
+renamed.fields = struct ("stress", mesh.fields.von_mises, "s1", mesh.fields.von_mises);
+figures = tetstream_compare (mesh, renamed, "boundary-samples", 100);
+assert (figures.only_simplified, {"stress", "s1"});
+assert (figures.only_original, fieldnames (mesh.fields)');
 
 ## Opening a text tells how far it is.
 told = containers.Map ();

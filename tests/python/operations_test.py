@@ -53,6 +53,11 @@ class Operations(unittest.TestCase):
         self.assertLess(same.fields["f"].rms, 1e-12)
         self.assertEqual(same.topology_kept, 1)
         self.assertAlmostEqual(same.original.volume, 2)
+        self.assertEqual((same.only_original, same.only_simplified), ([], []))
+        renamed = tetstream.Mesh(self.mesh.points, self.mesh.cells,
+                                 {"f": self.mesh.fields["f"], "u": self.mesh.fields["f"]})
+        other = tetstream.compare(self.mesh, renamed)
+        self.assertEqual((other.only_original, other.only_simplified), (["v"], ["u"]))
         small = self.mesh.simplify(ratio=0.2, regions="part")
         less = tetstream.compare(self.mesh, small, weights={"f": 1}, regions="part")
         self.assertEqual(set(less.fields), {"f"})

@@ -3,8 +3,10 @@
 ## How well a simplified mesh stands for its original; each is a path, or a mesh in a struct.
 ## figures: a struct: fields, a struct of field to its error: rms, rms_percent (of the range), largest,
 ##   cpsnr, ...; original and simplified: cells, volume, components, least_angle, ... of each;
-##   regions: a struct array by label; topology_kept; distance, between the boundaries; and the other
-##   members of tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
+##   regions: a struct array by label; topology_kept; distance, between the boundaries; only_original
+##   and only_simplified, cells with the names of fields that the other mesh does not have; and the
+##   other members of tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes'
+##   units.
 ##
 ## Pairs: "weights", a struct of field to weight: only these are compared, those of weight 0 left out;
 ##   "samples", "boundary-samples", "seed", "box", "regions", "memory", "tmpdir", "threads"; "step",
@@ -30,6 +32,8 @@ function figures = tetstream_compare (original, simplified, varargin)
   comparison.read (first, second, own.progress);
   figures = comparison.get_info ();
   figures.labels = figures.regions;
+  figures.only_original = regexp (figures.only_original, '[^\n]+', "match");
+  figures.only_simplified = regexp (figures.only_simplified, '[^\n]+', "match");
   figures.original = comparison.get_mesh (tetstream_core.ORIGINAL);
   figures.simplified = comparison.get_mesh (tetstream_core.SIMPLIFIED);
   figures.fields = struct ();

@@ -153,6 +153,8 @@ class Comparison(Record):
     fields: dict[str, Record]
     regions: dict[int, Record]
     labels: str
+    only_original: list[str]
+    only_simplified: list[str]
     topology_kept: int
     distance: float
     outside_volume: float

@@ -114,6 +114,7 @@ class Comparison(Record):
     original, simplified: figures of each: cells, volume, components, least_angle, ...
     fields: dict of name to the error of the field: rms, rms_percent (of the range), largest, ...
     regions: dict of label to figures; labels: what was taken as labels, in words.
+    only_original, only_simplified: names of fields that the other mesh does not have.
     topology_kept, distance (between boundaries), outside_volume and the other members of
     tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
     """
@@ -154,6 +155,8 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
         simplified=Record.copied(compared.get_mesh(core.SIMPLIFIED)),
         fields={field.name: field for field in fields},
         regions={region.label: region for region in regions}, labels=figures.regions,
+        only_original=[name for name in figures.only_original.split("\n") if name],
+        only_simplified=[name for name in figures.only_simplified.split("\n") if name],
         notes=[note for reader in readers for note in reader.notes], _core=compared)
 
 
