@@ -1,5 +1,5 @@
 # The cells that a map names are those of the output's file, whatever its format: also where they stand
-# in blocks, or with labelled faces.
+# in blocks, or with labelled faces, as in the manual's example.
 source "${BASH_SOURCE%/*}/common.bash"
 
 python=${TETSTREAM_PYTHON:-python3}
@@ -52,3 +52,9 @@ expect 0 simplify labelled.vtu told.exo --ratio 0.2 --regions none
 contains_not "$err" "elem_num_map"
 expect 0 info told.exo
 contains_not "$out" "num_map"
+
+simplified small.vtu
+carrying_back >example.py
+"$python" example.py >"$logs/example" 2>&1 || fail "the manual's example does not run"
+"$python" "$script" carried labelled.vtu fine.npy >"$logs/carried" 2>&1 ||
+  fail "a linear field is carried back as another"
