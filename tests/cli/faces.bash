@@ -47,7 +47,7 @@ expect 0 simplify two.vtu out.vtu --ratio 1 --quiet
 
 # What has no place for faces says so; what is no face is refused, with its place.
 expect 0 convert two.vtu two.sva
-contains "$err" "no labelled faces"
+contains "$err" "the labels of boundary faces are left out"
 sed 's/^0 1 2 0 1 2 3/0 1 4 0 1 2 3/' two.vtu >stray.vtu
 expect_error 2 "stray.vtu: labelled face 0 is the face of no cell" simplify stray.vtu out.vtu --ratio 1 --quiet
 sed 's/ 0 2 3 1 2 3 4 2 3 4</ 0 1 3 1 2 3 4 2 3 4</' two.vtu >twice.vtu
