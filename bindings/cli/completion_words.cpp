@@ -15,11 +15,13 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string formatNames() {
+// Of formats that are written, or read.
+std::string formatNames(bool written) {
   std::vector<std::string> names;
   const char* name = nullptr;
-  for (int32_t i = 0; tetstream_format_at(i, &name, nullptr, nullptr, nullptr, nullptr) >= 0; ++i)
-    names.emplace_back(name);
+  int32_t read = 0, write = 0;
+  for (int32_t i = 0; tetstream_format_at(i, &name, nullptr, nullptr, &read, &write) >= 0; ++i)
+    if (written ? write : read) names.emplace_back(name);
   return joined(names);
 }
 
@@ -32,32 +34,34 @@ std::string tableChoices(const std::string& flag) {
 
 class Collector {
  public:
-  explicit Collector(const CLI::App& app) : app_(app), formats_(formatNames()) {}
+  explicit Collector(const CLI::App& app)
+      : app_(app), read_(formatNames(false)), written_(formatNames(true)) {}
   CompletionWords collect();
 
  private:
-  CompletionFlag flagOf(const CLI::Option& option) const;
+  CompletionFlag flagOf(const CLI::Option& option, const CLI::App& command) const;
   CompletionFlag argumentOf(const CLI::Option& option) const;
-  void setValue(CompletionFlag& flag) const;
+  void setValue(CompletionFlag& flag, bool writes) const;
   static void setWords(CompletionFlag& flag, const std::string& words) {
     flag.value = Value::kWords;
     flag.words = words;
   }
 
   const CLI::App& app_;
-  std::string formats_;
+  std::string read_, written_;  // names of formats
   CompletionWords words_;
 };
 
-// By the flag's name and what its help shows for the value: "yes|no", "FILE".
-void Collector::setValue(CompletionFlag& flag) const {
+// By the flag's name and what its help shows for the value: "yes|no", "FILE". `writes`: the command
+// has an OUT, whose format is --format; that of what is read is --format-in then.
+void Collector::setValue(CompletionFlag& flag, bool writes) const {
   const std::string& name = flag.names.front();
   std::string choices = tableChoices(name);
   if (choices.empty() && flag.label.find('|') != std::string::npos) {
     choices = flag.label;
     std::replace(choices.begin(), choices.end(), '|', ' ');
   }
-  if (name.rfind("--format", 0) == 0) choices = formats_;
+  if (name.rfind("--format", 0) == 0) choices = name == "--format" && writes ? written_ : read_;
   if (!choices.empty())
     setWords(flag, choices);
   else if (name == "--tmpdir")
@@ -66,13 +70,14 @@ void Collector::setValue(CompletionFlag& flag) const {
     flag.value = flag.label == "FILE" ? Value::kFile : Value::kAnything;
 }
 
-CompletionFlag Collector::flagOf(const CLI::Option& option) const {
+CompletionFlag Collector::flagOf(const CLI::Option& option, const CLI::App& command) const {
   CompletionFlag flag;
   for (const std::string& name : option.get_lnames()) flag.names.push_back("--" + name);
   for (const std::string& name : option.get_snames()) flag.names.push_back("-" + name);
   flag.text = option.get_description();
   flag.label = option.get_option_text();
-  if (option.get_items_expected_max() > 0) setValue(flag);
+  if (option.get_items_expected_max() > 0)
+    setValue(flag, command.get_option_no_throw("OUT") != nullptr);
   return flag;
 }
 
@@ -93,7 +98,8 @@ CompletionFlag Collector::argumentOf(const CLI::Option& option) const {
 
 CompletionWords Collector::collect() {
   const auto every = [](const CLI::Option*) { return true; };
-  for (const CLI::Option* option : app_.get_options(every)) words_.flags.push_back(flagOf(*option));
+  for (const CLI::Option* option : app_.get_options(every))
+    words_.flags.push_back(flagOf(*option, app_));
   const std::vector<const CLI::App*> commands =
       app_.get_subcommands([](const CLI::App*) { return true; });
   for (const CLI::App* command : commands)
@@ -104,7 +110,7 @@ CompletionWords Collector::collect() {
       if (option->get_positional())
         command.arguments.push_back(argumentOf(*option));
       else
-        command.flags.push_back(flagOf(*option));
+        command.flags.push_back(flagOf(*option, *commands[i]));
     }
   return std::move(words_);
 }

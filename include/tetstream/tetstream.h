@@ -608,8 +608,9 @@ TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifie
  * hierarchy). A map does not change the output, unless the option `memory` bounds both; for a log
  * no thin cells are flipped (below). Vertices of the input are named by their origins: their ids in
  * the stream, or, of an indexed mesh and of a stream that the library put into another order, the
- * rank of the point in the input as it was. Positions are those of the input; where the output's
- * format holds float32 alone, as they were rounded for it. */
+ * rank of the point in the input as it was. Cells of the output are named by their rank in it, as
+ * the writer gets them: tetstream-formats(5) says where an Exodus file has them. Positions are those
+ * of the input; where the output's format holds float32 alone, as they were rounded for it. */
 
 /* Rows of a map. */
 typedef struct tetstream_map_rows {

@@ -113,10 +113,11 @@ const char* Output::note(int32_t index) const noexcept {
   return noteOf(notes_, index);
 }
 
-void Output::start(const std::string& temp_dir) {
+void Output::start(const std::string& temp_dir, bool is_mapped) {
   needReady();
   if (format_) {
     options_.temp_dir = temp_dir;
+    options_.is_mapped = is_mapped;
     options_.note = [this](const std::string& note) { addNote(note); };
     stays_with_caller_ = bytes_->waits();
     if (progress_) options_.tell = [this] { tellWriting(); };

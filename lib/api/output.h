@@ -50,7 +50,8 @@ class Output final : public Sink {
   // Before start: `progress`, or nothing, as a run is to get it. It is called, too, while a file is
   // completed, in a phase "write"; what it throws ends that.
   ProgressFunction watchedBy(ProgressFunction progress);
-  void start(const std::string& temp_dir);
+  // `is_mapped`: as in WriteOptions.
+  void start(const std::string& temp_dir, bool is_mapped = false);
   void begin(const Schema& schema) override;
   void put(const BatchView& batch) override { sink().put(batch); }
   void finish() override;

@@ -42,7 +42,7 @@ static tetstream_status inStream(tetstream_simplifier& s, Body&& body) {
 
 static void startRun(tetstream_simplifier& s) {
   const ProgressFunction progress = s.output->watchedBy(progressOf(s.progress, s.progress_user));
-  s.output->start(s.options.temp_dir);
+  s.output->start(s.options.temp_dir, s.map != nullptr);
   s.run = std::make_unique<SimplifyRun>(s.options, *s.output, progress);
   s.run->trace({s.map.get(), s.log.get()});
   s.output->onStop([&s] { dropRun(s); });

@@ -43,6 +43,7 @@ struct WriteOptions {
   JointFiles* joint = nullptr;  // gives files beside the output their names together with it; null:
                                 // they get them at once
   std::function<void()> tell;   // while a file is completed; may be empty
+  bool is_mapped = false;       // a map of vertices names cells by their rank in the stream
   bool compress = true;         // .tets: zstd where built in; .vtu: zlib
   bool binary = true;           // .msh: else text
   bool newest = true;           // .msh: 4.1, else 2.2

@@ -3,6 +3,7 @@
 #define _DEFAULT_SOURCE
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "rig.h"
@@ -219,6 +220,31 @@ static void a_run_that_is_dropped_closes_its_traces(void) {
   free(t);
 }
 
+static void swap_regions(void) {
+  for (int64_t i = 0; i < mesh->cell_count; ++i) mesh->region[i] = 3 - mesh->region[i];
+}
+
+/* Where the format puts cells of a label together, and there is a map that names them. */
+static void a_note_tells_of_cells_in_blocks(void) {
+  swap_regions(); /* so that the first comes last */
+  for (int with_map = 0; with_map < 2; ++with_map) {
+    traces* t = new_traces();
+    rig r = rig_create("exodus");
+    if (with_map) set_both(r, t);
+    tetstream_reader* reader = arrays_of(mesh);
+    CHECK(tetstream_simplifier_run(r.simplifier, reader) >= 0);
+    int told = 0;
+    const char* note;
+    for (int32_t i = 0; (note = tetstream_writer_note(r.writer, i)) != NULL; ++i)
+      told += strstr(note, "elem_num_map") != NULL;
+    CHECK_EQUAL(told, with_map);
+    tetstream_reader_destroy(reader);
+    rig_destroy(r);
+    free(t);
+  }
+  swap_regions();
+}
+
 static void files_are_refused_in_formats_that_are_none(void) {
   rig r = rig_create("tets");
   CHECK_EQUAL(tetstream_simplifier_set_map_file(r.simplifier, "a.txt", NULL),
@@ -264,6 +290,7 @@ int main(void) {
   RUN_CASE(tables_may_be_minimal_and_must_not_be_less);
   RUN_CASE(null_takes_a_map_back);
   RUN_CASE(a_run_that_is_dropped_closes_its_traces);
+  RUN_CASE(a_note_tells_of_cells_in_blocks);
   RUN_CASE(files_are_refused_in_formats_that_are_none);
   RUN_CASE(two_files_of_one_name_are_refused);
   hostile_mesh_destroy(mesh);

@@ -72,6 +72,12 @@ cells_in() {
   member "$json" cells
 }
 
+# The manual's program that carries the field density of small.vtu back, by small.tetmap.
+carrying_back() {
+  sed -n '/^\.Ss Carrying a field back/,/^\.Ed/p' "$TETSTREAM_SOURCE/man/man5/tetstream-formats.5" |
+    sed -n '/^\.Bd/,/^\.Ed/{/^\./d;p}'
+}
+
 bytes_of() {
   cksum <"$1"
 }

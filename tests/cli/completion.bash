@@ -38,6 +38,10 @@ offered "paper" simplify --mode p
 offered "paper" simplify --mode = p
 offered "sweep" simplify --ratio 0.5 in.vtu --mode s
 offered "vtk vtkhdf vtu" simplify --format vt
+offered "" convert --format xd
+offered "xdmf" convert --format-in xd
+offered "tetgen" compare --format tetg
+offered "pvd pvtu" info --format pv
 offered "" simplify --ratio ""
 offered "b.vtu" simplify b
 offered "a folder a mesh.vtu" simplify --ratio 0.1 in.vtu a

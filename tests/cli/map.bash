@@ -127,8 +127,7 @@ PYTHON
 "$TETSTREAM_PYTHON" check.py >"$logs/check" 2>&1 || fail "not what the manual says"
 
 "$TETSTREAM_PYTHON" -c 'import vtk' 2>/dev/null || exit 0
-sed -n '/^\.Ss Carrying a field back/,/^\.Ed/p' "$TETSTREAM_SOURCE/man/man5/tetstream-formats.5" |
-  sed -n '/^\.Bd/,/^\.Ed/{/^\./d;p}' >example.py
+carrying_back >example.py
 cat >>example.py <<'PYTHON'
 grid = vtk.vtkUnstructuredGrid()
 grid.DeepCopy(reader.GetOutput())

@@ -19,25 +19,26 @@ def reader_of(path):
     return reader
 
 
-def grid_of(path):
-    """The grid; ends the program where VTK has anything to say against the file."""
+def grid_of(path, numbered=False):
+    """The grid; ends the program where VTK has anything to say against the file. `numbered`: elements
+    of Exodus have their numbers, from 1, in GlobalElementId."""
     reader = reader_of(path)
     said = []
     for event in ("ErrorEvent", "WarningEvent"):
         reader.AddObserver(event, lambda *words: said.append(words))
     reader.SetFileName(path)
-    grid = blocks_of(reader) if path.endswith(".exo") else None
+    grid = blocks_of(reader, numbered) if path.endswith(".exo") else None
     reader.Update()
     if said:
         sys.exit(f"{path}: VTK is not content")
     return grid or reader.GetOutput()
 
 
-def blocks_of(reader):
+def blocks_of(reader, numbered):
     """All element blocks of an Exodus file as one grid, with all variables; block_id tells which."""
     reader.UpdateInformation()
     reader.GenerateObjectIdCellArrayOn()
-    reader.GenerateGlobalElementIdArrayOff()
+    reader.SetGenerateGlobalElementIdArray(numbered)
     reader.GenerateGlobalNodeIdArrayOff()
     for kind in (reader.NODAL, reader.ELEM_BLOCK):
         for i in range(reader.GetNumberOfObjectArrays(kind)):

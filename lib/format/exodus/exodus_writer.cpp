@@ -115,7 +115,10 @@ class ExodusWriter final : public MeshCollector {
     elements_ = std::make_unique<RowSpool>(sizeof(int64_t), options().temp_dir);
     uint64_t cell = 0;
     forLabels([&](int64_t label) {
-      const auto element = static_cast<int64_t>(cells_->add(label, cell++));
+      const uint64_t place = cells_->add(label, cell);
+      is_reordered_ = is_reordered_ || place != cell;
+      ++cell;
+      const auto element = static_cast<int64_t>(place);
       elements_->append(&element, 1);
     });
     cells_->finish();
@@ -134,12 +137,13 @@ class ExodusWriter final : public MeshCollector {
     }
   }
 
+  uint64_t cellAt(uint64_t element) {
+    return *static_cast<const uint64_t*>(cells_->rows().row(element));
+  }
+
   // visit(cell, count) for runs of cells that are `elements` elements from `first` on.
   template <class Visit>
   void forRuns(uint64_t first, uint64_t elements, Visit visit) {
-    const auto cellAt = [&](uint64_t element) {
-      return *static_cast<const uint64_t*>(cells_->rows().row(element));
-    };
     for (uint64_t at = first, end = first + elements; at < end;) {
       const uint64_t cell = cellAt(at);
       size_t n = 1;
@@ -171,6 +175,10 @@ class ExodusWriter final : public MeshCollector {
           "the labels of \"block_id\" are no ids of blocks, which are 0 to 2147483647, or more "
           "than "
           "65536: all cells are block 1");
+    if (is_reordered_ && options().is_mapped)
+      note(
+          "cells stand in blocks: "
+          "cell N of the map is the element that elem_num_map numbers N + 1");
     noteNames(schema().fields, fields_);
     noteNames(schema().cell_data, arrays_);
     std::vector<LabelName> left_out;
@@ -251,7 +259,7 @@ class ExodusWriter final : public MeshCollector {
 
   void addBlocks() {
     if (blocks_.empty()) return;
-    file_->addDimension("num_elem", cells());
+    const size_t numbered = file_->addDimension("num_elem", cells());
     const size_t count = file_->addDimension("num_el_blk", blocks_.size());
     std::optional<std::string> array;
     if (block_column_) array = schema().cell_data[*block_column_].name;
@@ -268,6 +276,15 @@ class ExodusWriter final : public MeshCollector {
           [this, first, n = elements](NetcdfValues& values) { putCorners(values, first, n); });
       first += elements;
     }
+    if (is_reordered_)
+      file_->addVariable("elem_num_map", NetcdfType::kInt, {numbered}, {},
+                         [this](NetcdfValues& values) { putNumbers(values); });
+  }
+
+  // Of each element that of its cell, from 1, as maps of vertices have it.
+  void putNumbers(NetcdfValues& values) {
+    for (uint64_t element = 0; element < cells(); ++element)
+      values.put(static_cast<int64_t>(cellAt(element) + 1));
   }
 
   // The status, ids and names of blocks or sets; `array`: whose labels the names are of, "" of
@@ -391,6 +408,7 @@ class ExodusWriter final : public MeshCollector {
   std::map<int64_t, uint64_t> blocks_;            // elements by label
   std::unique_ptr<GroupedRows<uint64_t>> cells_;  // by element
   std::unique_ptr<RowSpool> elements_;            // by cell, from 0
+  bool is_reordered_ = false;                     // they are not in the order of cells
   std::vector<BlockRows> block_rows_;
   std::vector<ExodusVariable> fields_, arrays_;
   NetcdfType real_ = NetcdfType::kDouble;

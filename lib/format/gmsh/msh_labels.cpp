@@ -1,6 +1,7 @@
 #include "msh_labels.h"
 
 #include <algorithm>
+#include <set>
 
 #include "rows_at_once.h"
 
@@ -77,10 +78,9 @@ void MshLabels::findSurfaces() {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - first));
     mesh_.readFaces(first, n, corners, labels);
     for (size_t i = 0; i < n; ++i) {
-      const bool known =
-          isFaceLabel(labels[i]) &&
-          (surfaces_.size() < kMostGroups || surfaces_.count(static_cast<int32_t>(labels[i])) > 0);
-      if (known) surfaces_.insert(static_cast<int32_t>(labels[i]));
+      const bool known = isFaceLabel(labels[i]) &&
+                         (surfaces_.size() < kMostGroups || surfaces_.count(labels[i]) > 0);
+      if (known) ++surfaces_[labels[i]];
       ++(known ? faces_ : faces_left_out_);
     }
   }

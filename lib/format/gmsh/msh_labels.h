@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "label_column.h"
@@ -29,7 +28,8 @@ class MshLabels {
   const std::optional<size_t>& entities() const { return entity_column_; }
   bool isLabel(size_t column) const { return column == group_column_ || column == entity_column_; }
   const std::map<std::pair<int64_t, int64_t>, MshEntity>& volumes() const { return volumes_; }
-  const std::set<int32_t>& surfaces() const { return surfaces_; }  // tag and group are the label
+  // How many faces each has, by label, which is its tag and its group.
+  const std::map<int64_t, uint64_t>& surfaces() const { return surfaces_; }
   uint64_t facesLeftOut() const { return faces_left_out_; }
   uint64_t faces() const { return faces_; }
   static bool isFaceLabel(int64_t label) { return label > 0 && label <= INT32_MAX; }
@@ -58,7 +58,7 @@ class MshLabels {
   MeshSpool& mesh_;
   std::optional<size_t> group_column_, entity_column_;
   std::map<std::pair<int64_t, int64_t>, MshEntity> volumes_;
-  std::set<int32_t> surfaces_;
+  std::map<int64_t, uint64_t> surfaces_;
   uint64_t faces_ = 0, faces_left_out_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grouped_rows.h"
 #include "label_names.h"
 #include "mesh_collector.h"
 #include "msh_kinds.h"
@@ -32,6 +33,7 @@ class MshWriter final : public MeshCollector {
     NumberSink out(bytes(), options().binary);
     out_ = &out;
     checkSizes();
+    groupFaces();
     noteLosses();
     writeHead();
     writeNames();
@@ -229,7 +231,7 @@ class MshWriter final : public MeshCollector {
     const Box box = findBox();
     section("Entities");
     sizeRow({0, 0, labels_->surfaces().size(), labels_->volumes().size()});
-    const auto entity = [&](int32_t tag, int32_t group) {
+    const auto entity = [&](int64_t tag, int64_t group) {
       out_->integer<int32_t>(tag);
       for (double x : box.low) out_->real(x);
       for (double x : box.high) out_->real(x);
@@ -238,26 +240,41 @@ class MshWriter final : public MeshCollector {
       out_->integer<uint64_t>(0);
       out_->endRow();
     };
-    for (int32_t label : labels_->surfaces()) entity(label, label);
+    for (const auto& surface : labels_->surfaces()) entity(surface.first, surface.first);
     for (const auto& [key, volume] : labels_->volumes()) entity(volume.tag, volume.group);
     end("Entities");
   }
 
   // --------------------------------------------------------------------------------- elements
 
-  // visit(label, corners) for the faces that can be written.
-  template <class Visit>
-  void forEachFace(Visit visit) {
+  struct Face {
+    int64_t corners[3];
+  };
+
+  // Those that can be written, by label, so that each surface is one block: their order means
+  // nothing, and labels may change from each to the next.
+  void groupFaces() {
+    faces_ = std::make_unique<GroupedRows<Face>>(labels_->surfaces(), options().temp_dir);
     int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
     for (uint64_t first = 0; first < mesh_->faceCount(); first += kRowsAtOnce) {
       const auto n =
           static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->faceCount() - first));
       mesh_->readFaces(first, n, corners, labels);
       for (size_t i = 0; i < n; ++i)
-        if (MshLabels::isFaceLabel(labels[i]) &&
-            labels_->surfaces().count(static_cast<int32_t>(labels[i])) > 0)
-          visit(static_cast<int32_t>(labels[i]), corners + 3 * i);
+        if (labels_->surfaces().count(labels[i]) > 0)
+          faces_->add(labels[i], {{corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]}});
     }
+    faces_->finish();
+  }
+
+  // visit(label, corners), label by label.
+  template <class Visit>
+  void forEachFace(Visit visit) {
+    uint64_t at = 0;
+    for (const auto& [label, count] : labels_->surfaces())
+      for (const uint64_t end = at + count; at < end; ++at)
+        visit(static_cast<int32_t>(label),
+              static_cast<const Face*>(faces_->rows().row(at))->corners);
   }
 
   // visit(entity, corners)
@@ -404,6 +421,7 @@ class MshWriter final : public MeshCollector {
 
   MeshSpool* mesh_ = nullptr;
   MshLabels* labels_ = nullptr;
+  std::unique_ptr<GroupedRows<Face>> faces_;
   NumberSink* out_ = nullptr;
 };
 

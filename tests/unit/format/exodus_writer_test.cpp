@@ -62,9 +62,11 @@ VtuMesh labelledGrid() {
   return mesh;
 }
 
-std::string asExodus(const VtuMesh& mesh, std::vector<std::string>* notes = nullptr) {
+std::string asExodus(const VtuMesh& mesh, std::vector<std::string>* notes = nullptr,
+                     bool is_mapped = false) {
   std::vector<unsigned char> out;
   WriteOptions options;
+  options.is_mapped = is_mapped;
   if (notes) options.note = [notes](const std::string& note) { notes->push_back(note); };
   return writtenBy(*createExodus(createMemory(out), options), out, mesh);
 }
@@ -102,6 +104,33 @@ TEST(ExodusWriter, BlocksSetsNamesAndVariablesComeBack) {
       EXPECT_TRUE(std::equal(&mesh.cells[4 * old], &mesh.cells[4 * old] + 4, &back.cells[4 * i]));
     }
   }
+}
+
+std::vector<int64_t> numbersOfElements(const std::string& file) {
+  return openNetcdf(openMemory(file.data(), file.size(), "file"))->integers("elem_num_map", 1000);
+}
+
+// Where blocks take cells out of their order, each has the number that a map has, plus one.
+TEST(ExodusWriter, NumbersElementsAsTheCellsCame) {
+  VtuMesh mesh = labelledGrid();
+  std::vector<std::string> notes;
+  const std::string file = asExodus(mesh, &notes, true);
+  EXPECT_TRUE(anyNote(notes, "cell N of the map is the element that elem_num_map numbers N + 1"));
+  const VtuMesh back = readAs("exodus", file);
+  const std::vector<int64_t> numbers = numbersOfElements(file);
+  ASSERT_EQ(numbers.size(), mesh.cells.size() / 4);
+  EXPECT_FALSE(std::is_sorted(numbers.begin(), numbers.end()));
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    const int64_t* cell = &mesh.cells[4 * static_cast<size_t>(numbers[i] - 1)];
+    EXPECT_TRUE(std::equal(cell, cell + 4, &back.cells[4 * i])) << i;
+  }
+
+  std::vector<int32_t> part = valuesAs<int32_t>(mesh.cell_data[1]);
+  std::sort(part.begin(), part.end());
+  mesh.cell_data[1] = packedValues(part);
+  notes.clear();
+  EXPECT_TRUE(numbersOfElements(asExodus(mesh, &notes, true)).empty());
+  EXPECT_FALSE(anyNote(notes, "elem_num_map"));
 }
 
 TEST(ExodusWriter, CellsWithoutLabelsAreBlock1AndFloatsStayNarrow) {

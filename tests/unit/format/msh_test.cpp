@@ -213,36 +213,58 @@ TEST(Msh, KeepsRegionsOfWhichAllAreZero) {
     }
 }
 
+// A tetrahedron with labelled faces.
+Bytes writeFaces(const std::vector<TestFace>& faces, bool binary, bool newest) {
+  Bytes out;
+  WriteOptions options;
+  options.binary = binary;
+  options.newest = newest;
+  const std::unique_ptr<Sink> sink = createMsh(createMemory(out), options);
+  Batch batch(Schema{});
+  batch.clear(0);
+  batch.addVertices(4);
+  const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  std::memcpy(batch.position(0), corners, sizeof corners);
+  batch.addCells(1);
+  for (int64_t k = 0; k < 4; ++k) batch.cell(0)[k] = k;
+  for (const TestFace& face : faces) {
+    const int64_t points[3] = {face.a, face.b, face.c};
+    batch.addFace(points, face.label);
+  }
+  sink->begin(Schema{});
+  sink->put(batch.view());
+  sink->finish();
+  return out;
+}
+
 // The cells beside them have a group for other programs' sake, which is no array of ours.
 TEST(Msh, KeepsFacesAndTheirLabels) {
-  Input input = openText(openMsh, kSparse4);
   for (bool binary : {false, true})
     for (bool newest : {false, true}) {
-      Bytes out;
-      WriteOptions options;
-      options.binary = binary;
-      options.newest = newest;
-      const std::unique_ptr<Sink> sink = createMsh(createMemory(out), options);
-      Batch batch(Schema{});
-      batch.clear(0);
-      batch.addVertices(4);
-      const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-      std::memcpy(batch.position(0), corners, sizeof corners);
-      batch.addCells(1);
-      for (int64_t k = 0; k < 4; ++k) batch.cell(0)[k] = k;
-      const int64_t faces[2][3] = {{0, 1, 2}, {1, 2, 3}};
-      batch.addFace(faces[0], 12);
-      batch.addFace(faces[1], -1);  // no group
-      sink->begin(Schema{});
-      sink->put(batch.view());
-      sink->finish();
+      const TestFace kept = {0, 1, 2, 12}, of_no_group = {1, 2, 3, -1};
+      const Bytes out = writeFaces({kept, of_no_group}, binary, newest);
       Input again = openMsh(openMemory(out.data(), out.size(), "mesh"), {});
-      EXPECT_EQ(facesOf(again), (std::vector<TestFace>{{0, 1, 2, 12}}));
+      EXPECT_EQ(facesOf(again), std::vector<TestFace>{kept});
       EXPECT_TRUE(again.indexed->schema().cell_data.empty());
       if (!binary) {
         EXPECT_NE(std::string(out.begin(), out.end())
                       .find(newest ? "\n1 0 0 0 1 1 1 1 1 0 \n$EndEnt" : "\n2 4 2 1 1 1 2 3 4 \n"),
                   std::string::npos);
+      }
+    }
+}
+
+// Each surface is one block, whatever order the labels come in.
+TEST(Msh, BringsFacesTogetherByTheirLabels) {
+  const TestFace a = {0, 1, 2, 9}, b = {0, 1, 3, 4}, c = {0, 2, 3, 9}, d = {1, 2, 3, 4};
+  for (bool binary : {false, true})
+    for (bool newest : {false, true}) {
+      const Bytes out = writeFaces({a, b, c, d}, binary, newest);
+      Input again = openMsh(openMemory(out.data(), out.size(), "mesh"), {});
+      EXPECT_EQ(facesOf(again), (std::vector<TestFace>{b, d, a, c}));
+      if (!binary && newest) {
+        const std::string text(out.begin(), out.end());
+        EXPECT_NE(text.find("$Elements\n3 5 1 5 \n2 4 2 2 \n"), std::string::npos) << text;
       }
     }
 }
