@@ -100,5 +100,12 @@ refused ("regions is a cell", points, cells, field, "regions", {1});
 refused ("locked is a cell", points, cells, field, "locked", {1, 2});
 refused ("face_labels and locked_faces", points, cells, field, "face_labels", 1);
 refused ("option \"ratio\"", points, cells, field, "ratio", 0.5i);
+
+## No function of C's is named.
+try
+  tetstream_simplify (points, cells, field, "ratio", 7);
+catch raised
+  assert (strtok (raised.message, ":"), "option \"ratio\"");
+end_try_catch
 fails ("tetstream:target-missed", "are left", @() tetstream_simplify ...
        (points, cells, field, "ratio", 0.1, "locked", true (rows (points), 1)));

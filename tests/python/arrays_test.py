@@ -249,6 +249,8 @@ class Refused(unittest.TestCase):
         self.refused(tetstream.BadArgument, "mode", p, c, mode="fast")
         self.refused(TypeError, "there is no option quality; there are ratio, cells", p, c, quality=3)
         self.refused(TypeError, "window: an int is wanted, not float", p, c, window=3.5)
+        with self.assertRaisesRegex(tetstream.BadArgument, '^option "mode": "fast" is none of'):
+            tetstream.simplify(p, c, ratio=0.5, mode="fast")  # no function of C's is named
         self.refused(TypeError, "axis: a str", p, c, axis=1)
         self.refused(TypeError, "ratio: a number is wanted, not ndarray", p, c, ratio=p[0])
         with self.assertRaisesRegex(AttributeError, "rato"):
