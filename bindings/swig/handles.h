@@ -153,6 +153,7 @@ class Comparison {
   tetstream_mesh_figures getMesh(int32_t mesh) const;
   tetstream_field_comparison getField(int32_t index) const;
   tetstream_region_comparison getRegion(int32_t index) const;
+  tetstream_face_label_comparison getFaceLabel(int32_t index) const;
   void write(const char* path, const char* title);
 
  private:

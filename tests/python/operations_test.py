@@ -123,6 +123,16 @@ class Operations(unittest.TestCase):
         for name in ("boundary_weight", "tmpdir", "order"):
             self.assertIn(f"        {name}: ", tetstream.simplify.__doc__)
 
+    def test_labels_of_faces_are_compared(self):
+        bottom = [[p for p in cell if self.points[p, 2] == 0] for cell in self.cells
+                  if (self.points[cell, 2] == 0).sum() == 3]
+        self.mesh.faces, self.mesh.face_labels = bottom, numpy.full(len(bottom), 7)
+        found = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2))
+        self.assertEqual(list(found.face_labels), [7])
+        self.assertEqual(found.face_labels[7].original_faces, len(bottom))
+        self.assertLess(0, found.face_labels[7].simplified_faces)
+        self.assertAlmostEqual(found.face_labels[7].simplified_area, 1, places=3)
+
     def test_progress_of_opening(self):
         mesh = tetstream.read(tetstream.Reader.generate("ball", 1000))
         with tempfile.TemporaryDirectory() as folder:

@@ -105,9 +105,12 @@ class Stubs(unittest.TestCase):
                  "LayoutReport": tetstream.layout(mesh, tetstream.Writer.memory("tets")),
                  "Simplified": result, "Mesh": mesh, "Batch": tetstream.Batch()}
         for name, value in there.items():
-            for item in self.nodes[name].body:
-                if isinstance(item, ast.AnnAssign):
-                    self.assertTrue(hasattr(value, item.target.id), f"{name}.{item.target.id}")
+            told = {item.target.id for item in self.nodes[name].body
+                    if isinstance(item, ast.AnnAssign)}
+            for member in told:
+                self.assertTrue(hasattr(value, member), f"{name}.{member}")
+            if isinstance(value, tetstream.Record):
+                self.assertEqual(told, {member for member in vars(value) if member[0] != "_"}, name)
 
     def test_everything_says_what_it_is(self):
         for name in tetstream.__all__:

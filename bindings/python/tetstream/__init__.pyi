@@ -101,11 +101,23 @@ class Report(Record):
     vertices_out: int
     target_cells: int
     window_cells: int
+    front_width: int
+    front_span: int
+    front_cells: int
+    collapses: int
+    rejected_orientation: int
+    rejected_link: int
+    rejected_locked: int
+    rejected_other: int
+    locked_cells: int
+    unused_vertices: int
+    largest_error: float
     estimated_error: float
     volume_in: float
     volume_out: float
     seconds: float
     peak_window_bytes: int
+    peak_resident_bytes: int
     regions: str
     limited_by: str
     reached: str
@@ -117,7 +129,11 @@ class LayoutReport(Record):
     order: str
     vertices: int
     cells: int
+    unused_vertices: int
     front_width: int
+    front_span: int
+    front_cells: int
+    temporary_bytes: int
     seconds: float
     notes: list[str]
 
@@ -132,6 +148,7 @@ class StreamInfo(Record):
     front_width: int
     front_span: int
     front_cells: int
+    front: Record
     indexed: bool
     box: NDArray[numpy.float64] | None
     ranges: dict[str, NDArray[numpy.float64] | None]
@@ -142,8 +159,22 @@ class Diagram(Record):
     widths: NDArray[numpy.int64]
     lowest: NDArray[numpy.int64]
     newest: NDArray[numpy.int64]
+    cell_count: int
+    vertex_count: int
     front_width: int
     front_span: int
+    front_cells: int
+    mean_width: float
+    mean_span: float
+    mean_life: float
+    longest_life: int
+    widest_cell: int
+    longest_cell: int
+    columns: int
+    rows: int
+    cells_per_column: int
+    vertices_per_row: int
+    notes: list[str]
     def plot(self, ax: Any = None, **look: Any) -> Any: ...
     def write(self, path: _Path, title: str | None = None) -> None: ...
 
@@ -152,10 +183,29 @@ class Comparison(Record):
     simplified: Record
     fields: dict[str, Record]
     regions: dict[int, Record]
+    face_labels: dict[int, Record]
     labels: str
+    notes: list[str]
+    field_count: int
+    region_count: int
+    face_label_count: int
     topology_kept: int
-    distance: float
+    is_exact: int
+    samples: int
+    boundary_samples: int
+    diagonal: float
+    compared_cells: int
+    compared_volume: float
     outside_volume: float
+    repeated_volume: float
+    distance: float
+    rms_distance: float
+    distance_place: tuple[float, float, float]
+    distance_back: float
+    rms_distance_back: float
+    distance_back_place: tuple[float, float, float]
+    seconds: float
+    peak_bytes: int
     def write(self, path: _Path, title: str | None = None) -> None: ...
 
 class Options:
