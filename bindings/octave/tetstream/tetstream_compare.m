@@ -19,7 +19,7 @@ function figures = tetstream_compare (original, simplified, varargin)
     print_usage ();
   endif
   caller = "tetstream_compare";
-  own = struct ("weights", [], "progress", [], "picture", []);
+  own = struct ("weights", [], "progress", [], "picture", "");
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_COMPARE, varargin);
   if (! isempty (own.picture) && strcmp (options.get_text (tetstream_core.OPTION_CUT), "none"))

@@ -36,7 +36,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
                 "front_span", -1, "front_cells", -1, "indexed", false, "weights", [], "progress", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
-  need_target (caller, varargin);
+  need_target (caller, options, varargin);
   refuse_reading (caller, options, "a stream");
   state = containers.Map ("KeyType", "char", "ValueType", "any");  # what the writer is told when it begins
   core_writer = tetstream_core.Writer_create (@(info) begun (state, info),

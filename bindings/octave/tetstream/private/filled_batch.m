@@ -50,8 +50,7 @@ function [batch, kept] = filled_batch (caller, mesh, count)
     if (isempty (labels))
       labels = zeros (rows (mesh.faces), 1);
     endif
-    need_rows (caller, "face_labels", labels);
-    kept{end+1} = core_rows (int64 (labels(:)));
+    kept{end+1} = core_rows (core_labels (caller, "face_labels", labels));
     batch.set_face_labels (kept{end});
   elseif (! isempty (mesh.face_labels) || ! isempty (mesh.locked_faces))
     error ("tetstream:bad-argument",
@@ -64,6 +63,9 @@ function kept = add_columns (caller, arrays, count, of, add, kept)
     if (rows (values) != count)
       error ("tetstream:bad-argument", "%s: %s has %d rows, there are %d %s", caller, name,
              rows (values), count, of);
+    endif
+    if (islogical (values))
+      values = int32 (values);
     endif
     kept{end+1} = core_rows (values);
     add (kept{end});
