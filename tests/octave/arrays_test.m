@@ -121,7 +121,22 @@ refused ("option \"cells\": 1000.5 is no integer", "cells", 1000.5);
 refused ("option \"vertex_map\" is a cell", "cells", 9, "vertex_map", {1});
 refused ("face_labels: labels are integers", "cells", 9, "faces", bottom, "face_labels", bottom(:,1) / 2);
 
-## No function of C's is named.
+## Numbers in messages are the caller's, from 1 on; no function of C's is named.
+wrong = @(part, points, cells, field) fails ("tetstream:bad-data", part, ...
+  @() tetstream_simplify (points, cells, field, "ratio", 0.5));
+bad = field;
+bad(4) = NaN;
+wrong ("point 4: its field is not finite", points, cells, bad);
+bad = points;
+bad(4,2) = Inf;
+wrong ("point 4: its position is not finite", bad, cells, field);
+for type = {"double", "int32"}
+  bad = feval (type{1}, cells);
+  bad(5,2) = bad(5,1);
+  wrong (sprintf ("cell 5: point %d is there twice", bad(5,1)), points, bad, field);
+endfor
+fails ("tetstream:bad-data", "labelled face 2 is the face of no cell", ...
+       @() tetstream_simplify (points, cells, field, "ratio", 0.5, "faces", [bottom(1,:); 1, 2, 729]));
 try
   tetstream_simplify (points, cells, field, "ratio", 7);
 catch raised

@@ -244,7 +244,7 @@ class Reader:
             raise BadArgument("face_labels and locked_faces are of `faces`, which are not there")
         if mesh.locked_edges is not None:
             put(batch.set_locked_edges, _arrays.wide_ids("locked_edges", mesh.locked_edges, 2))
-        return cls(core.Reader.open_mesh(info, batch), kept)
+        return cls(core.Reader.open_mesh(info, batch, False), kept)
 
     @classmethod
     def stream(cls, mesh):

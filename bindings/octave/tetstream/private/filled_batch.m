@@ -1,6 +1,7 @@
-## [batch, kept] = filled_batch (caller, mesh, count): the library's batch of a mesh or a batch, with
-## point numbers up to `count`. It is good as long as `kept` is.
-function [batch, kept] = filled_batch (caller, mesh, count)
+## [batch, kept] = filled_batch (caller, mesh, first, count): the library's batch of a mesh or a batch,
+## with point numbers up to `count`, which the library has from `first` on. It is good as long as
+## `kept` is.
+function [batch, kept] = filled_batch (caller, mesh, first, count)
   tetstream_core;
   batch = tetstream_core.StreamBatch ();
   kept = {};
@@ -15,7 +16,7 @@ function [batch, kept] = filled_batch (caller, mesh, count)
                         @(array) batch.add_field (array), kept);
   endif
   if (! isempty (mesh.cells))
-    kept{end+1} = core_rows (core_ids (caller, "cells", mesh.cells, 4, count));
+    kept{end+1} = core_rows (core_ids (caller, "cells", mesh.cells, 4, first, count));
     batch.set_cells (kept{end});
     kept = add_columns (caller, mesh.cell_data, rows (mesh.cells), "cells",
                         @(array) batch.add_cell_data (array), kept);
@@ -41,7 +42,7 @@ function [batch, kept] = filled_batch (caller, mesh, count)
                             "faces", {{3, @(array) batch.set_faces (array)}},
                             "locked_edges", {{2, @(array) batch.set_locked_edges (array)}})
     if (! isempty (mesh.(name)))
-      kept{end+1} = core_rows (int64 (core_ids (caller, name, mesh.(name), set{1}, count)));
+      kept{end+1} = core_rows (int64 (core_ids (caller, name, mesh.(name), set{1}, first, count)));
       set{2} (kept{end});
     endif
   endfor
