@@ -21,9 +21,9 @@ _Told = Union[Callable[["Progress"], object], bool, None]
 
 # Where options count; regions are an argument of their own where arrays are simplified.
 class _Reading(TypedDict, total=False):
-    memory: int | str
+    memory: float | str
     tmpdir: str
-    threads: int | str
+    threads: float | str
     split: Literal["no", "yes"] | bool
     recover: Literal["no", "yes"] | bool
     step: str | int
@@ -36,32 +36,32 @@ class _Ordering(_Reading, total=False):
 
 class _Simplifying(_Ordering, total=False):
     ratio: float | str
-    cells: int | str
+    cells: float | str
     error: float | str
     boundary_weight: float | str
     field_range: Literal["free", "keep"]
     feature_angle: float | str
     mode: Literal["sweep", "paper", "queue"]
-    seed: int | str
+    seed: float | str
     quadric: Literal["determinant", "garland-zhou"]
-    candidates: int | str
+    candidates: float | str
     pilot: Literal["auto", "none"]
     release: Literal["order", "error"]
     balance: Literal["auto", "none"]
     effort: Literal["normal", "high"]
     shape: Literal["field", "solver"]
-    window: int | str
+    window: float | str
 
 class _SimplifyingRegions(_Simplifying, total=False):
     regions: str
 
 class _Comparing(_Reading, total=False):
     regions: str
-    seed: int | str
-    samples: int | str
+    seed: float | str
+    samples: float | str
     cut: str
     box: str
-    boundary_samples: int | str
+    boundary_samples: float | str
 
 class _AllOptions(_SimplifyingRegions, _Comparing, total=False): ...
 
@@ -210,29 +210,29 @@ class Comparison(Record):
 
 class Options:
     ratio: float | str
-    cells: int | str
+    cells: float | str
     error: float | str
     boundary_weight: float | str
     field_range: str
     regions: str
     feature_angle: float | str
     mode: str
-    seed: int | str
+    seed: float | str
     quadric: str
-    candidates: int | str
+    candidates: float | str
     pilot: str
     release: str
     balance: str
     effort: str
     shape: str
-    samples: int | str
+    samples: float | str
     cut: str
     box: str
-    boundary_samples: int | str
-    window: int | str
-    memory: int | str
+    boundary_samples: float | str
+    window: float | str
+    memory: float | str
     tmpdir: str
-    threads: int | str
+    threads: float | str
     axis: str
     order: str
     split: str

@@ -58,9 +58,10 @@ class _Row:
 
 
 def whole(name, value, bits=64):
-    """An int of so many bits."""
+    """An int of so many bits; 1e6 is one, too."""
+    is_whole = isinstance(value, (float, numpy.floating)) and float(value).is_integer()
     try:
-        number = operator.index(value)
+        number = operator.index(int(value) if is_whole else value)
     except TypeError:
         raise TypeError(f"{name}: an int is wanted, not {type(value).__name__}") from None
     if not -2 ** (bits - 1) <= number < 2 ** (bits - 1):

@@ -63,7 +63,7 @@ class _Schema:
             info.add_cell_data(name, column[1], column[0])
         _labels.add(info, label_names)
         for name, count in counts.items():
-            setattr(info, name, count)
+            setattr(info, name, _options.whole(name, count))
         return cls(info)
 
     def fill(self, target, batch):
