@@ -5,7 +5,7 @@ import numpy
 
 from . import _arrays, _labels, _mesh, _options, core
 from ._records import Record, StreamInfo
-from .errors import BadArgument
+from .errors import BadArgument, InputOutput, NoSuchFile
 
 
 class Batch:
@@ -195,7 +195,7 @@ class Reader:
         """A file; `format` is a name such as "vtu", or None: by the path's ending. Options of the
         reading, such as `step` or `split`, count here alone."""
         made = _options.made(options, core.SCOPE_READ)
-        return cls(core.Reader.open_file(path, format, made._handle))
+        return cls(_opened(core.Reader.open_file, path, format, made))
 
     @classmethod
     def memory(cls, data, format, **options):
@@ -427,10 +427,25 @@ def _closing(generator, finish):
     return end
 
 
+def _opened(open_file, path, format, options):
+    """The library's reader of a file."""
+    try:
+        return open_file(path, format, options._handle)
+    except InputOutput as failure:
+        # The library's status does not tell which refusal it was.
+        try:
+            os.stat(path)
+        except FileNotFoundError as missing:
+            raise NoSuchFile(missing.errno, str(failure), os.fspath(path)) from None
+        except OSError:
+            pass
+        raise
+
+
 def _reader_of(source, open_file, options, tell):
     if isinstance(source, (str, bytes, os.PathLike)):
         options._handle.set_progress(tell)
-        return Reader(open_file(source, None, options._handle))
+        return Reader(_opened(open_file, source, None, options))
     if isinstance(source, Reader):
         return source
     if isinstance(source, _mesh.Mesh):
