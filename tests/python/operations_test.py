@@ -123,6 +123,22 @@ class Operations(unittest.TestCase):
         for name in ("boundary_weight", "tmpdir", "order"):
             self.assertIn(f"        {name}: ", tetstream.simplify.__doc__)
 
+    def test_options_are_a_mapping_of_what_was_set(self):
+        options = tetstream.Options(ratio=0.25, memory="64M", cells=1e3, tmpdir=None,
+                                    weights={"f": 2})
+        options.boundary_weight = 3
+        self.assertEqual(dict(options), {"ratio": 0.25, "memory": 64 * 2 ** 20, "cells": 1000,
+                                         "weights": {"f": 2}, "boundary_weight": 3})
+        self.assertEqual(repr(tetstream.Options(ratio=0.5)), "Options(ratio=0.5)")
+        self.assertEqual(tetstream.Options(**options), options)
+        with self.assertRaises(KeyError):
+            options["seed"]
+        kept = self.mesh.simplify(**tetstream.Options(ratio=0.25, weights={"f": 1}))
+        given = self.mesh.simplify(ratio=0.25, weights={"f": 1})
+        numpy.testing.assert_array_equal(kept.points, given.points)
+        with self.assertRaisesRegex(TypeError, "no option weights"):
+            tetstream.info(self.mesh, **tetstream.Options(weights={"f": 1}))
+
     def test_labels_of_faces_are_compared(self):
         bottom = [[p for p in cell if self.points[p, 2] == 0] for cell in self.cells
                   if (self.points[cell, 2] == 0).sum() == 3]

@@ -1,7 +1,7 @@
 # Types of the package. Shapes and units stand in the docstrings. tests/python/stubs_test.py compares
 # names and parameters with what is there, and the options with the library's table.
 import os
-from collections.abc import Callable, Generator, Iterable, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any, Literal, TypedDict, Union
 
@@ -209,7 +209,7 @@ class Comparison(Record):
     peak_bytes: int
     def write(self, path: _Path, title: str | None = None) -> None: ...
 
-class Options:
+class Options(Mapping[str, Any]):
     ratio: float | str
     cells: float | str
     error: float | str
@@ -241,8 +241,12 @@ class Options:
     cells_to_points: str
     recover: str
     step: str
-    def __init__(self, **values: Unpack[_AllOptions]) -> None: ...
+    def __init__(self, *, weights: Mapping[str, float] | None = None,
+                 **values: Unpack[_AllOptions]) -> None: ...
     def add_field(self, name: str, weight: float = 1.0) -> None: ...
+    def __getitem__(self, name: str) -> Any: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
 
 # ----------------------------------------------------------------------------------- meshes
 
