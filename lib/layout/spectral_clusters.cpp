@@ -20,7 +20,7 @@ static uint64_t clusterSize(uint64_t points, uint64_t memory_bytes) {
   return std::max(points / most + 1, kLeastSize);
 }
 
-SpectralClusters::SpectralClusters(IndexedSource& mesh, RankedVertices::Budget budget,
+SpectralClusters::SpectralClusters(IndexedSource& mesh, const RankedVertices::Budget& budget,
                                    const Tell& tell)
     : mesh_(mesh),
       size_(clusterSize(static_cast<uint64_t>(mesh.schema().vertex_count), budget.memory_bytes)) {

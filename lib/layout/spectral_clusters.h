@@ -12,7 +12,7 @@ namespace tetstream {
 class SpectralClusters {
  public:
   // `mesh`: its points, all of them used, come along the curve. Reads points and cells once.
-  SpectralClusters(IndexedSource& mesh, RankedVertices::Budget budget, const Tell& tell);
+  SpectralClusters(IndexedSource& mesh, const RankedVertices::Budget& budget, const Tell& tell);
 
   double valueAt(uint64_t point, const double place[3]) const;
   uint64_t diskBytes() const { return disk_; }
