@@ -53,6 +53,7 @@ FIGURES(tetstream_comparison_info)
 FIGURES(tetstream_mesh_figures)
 FIGURES(tetstream_field_comparison)
 FIGURES(tetstream_region_comparison)
+FIGURES(tetstream_face_label_comparison)
 FIGURES(tetstream::swig::FormatInfo)
 
 // --------------------------------------------------------------------------------- functions

@@ -33,7 +33,8 @@ template <class T>
 tetstream_status check(tetstream_status status, const Handle<T>& handle) {
   if (status >= 0) return status;
   const char* const sentence = handle ? messageOf(handle.get()) : nullptr;
-  throw Failure(status, sentence && *sentence ? sentence : tetstream_status_name(status));
+  if (!sentence || !*sentence) throw Failure(status, tetstream_status_name(status));
+  throw Failure(status, withoutFunction(status, sentence));
 }
 
 // A creating function gives a handle also when it fails, for the message.

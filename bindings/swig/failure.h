@@ -22,6 +22,10 @@ class Failure : public std::runtime_error {
   tetstream_status status_;
 };
 
+// What the library said, without the C function that a sentence on misuse begins with: it is not
+// the one that a user of a language called.
+std::string withoutFunction(tetstream_status status, const std::string& sentence);
+
 // Throws a TETSTREAM_BAD_ARGUMENT.
 [[noreturn]] void failArgument(const std::string& sentence);
 

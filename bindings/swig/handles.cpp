@@ -201,6 +201,12 @@ tetstream_region_comparison Comparison::getRegion(int32_t index) const {
   });
 }
 
+tetstream_face_label_comparison Comparison::getFaceLabel(int32_t index) const {
+  return filled<tetstream_face_label_comparison>([&](tetstream_face_label_comparison& out) {
+    check(tetstream_comparison_get_face_label(handle_.get(), index, &out), handle_);
+  });
+}
+
 void Comparison::write(const char* path, const char* title) {
   check(inLibrary([&] { return tetstream_comparison_write(handle_.get(), path, title); }), handle_);
 }

@@ -54,7 +54,8 @@ class Reader {
   static Reader* openFile(const char* path, const char* format, const Options& options);
   static Reader* openResult(const char* path, const char* format, const Options& options);
   static Reader* openMemory(const ArrayView& bytes, const char* format, const Options& options);
-  static Reader* openMesh(const StreamInfo& info, StreamBatch& mesh);
+  // With `from_one`, points and, in messages, rows are numbered from 1.
+  static Reader* openMesh(const StreamInfo& info, StreamBatch& mesh, bool from_one);
   static Reader* generate(const char* kind, int64_t cells, int64_t seed);
   // `next` is called with an empty StreamBatch to fill.
   static Reader* create(const StreamInfo& info, const Function& next);
@@ -153,6 +154,7 @@ class Comparison {
   tetstream_mesh_figures getMesh(int32_t mesh) const;
   tetstream_field_comparison getField(int32_t index) const;
   tetstream_region_comparison getRegion(int32_t index) const;
+  tetstream_face_label_comparison getFaceLabel(int32_t index) const;
   void write(const char* path, const char* title);
 
  private:

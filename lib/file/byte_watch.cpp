@@ -11,9 +11,8 @@ using Clock = std::chrono::steady_clock;
 
 static constexpr std::chrono::milliseconds kPause{20};
 
-namespace {
-
-// When the thread that made it is to tell, and no other.
+// When the thread that made it is to tell, and no other. note: not in the unnamed namespace, as a
+// class that the header declares has one.
 class Turn {
  public:
   bool come() {
@@ -28,8 +27,6 @@ class Turn {
   const std::thread::id thread_ = std::this_thread::get_id();
   Clock::time_point told_{};
 };
-
-}  // namespace
 
 // Helpers may read, too, and count.
 struct ByteWatch::State {

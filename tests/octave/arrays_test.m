@@ -33,6 +33,15 @@ assert (class (F.id), "int32");
 assert (all (ismember (F.id, fields.id)));
 assert (F.v(:,2), 2 * F.v(:,1), 1e-6);
 
+## Logicals are integers on the way, and logicals again.
+[P, T, F, S] = tetstream_simplify (points, cells, struct ("p", field, "hot", field > 1), "ratio", 0.2, ...
+                                   "cell_data", struct ("low", cells(:,1) < 99), "regions", "none");
+assert (class (F.hot), "logical");
+assert (class (S.cell_data.low), "logical");
+assert (any (F.hot) && ! all (F.hot));
+mesh = struct ("points", points, "cells", cells, "fields", struct ("hot", field > 1));
+assert (tetstream_info (mesh).ranges.hot, [0; 1]);
+
 ## Without fields there are none.
 [P, T, F] = tetstream_simplify (points, cells, [], "ratio", 0.3);
 assert (size (F), [rows(P), 0]);
@@ -93,12 +102,45 @@ refused ("points is a complex double", points * i, cells, field);
 refused ("points is a double of size [8 3 2]", zeros (8, 3, 2), cells, field);
 refused ("points is a cell", {points}, cells, field);
 refused ("field is a complex double", points, cells, field * i);
-refused ("field is logical", points, cells, field > 0);
+refused ("field is uint8; double, single, int32, int64 or logical", points, cells, uint8 (field));
 refused ("weights: a struct", points, cells, field, "weights", 3);
 refused ("the weight of \"field\"", points, cells, field, "weights", struct ("field", "x"));
 refused ("regions is a cell", points, cells, field, "regions", {1});
 refused ("locked is a cell", points, cells, field, "locked", {1, 2});
 refused ("face_labels and locked_faces", points, cells, field, "face_labels", 1);
-refused ("option \"ratio\"", points, cells, field, "ratio", 0.5i);
+refused ("option \"ratio\" is given twice", points, cells, field, "ratio", 0.5);
+refused = @(part, varargin) fails ("tetstream:bad-argument", part, ...
+  @() tetstream_simplify (points, cells, field, varargin{:}));
+refused ("option \"ratio\" is a double", "ratio", 0.5i);
+refused ("option \"boundary-weight\" is given twice", "cells", 9, "boundary_weight", 3, "boundary-weight", 3);
+refused ("option \"progress\" is given twice", "cells", 9, "progress", [], "progress", []);
+refused ("\"ratio\", 0 is no target", "ratio", 0, "cells", 9);
+refused ("\"cells\", 0 is no target", "cells", "0");
+refused ("\"error\", 0 is no target", "error", 0);
+refused ("option \"cells\": 1000.5 is no integer", "cells", 1000.5);
+refused ("option \"vertex_map\" is a cell", "cells", 9, "vertex_map", {1});
+refused ("face_labels: labels are integers", "cells", 9, "faces", bottom, "face_labels", bottom(:,1) / 2);
+
+## Numbers in messages are the caller's, from 1 on; no function of C's is named.
+wrong = @(part, points, cells, field) fails ("tetstream:bad-data", part, ...
+  @() tetstream_simplify (points, cells, field, "ratio", 0.5));
+bad = field;
+bad(4) = NaN;
+wrong ("point 4: its field is not finite", points, cells, bad);
+bad = points;
+bad(4,2) = Inf;
+wrong ("point 4: its position is not finite", bad, cells, field);
+for type = {"double", "int32"}
+  bad = feval (type{1}, cells);
+  bad(5,2) = bad(5,1);
+  wrong (sprintf ("cell 5: point %d is there twice", bad(5,1)), points, bad, field);
+endfor
+fails ("tetstream:bad-data", "labelled face 2 is the face of no cell", ...
+       @() tetstream_simplify (points, cells, field, "ratio", 0.5, "faces", [bottom(1,:); 1, 2, 729]));
+try
+  tetstream_simplify (points, cells, field, "ratio", 7);
+catch raised
+  assert (strtok (raised.message, ":"), "option \"ratio\"");
+end_try_catch
 fails ("tetstream:target-missed", "are left", @() tetstream_simplify ...
        (points, cells, field, "ratio", 0.1, "locked", true (rows (points), 1)));

@@ -33,6 +33,7 @@ assert (figures.simplified.cells, report.cells_out);
 assert (figures.fields.von_mises.rms_percent > 0 && figures.fields.von_mises.rms_percent < 5);
 assert (figures.topology_kept, 1);
 assert (! isempty (strfind (fileread (at ("both.svg")), "<svg")));
+assert (isempty (figures.face_labels));
 
 ## Read, written, and the same again.
 mesh = tetstream_read (at ("small.vtu"));
@@ -101,6 +102,17 @@ fails ("tetstream:bad-argument", "option \"order\" does not count here", ...
 fails ("tetstream:bad-argument", "split", ...
        @() tetstream_simplify_stream (@() [], @(batch) 0, "cells", 5, "split", "yes"));
 
+faced = setfield (setfield (cube, "faces", cube.cells([1, 1],1:3)), "face_labels", [7; 8]);
+faced.faces(2,:) = cube.cells(1,2:4);
+figures = tetstream_compare (faced, faced);
+assert ([figures.face_labels.label], [7, 8]);
+assert ([figures.face_labels.simplified_faces], [1, 1]);
+fails ("tetstream:bad-argument", "fields: a struct of arrays by name", ...
+       @() tetstream_info (setfield (cube, "fields", 5)));
+fails ("tetstream:bad-argument", "option \"map_file\": a text", ...
+       @() tetstream_simplify_file (cube, at ("none.tets"), "cells", 5, "map_file", 3));
+fails ("tetstream:bad-argument", "option \"picture\": a text", ...
+       @() tetstream_compare (cube, cube, "picture", 3));
 fails ("tetstream:io", "nothing.vtu", @() tetstream_info (at ("nothing.vtu")));
 fails ("tetstream:bad-argument", "not a double", @() tetstream_convert (mesh, 3));
 fails ("tetstream:bad-argument", "\"compress\" is a text", ...

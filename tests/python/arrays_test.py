@@ -249,6 +249,11 @@ class Refused(unittest.TestCase):
         self.refused(tetstream.BadArgument, "mode", p, c, mode="fast")
         self.refused(TypeError, "there is no option quality; there are ratio, cells", p, c, quality=3)
         self.refused(TypeError, "window: an int is wanted, not float", p, c, window=3.5)
+        for wrong in (numpy.float32(3.5), float("inf"), float("nan")):
+            self.refused(TypeError, "cells: an int is wanted, not float", p, c, cells=wrong)
+        self.refused(tetstream.BadArgument, "seed: .*64 bits", p, c, seed=1e19)
+        with self.assertRaisesRegex(tetstream.BadArgument, '^option "mode": "fast" is none of'):
+            tetstream.simplify(p, c, ratio=0.5, mode="fast")  # no function of C's is named
         self.refused(TypeError, "axis: a str", p, c, axis=1)
         self.refused(TypeError, "ratio: a number is wanted, not ndarray", p, c, ratio=p[0])
         with self.assertRaisesRegex(AttributeError, "rato"):
@@ -256,6 +261,11 @@ class Refused(unittest.TestCase):
         self.refused(tetstream.BadArgument, "seed: .*64 bits", p, c, seed=2 ** 63)
         with self.assertRaisesRegex(TypeError, "a target is missing"):
             tetstream.simplify(p, c)
+
+    def test_integers_may_be_written_as_floats(self):
+        few = tetstream.simplify(self.points, self.cells, cells=4e1, memory=numpy.float32(5e7))
+        same = tetstream.simplify(self.points, self.cells, cells=40, memory=50000000)
+        numpy.testing.assert_array_equal(few.cells, same.cells)
 
     def test_an_empty_mesh_is_an_empty_mesh(self):
         result = tetstream.simplify(numpy.zeros((0, 3)), numpy.zeros((0, 4), int), {"f": []},

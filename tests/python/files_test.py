@@ -1,6 +1,8 @@
 """Files: the same bytes as the command's, and the same arrays."""
+import errno
 import os
 import pathlib
+import pickle
 import tempfile
 import unittest
 
@@ -150,6 +152,21 @@ class Files(unittest.TestCase):
             tetstream.convert(self.path("in.vtu"), self.path(name))
             self.assertEqual(tetstream.info(os.fsencode(self.path(name))).cell_count,
                              len(self.cells))
+
+    def test_a_file_that_is_not_there_is_pythons_error(self):
+        missing, mesh = self.path("nowhere.tets"), tetstream.Mesh(self.points, self.cells)
+        for read in (tetstream.read, tetstream.Reader.file, lambda path: tetstream.compare(mesh, path),
+                     lambda path: tetstream.simplify_file(path, self.path("out.tets"), ratio=0.5)):
+            with self.assertRaisesRegex(FileNotFoundError, "nowhere.tets: cannot open") as caught:
+                read(missing)
+            self.assertIsInstance(caught.exception, tetstream.InputOutput)
+            self.assertEqual((caught.exception.errno, caught.exception.filename, caught.exception.status),
+                             (errno.ENOENT, str(missing), -5))
+        copied = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((str(copied), copied.filename), (str(caught.exception), str(missing)))
+        with self.assertRaises(tetstream.InputOutput) as caught:
+            tetstream.Reader.file(self.folder, "tets")
+        self.assertNotIsInstance(caught.exception, FileNotFoundError)
 
     def test_failures_are_those_of_python(self):
         with self.assertRaisesRegex(OSError, "nowhere.tets"):

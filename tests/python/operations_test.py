@@ -128,6 +128,32 @@ class Operations(unittest.TestCase):
         for name in ("boundary_weight", "tmpdir", "order"):
             self.assertIn(f"        {name}: ", tetstream.simplify.__doc__)
 
+    def test_options_are_a_mapping_of_what_was_set(self):
+        options = tetstream.Options(ratio=0.25, memory="64M", cells=1e3, tmpdir=None,
+                                    weights={"f": 2})
+        options.boundary_weight = 3
+        self.assertEqual(dict(options), {"ratio": 0.25, "memory": 64 * 2 ** 20, "cells": 1000,
+                                         "weights": {"f": 2}, "boundary_weight": 3})
+        self.assertEqual(repr(tetstream.Options(ratio=0.5)), "Options(ratio=0.5)")
+        self.assertEqual(tetstream.Options(**options), options)
+        with self.assertRaises(KeyError):
+            options["seed"]
+        kept = self.mesh.simplify(**tetstream.Options(ratio=0.25, weights={"f": 1}))
+        given = self.mesh.simplify(ratio=0.25, weights={"f": 1})
+        numpy.testing.assert_array_equal(kept.points, given.points)
+        with self.assertRaisesRegex(TypeError, "no option weights"):
+            tetstream.info(self.mesh, **tetstream.Options(weights={"f": 1}))
+
+    def test_labels_of_faces_are_compared(self):
+        bottom = [[p for p in cell if self.points[p, 2] == 0] for cell in self.cells
+                  if (self.points[cell, 2] == 0).sum() == 3]
+        self.mesh.faces, self.mesh.face_labels = bottom, numpy.full(len(bottom), 7)
+        found = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2))
+        self.assertEqual(list(found.face_labels), [7])
+        self.assertEqual(found.face_labels[7].original_faces, len(bottom))
+        self.assertLess(0, found.face_labels[7].simplified_faces)
+        self.assertAlmostEqual(found.face_labels[7].simplified_area, 1, places=3)
+
     def test_progress_of_opening(self):
         mesh = tetstream.read(tetstream.Reader.generate("ball", 1000))
         with tempfile.TemporaryDirectory() as folder:

@@ -3,10 +3,10 @@
 ## How well a simplified mesh stands for its original; each is a path, or a mesh in a struct.
 ## figures: a struct: fields, a struct of field to its error: rms, rms_percent (of the range), largest,
 ##   cpsnr, ...; original and simplified: cells, volume, components, least_angle, ... of each;
-##   regions: a struct array by label; topology_kept; distance, between the boundaries; only_original
-##   and only_simplified, cells with the names of fields that the other mesh does not have; and the
-##   other members of tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes'
-##   units.
+##   regions and face_labels: struct arrays by label; topology_kept; distance, between the boundaries;
+##   only_original and only_simplified, cells with the names of fields that the other mesh does not
+##   have; and the other members of tetstream_comparison_info in tetstream_comparison(3), lengths in
+##   the meshes' units.
 ##
 ## Pairs: "weights", a struct of field to weight: only these are compared, those of weight 0 left out;
 ##   "samples", "boundary-samples", "seed", "box", "regions", "memory", "tmpdir", "threads"; "step",
@@ -20,7 +20,7 @@ function figures = tetstream_compare (original, simplified, varargin)
     print_usage ();
   endif
   caller = "tetstream_compare";
-  own = struct ("weights", [], "progress", [], "picture", []);
+  own = struct ("weights", [], "progress", [], "picture", "");
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_COMPARE, varargin);
   if (! isempty (own.picture) && strcmp (options.get_text (tetstream_core.OPTION_CUT), "none"))
@@ -41,12 +41,15 @@ function figures = tetstream_compare (original, simplified, varargin)
     field = comparison.get_field (i);
     figures.fields.(field.name) = field;
   endfor
-  figures.regions = [];
-  for i = 0:(figures.region_count - 1)
-    figures.regions = [figures.regions, comparison.get_region(i)];
-  endfor
+  figures.regions = all_of (@(i) comparison.get_region (i), figures.region_count);
+  figures.face_labels = all_of (@(i) comparison.get_face_label (i), figures.face_label_count);
   figures.notes = notes_of (first, second);
   if (! isempty (own.picture))
     comparison.write (own.picture, []);
   endif
+endfunction
+
+## A struct array of what `get` gives for 0, 1, ..., count - 1.
+function found = all_of (get, count)
+  found = [arrayfun(get, 0:(count - 1), "UniformOutput", false){:}];
 endfunction

@@ -5,7 +5,7 @@
 ## points: n x 3, double or single, in any unit of length.
 ## cells: m x 4, the rows of `points` of each cell, from 1 on, in either orientation.
 ## fields: values at the points, in any units: n x k, or a struct of such arrays by name, or [].
-##   double and single are interpolated, int32 and int64 picked.
+##   double and single are interpolated, int32, int64 and logical picked.
 ## P, T, F are the same of the result; F is a struct if `fields` was one. S has more of it: report,
 ##   what was done; cell_data; regions; locked; faces, face_labels; label_names; and the vertex map.
 ##
@@ -43,7 +43,7 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
                 "vertex_map", false, "progress", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
-  need_target (caller, varargin);
+  need_target (caller, options, varargin);
   mesh = struct ("points", {points}, "cells", {cells}, "fields", {named(fields)},
                  "cell_data", {own.cell_data}, "locked", {own.locked}, "faces", {own.faces},
                  "face_labels", {own.face_labels}, "locked_faces", {own.locked_faces},
@@ -67,6 +67,8 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
   simplifier.run (reader);
 
   S = collected (collector, class (cells));
+  S.fields = with_logicals (S.fields, mesh.fields);
+  S.cell_data = with_logicals (S.cell_data, mesh.cell_data);
   P = S.points;
   T = S.cells;
   F = S.fields;
@@ -77,7 +79,7 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
     endif
   endif
   S = rmfield (S, {"points", "cells", "fields"});
-  if (isnumeric (own.regions))
+  if (! ischar (own.regions))
     S.regions = S.cell_data.(label);
     S.cell_data = rmfield (S.cell_data, label);
   endif
@@ -96,6 +98,15 @@ function fields = named (fields)
   endif
 endfunction
 
+## Arrays of the result, which are logical again where those were.
+function arrays = with_logicals (arrays, given)
+  for [values, name] = given
+    if (islogical (values))
+      arrays.(name) = logical (arrays.(name));
+    endif
+  endfor
+endfunction
+
 ## Labels of the caller's become one more cell array, whose name is the option.
 function [mesh, label] = with_regions (caller, mesh, regions)
   label = regions;
@@ -110,11 +121,7 @@ function [mesh, label] = with_regions (caller, mesh, regions)
   while (any (strcmp (label, used)))
     label = [label "_"];
   endwhile
-  need_rows (caller, "regions", regions);
-  if (any (regions(:) != fix (regions(:))))
-    error ("tetstream:bad-argument", "%s: regions: labels are integers", caller);
-  endif
-  mesh.cell_data.(label) = int64 (regions(:));
+  mesh.cell_data.(label) = core_labels (caller, "regions", regions);
 endfunction
 
 %!demo

@@ -19,10 +19,10 @@ function report = tetstream_simplify_file (source, target, varargin)
     print_usage ();
   endif
   caller = "tetstream_simplify_file";
-  own = struct ("weights", [], "progress", [], "map_file", [], "log_file", [], "properties", []);
+  own = struct ("weights", [], "progress", [], "map_file", "", "log_file", "", "properties", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
-  need_target (caller, varargin);
+  need_target (caller, options, varargin);
   [reader, kept] = made_reader (caller, source, options);
   writer = made_writer (target, own.properties);
   simplifier = tetstream_core.Simplifier (options, writer, own.progress);

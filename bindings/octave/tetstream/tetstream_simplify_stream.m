@@ -9,7 +9,8 @@
 ##   from 1 on, counted through all batches), cell_data (struct of m x k), last_uses (m x 4 logicals:
 ##   no later cell uses that point), finalized (points that no later cell uses); faces, face_labels,
 ##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries;
-##   its label_names, as in tetstream_read, are the stream's.
+##   its label_names, as in tetstream_read, are the stream's. Messages number points and cells of the
+##   stream from 0.
 ## writer: a function that is called with such batches.
 ## report: what was done.
 ##
@@ -36,7 +37,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
                 "front_span", -1, "front_cells", -1, "indexed", false, "weights", [], "progress", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
-  need_target (caller, varargin);
+  need_target (caller, options, varargin);
   refuse_reading (caller, options, "a stream");
   state = containers.Map ("KeyType", "char", "ValueType", "any");  # what the writer is told when it begins
   core_writer = tetstream_core.Writer_create (@(info) begun (state, info),
@@ -51,7 +52,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   endfor
   simplifier.begin (info);
   while (has_any (batch))
-    [events, kept] = filled_batch (caller, batch, Inf);
+    [events, kept] = filled_batch (caller, batch, 0, Inf);
     simplifier.push (events);
     batch = complete_mesh (caller, next_batch (reader));
   endwhile

@@ -16,7 +16,7 @@ from ._records import LayoutReport, Progress, Record, Report, StreamInfo
 from ._simplify import simplify, simplify_batches, simplify_file
 from ._streams import Batch, Reader, Writer
 from .errors import (BadArgument, BadData, BadState, CallbackFailed, Cancelled, Error, InputOutput,
-                     InternalError, NoMemory, TargetMissedWarning, Unsupported)
+                     InternalError, NoMemory, NoSuchFile, TargetMissedWarning, Unsupported)
 
 __version__ = f"{_core.VERSION_MAJOR}.{_core.VERSION_MINOR}.{_core.VERSION_PATCH}"
 

@@ -1,7 +1,7 @@
 # Types of the package. Shapes and units stand in the docstrings. tests/python/stubs_test.py compares
 # names and parameters with what is there, and the options with the library's table.
 import os
-from collections.abc import Callable, Generator, Iterable, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any, Literal, TypedDict, Union
 
@@ -21,9 +21,9 @@ _Told = Union[Callable[["Progress"], object], bool, None]
 
 # Where options count; regions are an argument of their own where arrays are simplified.
 class _Reading(TypedDict, total=False):
-    memory: int | str
+    memory: float | str
     tmpdir: str
-    threads: int | str
+    threads: float | str
     split: Literal["no", "yes"] | bool
     recover: Literal["no", "yes"] | bool
     step: str | int
@@ -36,32 +36,32 @@ class _Ordering(_Reading, total=False):
 
 class _Simplifying(_Ordering, total=False):
     ratio: float | str
-    cells: int | str
+    cells: float | str
     error: float | str
     boundary_weight: float | str
     field_range: Literal["free", "keep"]
     feature_angle: float | str
     mode: Literal["sweep", "paper", "queue"]
-    seed: int | str
+    seed: float | str
     quadric: Literal["determinant", "garland-zhou"]
-    candidates: int | str
+    candidates: float | str
     pilot: Literal["auto", "none"]
     release: Literal["order", "error"]
     balance: Literal["auto", "none"]
     effort: Literal["normal", "high"]
     shape: Literal["field", "solver"]
-    window: int | str
+    window: float | str
 
 class _SimplifyingRegions(_Simplifying, total=False):
     regions: str
 
 class _Comparing(_Reading, total=False):
     regions: str
-    seed: int | str
-    samples: int | str
+    seed: float | str
+    samples: float | str
     cut: str
     box: str
-    boundary_samples: int | str
+    boundary_samples: float | str
 
 class _AllOptions(_SimplifyingRegions, _Comparing, total=False): ...
 
@@ -75,6 +75,7 @@ class BadState(Error, RuntimeError): ...
 class NoMemory(Error, MemoryError): ...
 class BadData(Error, ValueError): ...
 class InputOutput(Error, OSError): ...
+class NoSuchFile(InputOutput, FileNotFoundError): ...
 class Unsupported(Error, ValueError): ...
 class Cancelled(Error): ...
 class CallbackFailed(Error): ...
@@ -101,11 +102,23 @@ class Report(Record):
     vertices_out: int
     target_cells: int
     window_cells: int
+    front_width: int
+    front_span: int
+    front_cells: int
+    collapses: int
+    rejected_orientation: int
+    rejected_link: int
+    rejected_locked: int
+    rejected_other: int
+    locked_cells: int
+    unused_vertices: int
+    largest_error: float
     estimated_error: float
     volume_in: float
     volume_out: float
     seconds: float
     peak_window_bytes: int
+    peak_resident_bytes: int
     regions: str
     limited_by: str
     reached: str
@@ -117,7 +130,11 @@ class LayoutReport(Record):
     order: str
     vertices: int
     cells: int
+    unused_vertices: int
     front_width: int
+    front_span: int
+    front_cells: int
+    temporary_bytes: int
     seconds: float
     notes: list[str]
 
@@ -132,6 +149,7 @@ class StreamInfo(Record):
     front_width: int
     front_span: int
     front_cells: int
+    front: Record
     indexed: bool
     box: NDArray[numpy.float64] | None
     ranges: dict[str, NDArray[numpy.float64] | None]
@@ -142,8 +160,22 @@ class Diagram(Record):
     widths: NDArray[numpy.int64]
     lowest: NDArray[numpy.int64]
     newest: NDArray[numpy.int64]
+    cell_count: int
+    vertex_count: int
     front_width: int
     front_span: int
+    front_cells: int
+    mean_width: float
+    mean_span: float
+    mean_life: float
+    longest_life: int
+    widest_cell: int
+    longest_cell: int
+    columns: int
+    rows: int
+    cells_per_column: int
+    vertices_per_row: int
+    notes: list[str]
     def plot(self, ax: Any = None, **look: Any) -> Any: ...
     def write(self, path: _Path, title: str | None = None) -> None: ...
 
@@ -152,39 +184,58 @@ class Comparison(Record):
     simplified: Record
     fields: dict[str, Record]
     regions: dict[int, Record]
+    face_labels: dict[int, Record]
     labels: str
     only_original: list[str]
     only_simplified: list[str]
+    notes: list[str]
+    field_count: int
+    region_count: int
+    face_label_count: int
     topology_kept: int
-    distance: float
+    is_exact: int
+    samples: int
+    boundary_samples: int
+    diagonal: float
+    compared_cells: int
+    compared_volume: float
     outside_volume: float
+    repeated_volume: float
+    distance: float
+    rms_distance: float
+    distance_place: tuple[float, float, float]
+    distance_back: float
+    rms_distance_back: float
+    distance_back_place: tuple[float, float, float]
+    seconds: float
+    peak_bytes: int
     def write(self, path: _Path, title: str | None = None) -> None: ...
 
-class Options:
+class Options(Mapping[str, Any]):
     ratio: float | str
-    cells: int | str
+    cells: float | str
     error: float | str
     boundary_weight: float | str
     field_range: str
     regions: str
     feature_angle: float | str
     mode: str
-    seed: int | str
+    seed: float | str
     quadric: str
-    candidates: int | str
+    candidates: float | str
     pilot: str
     release: str
     balance: str
     effort: str
     shape: str
-    samples: int | str
+    samples: float | str
     cut: str
     box: str
-    boundary_samples: int | str
-    window: int | str
-    memory: int | str
+    boundary_samples: float | str
+    window: float | str
+    memory: float | str
     tmpdir: str
-    threads: int | str
+    threads: float | str
     axis: str
     order: str
     split: str
@@ -192,8 +243,12 @@ class Options:
     cells_to_points: str
     recover: str
     step: str
-    def __init__(self, **values: Unpack[_AllOptions]) -> None: ...
+    def __init__(self, *, weights: Mapping[str, float] | None = None,
+                 **values: Unpack[_AllOptions]) -> None: ...
     def add_field(self, name: str, weight: float = 1.0) -> None: ...
+    def __getitem__(self, name: str) -> Any: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
 
 # ----------------------------------------------------------------------------------- meshes
 

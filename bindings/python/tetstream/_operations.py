@@ -115,6 +115,7 @@ class Comparison(Record):
     fields: dict of name to the error of the field: rms, rms_percent (of the range), largest, ...
     regions: dict of label to figures; labels: what was taken as labels, in words.
     only_original, only_simplified: names of fields that the other mesh does not have.
+    face_labels: dict of label to figures of the labelled faces.
     topology_kept, distance (between boundaries), outside_volume and the other members of
     tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
     """
@@ -150,6 +151,7 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
     figures = compared.get_info()
     fields = [Record.copied(compared.get_field(i)) for i in range(figures.field_count)]
     regions = [Record.copied(compared.get_region(i)) for i in range(figures.region_count)]
+    faces = [Record.copied(compared.get_face_label(i)) for i in range(figures.face_label_count)]
     return Comparison.copied(
         figures, original=Record.copied(compared.get_mesh(core.ORIGINAL)),
         simplified=Record.copied(compared.get_mesh(core.SIMPLIFIED)),
@@ -157,6 +159,7 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
         regions={region.label: region for region in regions}, labels=figures.regions,
         only_original=[name for name in figures.only_original.split("\n") if name],
         only_simplified=[name for name in figures.only_simplified.split("\n") if name],
+        face_labels={label.label: label for label in faces},
         notes=[note for reader in readers for note in reader.notes], _core=compared)
 
 

@@ -1,4 +1,6 @@
-"""The library's options as properties, made from its own table."""
+"""The library's options as properties and as a mapping, made from its own table."""
+import collections.abc
+import functools
 import operator
 
 import numpy
@@ -58,9 +60,10 @@ class _Row:
 
 
 def whole(name, value, bits=64):
-    """An int of so many bits."""
+    """An int of so many bits; 1e6 is one, too."""
+    is_whole = isinstance(value, (float, numpy.floating)) and float(value).is_integer()
     try:
-        number = operator.index(value)
+        number = operator.index(int(value) if is_whole else value)
     except TypeError:
         raise TypeError(f"{name}: an int is wanted, not {type(value).__name__}") from None
     if not -2 ** (bits - 1) <= number < 2 ** (bits - 1):
@@ -78,46 +81,61 @@ def _real(name, value):
 ROWS = {row.name: row for row in map(_Row, range(core.option_count()))}
 
 
-class Options:
-    """The options of a run, each a property; those that are not set have their defaults.
+def _named(name):
+    if name not in ROWS:
+        raise TypeError(f"there is no option {name}; there are {', '.join(ROWS)}")
+    return ROWS[name]
 
-    ``Options(ratio=0.1, memory="64M")``; numbers may be given as text, with a suffix k, M or G.
+
+class Options(collections.abc.Mapping):
+    """Options to be kept, checked when they are set, and given to several runs:
+
+        options = tetstream.Options(ratio=0.1, memory="64M", weights={"pressure": 1})
+        options.boundary_weight = 3
+        tetstream.simplify_file("jet.vtu", "jet-10.vtu", **options)
+
+    Each is a property; those that are not set have their defaults. Numbers may be given as text,
+    with a suffix k, M or G. As a mapping it has what was set, as numbers where they are numbers.
     """
 
-    __slots__ = ("_handle", "_weights")  # the name of an option that is misspelt is none
+    __slots__ = ("_handle", "_set")  # the name of an option that is misspelt is none
 
-    def __init__(self, **values):
-        self._handle, self._weights = core.Options(), {}
+    def __init__(self, *, weights=None, **values):
+        self._handle, self._set = core.Options(), {}
         for name, value in values.items():
-            if name not in ROWS:
-                raise TypeError(f"there is no option {name}; there are {', '.join(ROWS)}")
+            row = _named(name)
             if value is not None:
-                setattr(self, name, value)
+                setattr(self, row.name, value)
+        for name, weight in _arrays.named("weights", weights).items():
+            self.add_field(name, weight)
 
     def add_field(self, name, weight=1.0):
         """Measures this field with this weight; 0: carried along. Fields that are not named are
         then carried."""
         self._handle.add_field(name, _real(f'the weight of "{name}"', weight))
-        self._weights[name] = weight
+        self._set["weights"] = {**self._set.get("weights", {}), name: weight}
+
+    def __getitem__(self, name):
+        return self._set[name]
+
+    def __iter__(self):
+        return iter(self._set)
+
+    def __len__(self):
+        return len(self._set)
 
     def __reduce__(self):
-        return _rebuilt, ({name: getattr(self, name) for name in ROWS}, self._weights)
+        return functools.partial(Options, **self), ()
 
     def __repr__(self):
-        return f"Options({', '.join(f'{name}={getattr(self, name)!r}' for name in ROWS)})"
-
-
-def _rebuilt(values, weights):
-    """A copy of Options, also out of a pickle."""
-    options = Options(**values)
-    for name, weight in weights.items():
-        options.add_field(name, weight)
-    return options
+        return f"Options({', '.join(f'{name}={value!r}' for name, value in self.items())})"
 
 
 def _add_property(row):
-    setattr(Options, row.name, property(lambda self: row.get(self._handle),
-                                        lambda self, value: row.set(self._handle, value),
+    def put(self, value):
+        row.set(self._handle, value)
+        self._set[row.name] = row.get(self._handle)
+    setattr(Options, row.name, property(lambda self: row.get(self._handle), put,
                                         doc=row.describe()))
 
 
@@ -139,9 +157,10 @@ _DOING = {core.SCOPE_READ: "opened", core.SCOPE_ORDER: "ordered or copied",
 def made(values, scope, weights=None):
     """Options from keyword arguments, each of which counts there, and a dict of fields' weights."""
     for name, value in values.items():
-        if name in ROWS and value is not None and not ROWS[name].scope & (scope | core.SCOPE_READ):
+        row = _named(name)
+        if value is not None and not row.scope & (scope | core.SCOPE_READ):
             raise TypeError(f"the option {name} does not count where a mesh is {_DOING[scope]}")
-    return _rebuilt(values, _arrays.named("weights", weights))
+    return Options(weights=weights, **values)
 
 
 def documented(scope):

@@ -5,7 +5,7 @@ import numpy
 
 from . import _arrays, _labels, _mesh, _options, core
 from ._records import Record, StreamInfo
-from .errors import BadArgument
+from .errors import BadArgument, InputOutput, NoSuchFile
 
 
 class Batch:
@@ -63,7 +63,7 @@ class _Schema:
             info.add_cell_data(name, column[1], column[0])
         _labels.add(info, label_names)
         for name, count in counts.items():
-            setattr(info, name, count)
+            setattr(info, name, _options.whole(name, count))
         return cls(info)
 
     def fill(self, target, batch):
@@ -195,7 +195,7 @@ class Reader:
         """A file; `format` is a name such as "vtu", or None: by the path's ending. Options of the
         reading, such as `step` or `split`, count here alone."""
         made = _options.made(options, core.SCOPE_READ)
-        return cls(core.Reader.open_file(path, format, made._handle))
+        return cls(_opened(core.Reader.open_file, path, format, made))
 
     @classmethod
     def memory(cls, data, format, **options):
@@ -244,7 +244,7 @@ class Reader:
             raise BadArgument("face_labels and locked_faces are of `faces`, which are not there")
         if mesh.locked_edges is not None:
             put(batch.set_locked_edges, _arrays.wide_ids("locked_edges", mesh.locked_edges, 2))
-        return cls(core.Reader.open_mesh(info, batch), kept)
+        return cls(core.Reader.open_mesh(info, batch, False), kept)
 
     @classmethod
     def stream(cls, mesh):
@@ -427,10 +427,25 @@ def _closing(generator, finish):
     return end
 
 
+def _opened(open_file, path, format, options):
+    """The library's reader of a file."""
+    try:
+        return open_file(path, format, options._handle)
+    except InputOutput as failure:
+        # The library's status does not tell which refusal it was.
+        try:
+            os.stat(path)
+        except FileNotFoundError as missing:
+            raise NoSuchFile(missing.errno, str(failure), os.fspath(path)) from None
+        except OSError:
+            pass
+        raise
+
+
 def _reader_of(source, open_file, options, tell):
     if isinstance(source, (str, bytes, os.PathLike)):
         options._handle.set_progress(tell)
-        return Reader(open_file(source, None, options._handle))
+        return Reader(_opened(open_file, source, None, options))
     if isinstance(source, Reader):
         return source
     if isinstance(source, _mesh.Mesh):

@@ -41,6 +41,13 @@ class InputOutput(Error, OSError):
     status = -5
 
 
+class NoSuchFile(InputOutput, FileNotFoundError):
+    """The file to read is not there. ``filename`` and ``errno`` are as Python has them."""
+
+    def __str__(self):
+        return self.strerror
+
+
 class Unsupported(Error, ValueError):
     """Valid, but this build or this format cannot hold it."""
 

@@ -17,6 +17,9 @@ function mesh = complete_mesh (caller, mesh)
   for name = {"fields", "cell_data"}
     if (isempty (whole.(name{1})))
       whole.(name{1}) = struct ();
+    elseif (! isstruct (whole.(name{1})))
+      error ("tetstream:bad-argument", "%s: %s: a struct of arrays by name is wanted, not a %s", caller,
+             name{1}, class (whole.(name{1})));
     endif
   endfor
   mesh = whole;

@@ -1,6 +1,6 @@
-## ids = core_ids (caller, name, values, width, count): numbers of points from 1 on as the library's
-## from 0 on, int64, or int32 if they are; 0 < each <= count, which may be Inf.
-function ids = core_ids (caller, name, values, width, count)
+## ids = core_ids (caller, name, values, width, first, count): numbers of points from 1 on as the
+## library's from `first` on, int64, or int32 if they are; 0 < each <= count, which may be Inf.
+function ids = core_ids (caller, name, values, width, first, count)
   need_rows (caller, name, values);
   if (! isnumeric (values) || columns (values) != width)
     error ("tetstream:bad-argument", "%s: %s: %d columns are wanted, the size is %s", caller, name,
@@ -15,5 +15,5 @@ function ids = core_ids (caller, name, values, width, count)
   if (! isa (values, "int32"))
     values = int64 (values);
   endif
-  ids = values - 1;
+  ids = values - (1 - first);
 endfunction

@@ -1,6 +1,7 @@
-## [batch, kept] = filled_batch (caller, mesh, count): the library's batch of a mesh or a batch, with
-## point numbers up to `count`. It is good as long as `kept` is.
-function [batch, kept] = filled_batch (caller, mesh, count)
+## [batch, kept] = filled_batch (caller, mesh, first, count): the library's batch of a mesh or a batch,
+## with point numbers up to `count`, which the library has from `first` on. It is good as long as
+## `kept` is.
+function [batch, kept] = filled_batch (caller, mesh, first, count)
   tetstream_core;
   batch = tetstream_core.StreamBatch ();
   kept = {};
@@ -15,7 +16,7 @@ function [batch, kept] = filled_batch (caller, mesh, count)
                         @(array) batch.add_field (array), kept);
   endif
   if (! isempty (mesh.cells))
-    kept{end+1} = core_rows (core_ids (caller, "cells", mesh.cells, 4, count));
+    kept{end+1} = core_rows (core_ids (caller, "cells", mesh.cells, 4, first, count));
     batch.set_cells (kept{end});
     kept = add_columns (caller, mesh.cell_data, rows (mesh.cells), "cells",
                         @(array) batch.add_cell_data (array), kept);
@@ -41,7 +42,7 @@ function [batch, kept] = filled_batch (caller, mesh, count)
                             "faces", {{3, @(array) batch.set_faces (array)}},
                             "locked_edges", {{2, @(array) batch.set_locked_edges (array)}})
     if (! isempty (mesh.(name)))
-      kept{end+1} = core_rows (int64 (core_ids (caller, name, mesh.(name), set{1}, count)));
+      kept{end+1} = core_rows (int64 (core_ids (caller, name, mesh.(name), set{1}, first, count)));
       set{2} (kept{end});
     endif
   endfor
@@ -50,8 +51,7 @@ function [batch, kept] = filled_batch (caller, mesh, count)
     if (isempty (labels))
       labels = zeros (rows (mesh.faces), 1);
     endif
-    need_rows (caller, "face_labels", labels);
-    kept{end+1} = core_rows (int64 (labels(:)));
+    kept{end+1} = core_rows (core_labels (caller, "face_labels", labels));
     batch.set_face_labels (kept{end});
   elseif (! isempty (mesh.face_labels) || ! isempty (mesh.locked_faces))
     error ("tetstream:bad-argument",
@@ -64,6 +64,9 @@ function kept = add_columns (caller, arrays, count, of, add, kept)
     if (rows (values) != count)
       error ("tetstream:bad-argument", "%s: %s has %d rows, there are %d %s", caller, name,
              rows (values), count, of);
+    endif
+    if (islogical (values))
+      values = int32 (values);
     endif
     kept{end+1} = core_rows (values);
     add (kept{end});

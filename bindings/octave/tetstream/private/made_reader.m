@@ -20,6 +20,6 @@ function [reader, kept] = made_reader (caller, source, options, role = "")
   endif
   info = announced (caller, mesh);
   info.is_indexed = true;
-  [batch, kept] = filled_batch (caller, mesh, rows (mesh.points));
-  reader = tetstream_core.Reader_open_mesh (info, batch);
+  [batch, kept] = filled_batch (caller, mesh, 1, rows (mesh.points));
+  reader = tetstream_core.Reader_open_mesh (info, batch, true);
 endfunction

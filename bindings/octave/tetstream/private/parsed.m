@@ -5,6 +5,7 @@ function [options, own] = parsed (caller, own, scope, arguments)
   tetstream_core;
   options = tetstream_core.Options ();
   rows = table ();
+  given = {};
   if (mod (numel (arguments), 2) != 0)
     error ("tetstream:bad-argument", "%s: options come in pairs of name and value", caller);
   endif
@@ -14,7 +15,12 @@ function [options, own] = parsed (caller, own, scope, arguments)
       error ("tetstream:bad-argument", "%s: the name of an option is a %s", caller, class (name));
     endif
     plain = strrep (name, "-", "_");
+    if (any (strcmp (plain, given)))
+      error ("tetstream:bad-argument", "%s: option \"%s\" is given twice", caller, name);
+    endif
+    given{end+1} = plain;
     if (isfield (own, plain))
+      need_like (caller, name, own.(plain), value);
       own.(plain) = value;
     elseif (isfield (rows, plain))
       if (! bitand (rows.(plain).scope, bitor (scope, tetstream_core.SCOPE_READ)))
@@ -43,24 +49,49 @@ function [options, own] = parsed (caller, own, scope, arguments)
   endif
 endfunction
 
+## The default tells what is wanted: "" a text, false a logical, -1 an integer; the others are looked
+## at where they are used.
+function need_like (caller, name, default, value)
+  if (ischar (default) && isempty (default) && ! ischar (value))
+    error ("tetstream:bad-argument", "%s: option \"%s\": a text is wanted, not a %s", caller, name,
+           class (value));
+  elseif (islogical (default) || isequal (default, -1))
+    need_number (caller, name, value);
+  endif
+  if (isequal (default, -1))
+    need_integer (caller, name, value);
+  endif
+endfunction
+
+function need_number (caller, name, value)
+  if (! (isnumeric (value) || islogical (value)) || ! isscalar (value) || ! isreal (value))
+    error ("tetstream:bad-argument", "%s: option \"%s\" is a %s of size %s", caller, name,
+           class (value), mat2str (size (value)));
+  endif
+endfunction
+
+function need_integer (caller, name, value)
+  if (value != fix (value))
+    error ("tetstream:bad-argument", "%s: option \"%s\": %g is no integer", caller, name, value);
+  endif
+endfunction
+
 ## A text is read as on a command line: "2G", "1e6".
 function set_option (caller, options, row, value)
   tetstream_core;
   if (ischar (value))
     options.parse (row.name, value);
-  elseif (! (isnumeric (value) || islogical (value)) || ! isscalar (value) || ! isreal (value))
-    error ("tetstream:bad-argument", "%s: option \"%s\" is a %s of size %s", caller, row.name,
-           class (value), mat2str (size (value)));
-  elseif (islogical (value) && strcmp (row.choices, "no yes"))
+    return;
+  endif
+  need_number (caller, row.name, value);
+  if (islogical (value) && strcmp (row.choices, "no yes"))
     options.set_text (row.id, {"no", "yes"}{1 + value});
   elseif (strcmp (row.name, "step") && value == fix (value))
     options.set_text (row.id, sprintf ("%d", value));
   elseif (row.type == tetstream_core.OPTION_IS_TEXT)
     error ("tetstream:bad-argument", "%s: option \"%s\": a text is wanted", caller, row.name);
   elseif (row.type == tetstream_core.OPTION_IS_INT64)
-    if (value != fix (value))
-      error ("tetstream:bad-argument", "%s: option \"%s\": %g is no integer", caller, row.name, value);
-    endif
+    need_integer (caller, row.name, value);
     options.parse (row.name, sprintf ("%d", value));
   else
     options.set_double (row.id, double (value));
