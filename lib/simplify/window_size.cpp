@@ -50,7 +50,7 @@ int64_t WindowSize::forFront(int64_t front) const {
 bool WindowSize::gainsWhole() const {
   if (options_.error > 0) return false;
   const auto count = static_cast<double>(schema_.cell_count);
-  const double ratio = options_.ratio > 0 || options_.cells > 0 ? options_.ratio : kUsualRatio;
+  const double ratio = options_.countsCells() ? options_.ratio : kUsualRatio;
   const double left = std::max(ratio * count, static_cast<double>(options_.cells));
   return kStrongReduction * left <= count && kMildReduction * left >= count;
 }

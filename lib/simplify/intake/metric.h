@@ -23,8 +23,10 @@ class Metric {
   void addCells(uint32_t first, uint32_t end) noexcept;
   // Then the same: how thin they are is looked at, which another thread may do beside it.
   void sampleAngles(uint32_t first, uint32_t end);
-  // In the end the vertices of flat ones are locked, and the floor is chosen.
+  // In the end the vertices of flat ones are locked.
   void settle(uint32_t first, uint32_t end);
+  // When the faces at their vertices are known: which angles of cells count.
+  void chooseAngles(uint32_t first, uint32_t end);
 
  private:
   void growBox(uint32_t first, uint32_t end);
@@ -43,7 +45,8 @@ class Metric {
   double volumeOf(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);
   bool isRegular(uint32_t cell) const;
-  void chooseFloor();
+  void sampleWalls(uint32_t first, uint32_t end);
+  bool isWall() const;
 
   Core<S>& core_;
   std::vector<ThinAngle> floors_;  // falling
@@ -51,6 +54,7 @@ class Metric {
   std::vector<ThinAngle> dear_;
   std::vector<int64_t> below_, below_near_, below_dear_;  // of the cells sampled
   int64_t sampled_ = 0, seen_ = 0;                        // cells
+  int64_t wall_cells_ = 0, wall_sampled_ = 0;             // all of whose corners are on faces; all
   bool box_known_, unit_known_ = false;
   double length_unit_ = 1, fields_together_ = 1;
   std::vector<double> low_, high_;  // x y z, then measured components

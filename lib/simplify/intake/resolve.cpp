@@ -28,8 +28,7 @@ void Resolver<S>::addToLinks(uint32_t cell, const unsigned flags[4]) {
                 &core_.window.outRank(0));
 }
 
-// Tells corners that are new of their first cell, and whether cells of different regions meet
-// there.
+// Tells new corners of their first cell, and whether cells of different regions meet there.
 template <class S>
 void Resolver<S>::tellCorners(uint32_t cell, const unsigned flags[4], const CellLabels& labels) {
   Topology& mesh = core_.window.mesh;
@@ -172,6 +171,7 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
     for (size_t i = 0; i < listed; ++i) window.scratch()[open_[done + i]] = 0;
     done += listed;
   }
+  metric_.chooseAngles(first_new, mesh.cellEnd());
   return front;
 }
 
@@ -347,10 +347,9 @@ void Resolver<S>::resolveFaces(uint32_t v) {
     } else if (cells == 2) {
       if ((edge[0].key & 1) == (edge[1].key & 1)) lockFold(a, b);
       const int64_t* label = labelOf(edge[0].cell, edge[1].cell, v, a, b);
-      if (labels.differ(edge[0].cell, edge[1].cell))
-        addFace(v, a, b, SheetFace::kInterface, label);
-      else if (label)
-        addFace(v, a, b, SheetFace::kInner, label);
+      const bool differ = labels.differ(edge[0].cell, edge[1].cell);
+      const SheetFace kind = differ ? SheetFace::kInterface : SheetFace::kInner;
+      if (differ || label) addFace(v, a, b, kind, label);
     } else {
       lockNonManifold(v);  // a face of three cells or more
     }
@@ -392,8 +391,8 @@ void Resolver<S>::pickSamples(const uint32_t* vertices, size_t count) {
 // Of the range of the fields: smaller errors are alike.
 constexpr double kLeastFieldError = 1e-5;
 
-// From what was picked, before it has the quadrics of its sheets. Where there is too little of it
-// no star is looked at, which may be as large as the window; those of interfaces will be anyway.
+// From what was picked, before it has the quadrics of its sheets. Of too little no star is looked
+// at, which may be as large as the window; those of interfaces will be anyway.
 template <class S>
 void Resolver<S>::balance(const uint32_t* vertices, size_t count) {
   const auto isFew = [](const Sampled& group) {
@@ -408,8 +407,8 @@ void Resolver<S>::balance(const uint32_t* vertices, size_t count) {
   costs.inside.vertices = static_cast<double>(sampled_[2].of);
   const double least = kLeastFieldError * core_.extent;
   for (const Sampled& group : sampled_) costs.least_field += least * least * group.volume;
-  const Balance known = core_.balance;
-  core_.balance = {};  // costs are those of the weights that were asked for
+  // Costs are those of the weights that were asked for.
+  const Balance known = std::exchange(core_.balance, {});
   sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
   if (is_enough) {
     sample.addTouching(sampled_[0].vertices, vertices, count);
@@ -483,8 +482,8 @@ void Resolver<S>::forSheetsOf(const std::vector<uint32_t>& vertices, SheetFace k
     const auto is_told = [&](const SampledFace& face) {
       return (mesh.vertexFlags(face.a) | mesh.vertexFlags(face.b)) & kResolved;
     };
-    if (faces.empty() || std::any_of(faces.begin(), faces.end(), is_told)) return;
-    visit(v, faces, is_plain);
+    if (!faces.empty() && std::none_of(faces.begin(), faces.end(), is_told))
+      visit(v, faces, is_plain);
   });
 }
 

@@ -180,11 +180,10 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
   }
 }
 
-// A limit on the error is reached by the bound alone.
 template <class S>
 bool SweepSelector<S>::isStoppedByFloor(const Tally& before, int64_t cells_before) const {
   if (core_.shapesFirst() || core_.thin.degrees <= kLeastFloor ||
-      std::isfinite(core_.error_limit) || core_.window.liveCells() <= goal_.cells)
+      core_.window.liveCells() <= goal_.cells)
     return false;
   const int64_t thin = core_.tally.rejected_thin - before.rejected_thin;
   return thin > kThinToDone * (core_.tally.collapses - before.collapses) &&

@@ -42,8 +42,8 @@ template <class S>
 double SweepBounds<S>::start(const Goal& goal, double unit) {
   unit_ = unit;
   yield_ = kFirstYield;
-  const bool must_reach =
-      goal.last && core_.options.last_resort && !std::isfinite(core_.error_limit);
+  const bool is_by_error = std::isfinite(core_.error_limit) && !core_.options.countsCells();
+  const bool must_reach = goal.last && core_.options.last_resort && !is_by_error;
   reach_ = must_reach ? &kWorth : nullptr;
   return std::min(goal.first_bound * unit / std::pow(goal.step, goal.approaches), kLargestBound);
 }

@@ -32,6 +32,7 @@ struct SimplifyOptions {
   double ratio = 0;   // cells out / cells in
   int64_t cells = 0;  // cells out
   double error = 0;   // RMS error of the measured fields, percent of their range
+  bool countsCells() const { return ratio > 0 || cells > 0; }
   std::vector<std::pair<std::string, double>> fields;  // measured, with weights; empty: all with 1
   double boundary_weight = 10;
   BalanceUse balance = BalanceUse::kAuto;  // of the boundary's weight and the fields
