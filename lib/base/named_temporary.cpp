@@ -114,8 +114,8 @@ void NamedTemporary::close() {
   if (::close(written) != 0) failIo(path_, "write");
 }
 
-// Under a name like those of temporary files, with more digits: were the process killed now, the
-// next one would remove it. A file system without links keeps nothing.
+// Gives the old file a second name, of the form of our temporary files: if the process is killed
+// now, the next run removes it. A file system without links keeps nothing.
 void NamedTemporary::keepOld() {
   old_ = temporary_ + "0000";
   ::unlink(old_.c_str());

@@ -22,7 +22,7 @@ static void writeBlocksTo(SpoolFile& file, const std::vector<unsigned char>& byt
   }
 }
 
-// As a piece of work: writes what waits. One that comes late finds nothing.
+// run() writes what waits, on a helper's thread; if it comes late nothing waits.
 class RowSpool::Behind final : public Work {
  public:
   Behind(SpoolFile& file, size_t block_bytes) : file_(file), block_bytes_(block_bytes) {}

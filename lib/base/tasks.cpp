@@ -22,8 +22,8 @@ size_t coresToUse() {
   return std::max<size_t>(cores > 0 ? cores : std::thread::hardware_concurrency(), 1);
 }
 
-// What is shared out at the time. As a piece of work: helps with it. One that comes late helps with
-// what is shared out by then, or finds nothing.
+// What is shared out at the time. run() helps with it, on a helper's thread; if it comes late it
+// helps with what is shared out by then, or finds nothing.
 class Tasks::Parts final : public Work {
  public:
   void run() noexcept override {

@@ -7,7 +7,7 @@
 namespace tetstream {
 
 bool Waiting::forBytes(int fd) const noexcept {
-  // Looks anew as often: whether it was ended, and at what `fd` is now, which the handler of a
+  // Looks anew each time: whether it was ended, and at what `fd` is now, which the handler of a
   // signal may have put in its place.
   constexpr int kMilliseconds = 50;
   while (!is_over_.load(std::memory_order_relaxed)) {

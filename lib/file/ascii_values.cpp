@@ -1,5 +1,5 @@
 // Values that stand in a file as text, read in sequence. So that a reader can go back without
-// starting anew, the place of every so-manieth value is kept.
+// starting anew, the place of every n-th value is kept.
 #include <algorithm>
 #include <cstring>
 #include <optional>

@@ -15,9 +15,12 @@ namespace tetstream {
 
 constexpr int64_t kLastStep = -1;
 
-// Points at the same place, which become one: everywhere, or only where each cell has points of its
-// own, or never but where pieces of a parallel run meet.
-enum class PointJoining : uint8_t { kAuto, kYes, kNo };
+// Where points at the same place become one.
+enum class PointJoining : uint8_t {
+  kAuto,  // everywhere in a mesh of which no two cells share a point; else as kNo
+  kYes,   // everywhere
+  kNo     // only where pieces of a parallel run meet
+};
 
 struct ReadOptions {
   std::string temp_dir;                          // for spools; empty: $TMPDIR or /tmp

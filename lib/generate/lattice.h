@@ -18,7 +18,7 @@ struct Lattice {
 
   int64_t vertexCount() const { return (side + 1) * (side + 1) * (depth + 1); }
   int64_t cubeCount() const { return side * side * depth; }
-  // A number of a vertex's own, whatever the order: random numbers hang on it.
+  // A number of a vertex's own, whatever the order: random numbers depend on it.
   uint64_t vertexNumber(int64_t a, int64_t b, int64_t c) const {
     return static_cast<uint64_t>((c * (side + 1) + b) * (side + 1) + a);
   }

@@ -17,7 +17,7 @@ struct OrderedCell {
 
 class OrderedCells {
  public:
-  // `sorts`: by the highest rank, equal ones as they are in the mesh; otherwise as they are.
+  // `sorts`: cells by their highest rank, ties as in the mesh; else they stay in the mesh's order.
   // `front`: takes them from the last to the first; may be null.
   OrderedCells(IndexedSource& source, RankedVertices& vertices, bool sorts,
                RankedVertices::Budget budget, CellFront* front, const Tell& tell);

@@ -60,7 +60,7 @@ void growBox(const PieceColumn& column, size_t row, uint64_t point, Schema& sche
   }
 }
 
-// Places are checked as such.
+// `measured` is of the fields: positions are checked by checkPlace.
 std::vector<PieceColumn> columnsOf(const Schema& schema, const std::vector<bool>& measured) {
   std::vector<PieceColumn> columns;
   size_t place = 0, in_box = 0;

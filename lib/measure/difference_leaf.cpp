@@ -117,7 +117,7 @@ void FieldDifference::Leaf::addParts(size_t count) {
   whole_.tell(0);
 }
 
-// Work on rows that hang on nothing but themselves.
+// Work on rows that depend on nothing but themselves.
 template <class Work>
 void FieldDifference::Leaf::inParts(size_t count, Work work) {
   inPieces(

@@ -28,9 +28,9 @@ class Bricks {
   void count(const double place[3]) { ++cells_[codeOf(place) + 1]; }
   // or those that another one of the same box counted;
   void addCounts(const Bricks& other);
-  // then bricks are taken, one for each of `wanted` equal parts of the vertices, but for a part
-  // that has its vertices in the brick before. As many as wanted would have about `share` of the
-  // vertices together.
+  // then a brick is taken for each of `wanted` equal parts of the vertices, but for a part whose
+  // first vertex lies in the brick before. All together have about `share` of the vertices if none
+  // is skipped.
   void take(size_t wanted, double share);
 
   size_t size() const { return cuts_.size(); }

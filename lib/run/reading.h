@@ -8,8 +8,8 @@
 
 namespace tetstream {
 
-// Whether batches are on their way beside the run. A memory budget is for one, as it is for a
-// single patch.
+// Whether other threads read and write batches while the run works. Not with a memory budget, which
+// covers one batch and one patch.
 bool overlaps(const RunOptions& options, const Tasks& tasks);
 
 // The stream, or another reading of it, read ahead where that may be, and takes longer than another

@@ -36,7 +36,7 @@ struct RunOptions {
   CompareOptions compare;
 };
 
-// That are to be at work at once.
+// How many threads a run uses.
 size_t threadsOf(const RunOptions& options);
 
 // One simplification. Pull: run. Push: begin, put as often as wanted, finish; an indexed mesh that

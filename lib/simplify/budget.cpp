@@ -15,7 +15,7 @@ constexpr double kTrust = 0.2;
 // be brought back. With 0.02 two windows in sixty of real meshes had too little left for it.
 constexpr double kReserve = 0.04;
 // Cells that are not written when they are due, for the end: where few are asked for, the last ones
-// hang on the shape of what is left.
+// depend on the shape of what is left.
 constexpr double kHeldBack = 10;
 // A window that had to pass its bound to make room shows where the next one will end, too.
 constexpr double kAgain = 0.8;

@@ -13,7 +13,7 @@
 
 namespace tetstream {
 
-// As a piece of work: goes on as long as it may. One that comes late finds the queue closed. At
+// run() goes on as long as it may, on a helper's thread; if it comes late the queue is closed. At
 // most one thread at a time goes on, and at most one more is expected to.
 class BatchQueue : public Work {
  public:

@@ -31,7 +31,7 @@ static tetstream_options* options_with(const char* name, const char* value) {
 }
 
 /* Slow runs take fewer points of boundaries, and fewer pixels, of which there are more with more
- * memory: nothing that is looked at hangs on their number. */
+ * memory: nothing that is looked at depends on their number. */
 static tetstream_comparison* comparison_with(const char* name, const char* value) {
   tetstream_options* options = options_with(name, value);
   if (getenv("TETSTREAM_SLOW") && name && strcmp(name, "cut") == 0)

@@ -126,7 +126,7 @@ static int32_t sees_pilot(void* user, const tetstream_progress* progress) {
   return 0;
 }
 
-/* What can be read twice is, where that is allowed; the bytes hang on nothing else. */
+/* What can be read twice is, where that is allowed; the bytes depend on nothing else. */
 static void pull_twice_from(tetstream_reader* reader, int pilot, const char* way) {
   rig r = rig_create_with_pilot("tets", "auto");
   int flown = 0;

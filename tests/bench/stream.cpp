@@ -1,6 +1,6 @@
 // stream KIND CELLS float32|float64 FIELD...: the mesh that `tetstream generate` makes, with
 // positions and fields of that type and those fields only, to standard output as uncompressed
-// .tets. What memory a simplification takes hangs on both, and the command makes one mesh only.
+// .tets. What memory a simplification takes depends on both, and the command makes one mesh only.
 #include <unistd.h>
 
 #include <cstdio>

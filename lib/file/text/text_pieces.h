@@ -32,7 +32,7 @@ struct Helpers {
   bool areHere() const;
 };
 
-// As a piece of work: reads the numbers of pieces that wait. One that comes late finds none.
+// run() reads the numbers of pieces that wait, on a helper's thread; if it comes late none wait.
 class TextPieces final : public Work {
  public:
   // The text's next bytes; fewer than asked for only at the end, or if *fails, when more may come.

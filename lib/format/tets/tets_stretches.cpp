@@ -6,7 +6,8 @@
 
 namespace tetstream::tets {
 
-// A part of fewer is not worth a thread, nor one that has more of others' cells than a share.
+// A part has at least so many chunks, and at most this share of its cells is read only for the
+// vertices that come before its own.
 constexpr uint64_t kLeastChunks = 4;
 constexpr double kMostOfOthers = 0.5;
 

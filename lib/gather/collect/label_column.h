@@ -11,8 +11,8 @@
 namespace tetstream {
 
 // An array of integers, one to a cell: that of the name, which is how the format's arrays are
-// called elsewhere; else the first one with names for its labels; else the first one of which the
-// cells of no process and no ids are told. `may(column)`: whether the format can hold it.
+// called elsewhere; else the first one with names for its labels; else the first one that tells no
+// processes and does not look like ids. `may(column)`: whether the format can hold it.
 std::optional<size_t> labelColumn(MeshSpool& mesh, const char* name,
                                   const std::function<bool(size_t)>& may);
 

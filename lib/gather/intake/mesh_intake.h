@@ -26,8 +26,8 @@ class MeshIntake {
 
   MeshSpool& mesh() { return *mesh_; }
   uint64_t cellCount() const { return mesh_->cellCount() + held_; }
-  // Integer cell data, int32 unless `wide`; before the first cell. Not there if all are 0, unless
-  // they are `sure` to have been.
+  // Integer cell data, int32 unless `wide`; before the first cell. At the end the column is removed
+  // if all its values are 0, unless it is `sure`.
   void addLabels(const char* name, bool wide = false, bool sure = false);
 
   // The same of points, all of one column; before the first point.

@@ -14,8 +14,8 @@ namespace tetstream {
 // are thin: it stays small beside the window, and takes nothing where the mesh has none.
 //
 // Patches that are worked on at the same time ask and merge at the same time: a lock keeps the hash
-// whole. What they are told does not hang on who comes first, since nobody else merges a vertex of
-// theirs, and a vertex on their rim, which another patch may have on its own, stays on as many
+// whole. What they are told does not depend on who comes first, since nobody else merges a vertex
+// of theirs, and a vertex on their rim, which another patch may have on its own, stays on as many
 // curves: collapses that would make two edges one are not legal.
 class Curves {
  public:

@@ -39,8 +39,8 @@ uint8_t Reshaper<S>::marksOf(uint32_t c) const {
   return static_cast<uint8_t>(marks);
 }
 
-// Whether a flip is found at a cell hangs on the cells that share an edge with it: on the vertices
-// of the cells of its vertices.
+// Whether a flip is found at a cell depends on the cells that share an edge with it: on the
+// vertices of the cells of its vertices.
 template <class S>
 void Reshaper<S>::markNear() {
   for (uint32_t c = 0; c < patch_.cellEnd(); ++c) {

@@ -234,7 +234,7 @@ bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   return more;
 }
 
-// Whether what a tile does may hang on the one before, whatever lies between them: on the error
+// Whether what a tile does may depend on the one before, whatever lies between them: on the error
 // made so far, where it has a limit; the hash of labelled faces, common to all.
 template <class S>
 bool SweepSelector<S>::worksInOrder() const {

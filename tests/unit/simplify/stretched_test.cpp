@@ -131,7 +131,7 @@ TEST(Stretched, MeshesAreToTheSolversModeAsToAny) {
 }
 
 // A third of the cells have 2.3 degrees, the others 45: which of a cube's are looked at for the
-// floor must not hang on where in it they come. With every sixteenth, three of the six, the floor
+// floor must not depend on where in it they come. With every sixteenth, three of the six, the floor
 // was 3, far more than there were below it already, and cells became as good as flat.
 TEST(Stretched, MeshesHaveTheirFloorInWhateverOrderTheirCellsCome) {
   const TestMesh grid = fullGrid(16, 16, 8);

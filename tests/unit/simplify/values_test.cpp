@@ -212,7 +212,7 @@ TEST(SimplifierValues, OfConstantCellDataStayConstant) {
 
 // Some values whose means are zero. Over the volumes that the cells end with they are not exactly
 // conserved, but nearly: the sum of |d| is over 300, a gradient in it would be lost with one cell
-// in a hundred. What one of them comes to hangs on chance, the mean of some does not.
+// in a hundred. What one of them comes to is chance, the mean of some does not.
 TEST(SimplifierValues, OfCellDataStayBetweenTheirEnds) {
   TestMesh mesh = fullGrid(6, 6, 6, 0.1);
   constexpr int kColumns = 10;
