@@ -50,13 +50,7 @@ static ByteWatch::Tell openingTold(const tetstream_options* settings) {
   };
 }
 
-// Opens the bytes as `format` and reads the header. `path` where they are a file's.
-static void openBytes(tetstream_reader& reader, const Format& format,
-                      std::unique_ptr<ByteSource> bytes, const tetstream_options* settings,
-                      const std::string& path = "") {
-  if (!format.open)
-    fail(Status::kUnsupported, "the format \"%s\" is written, but not read", format.name);
-  const RunOptions run = runOptionsOf(settings);
+static ReadOptions readOptionsOf(const RunOptions& run) {
   ReadOptions options;
   options.temp_dir = run.temp_dir;
   options.split = run.split == "yes";
@@ -64,10 +58,32 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   options.join = run.join_points == "yes"  ? PointJoining::kYes
                  : run.join_points == "no" ? PointJoining::kNo
                                            : PointJoining::kAuto;
+  options.step = parseStep(run.step);
+  return options;
+}
+
+// What was asked for and this input does not have.
+static void checkUses(const Input& input, const ReadOptions& options, const std::string& name) {
+  if (options.join == PointJoining::kYes && input.stream)
+    fail(Status::kUnsupported, "%s: points of streams are not joined (option join-points)",
+         name.c_str());
+  if (options.step > 0 && !input.has_steps)
+    fail(Status::kUnsupported,
+         "%s: there is no time step %lld (option step, --step): there are none to choose from",
+         name.c_str(), static_cast<long long>(options.step));
+}
+
+// Opens the bytes as `format` and reads the header. `path` where they are a file's.
+static void openBytes(tetstream_reader& reader, const Format& format,
+                      std::unique_ptr<ByteSource> bytes, const tetstream_options* settings,
+                      const std::string& path = "") {
+  if (!format.open)
+    fail(Status::kUnsupported, "the format \"%s\" is written, but not read", format.name);
+  const RunOptions run = runOptionsOf(settings);
+  ReadOptions options = readOptionsOf(run);
   if (options.recover && !format.recovers)
     fail(Status::kUnsupported, "%s: only .tets files can be recovered, not those of format \"%s\"",
          bytes->name().c_str(), format.name);
-  options.step = parseStep(run.step);
   // As in a run, whose option `memory` is for one thread.
   if (settings) reader.workers = settings->values->workers();
   const size_t threads = run.simplify.memory_bytes > 0 ? 1 : threadsOf(run);
@@ -82,14 +98,8 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   std::shared_ptr<Waiting> waiting = bytes->waiting();
   const std::string name = bytes->name();
   reader.input = format.open(std::move(bytes), options);
-  if (options.join == PointJoining::kYes && reader.input.stream)
-    fail(Status::kUnsupported, "%s: points of streams are not joined (option join-points)",
-         name.c_str());
+  checkUses(reader.input, options, name);
   if (run.cells_to_points == "yes") takeCellsToPoints(reader.input, run.temp_dir, name);
-  if (options.step > 0 && !reader.input.has_steps)
-    fail(Status::kUnsupported,
-         "%s: there is no time step %lld (option step, --step): there are none to choose from",
-         name.c_str(), static_cast<long long>(options.step));
   const std::string unmeasured = unmeasuredNote(reader.input);
   if (!unmeasured.empty()) options.note(name + ": " + unmeasured);
   reader.input.stays_with_caller = false;

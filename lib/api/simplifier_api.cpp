@@ -27,11 +27,11 @@ static void dropRun(tetstream_simplifier& s) noexcept {
 
 // Runs a body that reads or writes the stream; what leaves it as an exception breaks the handle.
 template <class Body>
-static tetstream_status inStream(tetstream_simplifier& s, Body&& body) {
+static Status inStream(tetstream_simplifier& s, Body&& body) {
   const Busy busy(s);
   s.reported = false;
   try {
-    return statusOf(body);
+    return static_cast<Status>(statusOf(body));
   } catch (...) {
     dropRun(s);
     s.output->stop(State::kBroken);
@@ -114,7 +114,7 @@ tetstream_status tetstream_simplifier_run(tetstream_simplifier* simplifier,
     needState(s, State::kReady);
     needUnread(reader, "reader");
     s.output->needReady();
-    return static_cast<Status>(inStream(s, [&] { return pull(s, *reader); }));
+    return inStream(s, [&] { return pull(s, *reader); });
   });
 }
 
@@ -125,14 +125,14 @@ tetstream_status tetstream_simplifier_begin(tetstream_simplifier* simplifier,
     const tetstream_stream_info stream = readStruct(info, "info");
     const Schema schema = schemaOf(stream);
     s.output->needReady();
-    return static_cast<Status>(inStream(s, [&] {
+    return inStream(s, [&] {
       startRun(s);
       s.batches.emplace(schema);
       if (s.output->mustRound(schema)) s.rounding.emplace(schema);
       s.run->begin(s.rounding ? s.rounding->schema() : schema,
                    (stream.flags & TETSTREAM_STREAM_INDEXED) != 0);
       s.state = State::kRunning;
-    }));
+    });
   });
 }
 
@@ -142,7 +142,7 @@ tetstream_status tetstream_simplifier_push(tetstream_simplifier* simplifier,
     needState(s, State::kRunning);
     s.output->needRunning();
     const tetstream_batch events = readStruct(batch, "batch");
-    return static_cast<Status>(inStream(s, [&] { push(s, events); }));
+    return inStream(s, [&] { push(s, events); });
   });
 }
 
@@ -150,10 +150,10 @@ tetstream_status tetstream_simplifier_finish(tetstream_simplifier* simplifier) {
   return guard(__func__, simplifier, [&](tetstream_simplifier& s) {
     needState(s, State::kRunning);
     s.output->needRunning();
-    return static_cast<Status>(inStream(s, [&] {
+    return inStream(s, [&] {
       s.run->finish();
       return endRun(s);
-    }));
+    });
   });
 }
 

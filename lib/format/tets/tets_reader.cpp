@@ -46,8 +46,8 @@ class Reader final : public Source {
   void checkChunkColumns();
   void checkRange(size_t column, const char* what) const;
   void checkOrder(size_t column, const char* what) const;
-  void readIndex();
-  void readTotals();
+  void checkIndex();
+  void checkTotals();
   void readEnd();
   void skipUnknown();
 
@@ -143,9 +143,9 @@ bool Reader::nextChunk() {
     else if (losses_ && head.is(kEnd))
       ended_ = losses_->complete = true;
     else if (head.is(kIndex))
-      readIndex();
+      checkIndex();
     else if (head.is(kTotals))
-      readTotals();
+      checkTotals();
     else if (head.is(kEnd))
       readEnd();
     else
@@ -290,7 +290,7 @@ void Reader::checkChunkColumns() {
            in_.place().c_str(), n, uses[n]);
 }
 
-void Reader::readIndex() {
+void Reader::checkIndex() {
   const SectionHead& head = in_.head();
   const IndexOwn own = head.get<IndexOwn>();
   if (head.value != not_indexed_.size() || own.entry_bytes < sizeof(IndexEntry) ||
@@ -308,7 +308,7 @@ void Reader::readIndex() {
   last_index_ = in_.at();
 }
 
-void Reader::readTotals() {
+void Reader::checkTotals() {
   const auto differ = [this](const char* what, int64_t claimed, int64_t real) {
     if (claimed >= 0 && claimed != real)
       fail(Status::kBadData, "%s: %lld %s are claimed, %lld have come", in_.place().c_str(),

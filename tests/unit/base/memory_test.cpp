@@ -226,7 +226,7 @@ TEST(ConvertScalars, KeepsValues) {
   convertScalars(nullptr, ScalarType::kInt32, nullptr, ScalarType::kFloat64, 0);
 }
 
-TEST(ScalarType, KnowsItself) {
+TEST(ScalarType, KnowsItsKindAndSize) {
   EXPECT_FALSE(isKnown(static_cast<ScalarType>(0)));
   EXPECT_FALSE(isKnown(static_cast<ScalarType>(5)));
   EXPECT_TRUE(isFloat(ScalarType::kFloat64));

@@ -133,7 +133,7 @@ TEST(Exodus, OtherBlocksAreSplitIfAskedFor) {
   EXPECT_EQ(labelled.face_labels, (std::vector<int64_t>{30}));
 }
 
-TEST(Exodus, SaysWhatIsWrong) {
+TEST(Exodus, SaysWhichVariableIsWrong) {
   const auto failure = [](auto change) {
     NetcdfMaker m = twoBlocks();
     change(m);

@@ -175,7 +175,7 @@ TEST(VtkHdf, ReadsColumnsOfManyChunks) {
   EXPECT_TRUE(readAs("vtkhdf", writtenAs("vtkhdf", mesh), 777) == mesh);
 }
 
-TEST(VtkHdf, SaysWhatIsWrong) {
+TEST(VtkHdf, SaysWhichArrayIsWrong) {
   const auto failure = [](const std::function<void(Parts&)>& change) {
     Parts parts;
     change(parts);

@@ -254,7 +254,7 @@ TEST(XdmfBeside, LabelsStandBesideACollectionOverTime) {
   EXPECT_EQ(labelsOfFaces(mesh), (LabelsOfFaces{{{0, 1, 2}, 7}}));
 }
 
-TEST(XdmfBeside, SaysWhatIsWrong) {
+TEST(XdmfBeside, SaysWhichGridIsWrong) {
   const auto failure = [](const std::string& topology, const std::string& values) {
     return failureAs("xdmf", besideTwoCells("tags", topology, values));
   };

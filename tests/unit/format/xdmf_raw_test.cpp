@@ -81,7 +81,7 @@ TEST_F(XdmfRaw, NumbersOfAnyTypeAndByteOrderAreReadWhereTheyLie) {
   }
 }
 
-TEST_F(XdmfRaw, SaysWhatIsWrong) {
+TEST_F(XdmfRaw, SaysWhatIsWrongWithAFile) {
   write(bytesOfNumbers(std::vector<float>(15)));
   const auto failure = [&](const std::string& sizes, const std::string& words) {
     return failureAs("xdmf", file(kTextCells, raw(sizes, words)));

@@ -127,7 +127,7 @@ TEST_F(XdmfReferences, AreFollowedThroughSlabsAndOtherReferences) {
             kTwoCells);
 }
 
-TEST_F(XdmfReferences, SaysWhatIsWrong) {
+TEST_F(XdmfReferences, SaysWhichLeadNowhere) {
   const auto failure = [](const std::string& named, const std::string& cells) {
     return failureAs("xdmf", xdmfFile(named + kNamedPoints + gridOf(cells, ofDomain("vertices"))));
   };

@@ -34,7 +34,7 @@ bool completes(const Connectivity& mesh, const Array<uint32_t>& rank, uint32_t v
   return false;
 }
 
-TEST(BreadthFirst, theNextVertexIsANeighbourOfTheOldestAndCompletesACellIfOneDoes) {
+TEST(BreadthFirst, TheNextVertexIsANeighbourOfTheOldestAndCompletesACellIfOneDoes) {
   const BreadthFirstOrder ordered(shuffled(fullGrid(2, 3, 4), 4));
   const Connectivity& mesh = ordered.mesh.connectivity;
   const auto neighbours = neighboursOf(mesh);
@@ -57,7 +57,7 @@ TEST(BreadthFirst, theNextVertexIsANeighbourOfTheOldestAndCompletesACellIfOneDoe
   }
 }
 
-TEST(BreadthFirst, theSpanIsAtMostOneAndAHalfTimesTheWidthOfABar) {
+TEST(BreadthFirst, TheSpanIsAtMostOneAndAHalfTimesTheWidthOfABar) {
   const int n = slowRun() ? 3 : 6;
   BreadthFirstOrder ordered(shuffled(fullGrid(n, n, 8 * n), 1));
   const OrderFront front = ordered.front();
@@ -68,7 +68,7 @@ TEST(BreadthFirst, theSpanIsAtMostOneAndAHalfTimesTheWidthOfABar) {
   EXPECT_GT(ordered.told, 3);
 }
 
-TEST(BreadthFirst, beginsOnTheBoundaryAtAnEnd) {
+TEST(BreadthFirst, BeginsOnTheBoundaryAtAnEnd) {
   const TestMesh bar = fullGrid(3, 3, 24);
   const BreadthFirstOrder ordered(bar);
   for (uint32_t v = 0; v < bar.vertexCount(); ++v) {
@@ -78,7 +78,7 @@ TEST(BreadthFirst, beginsOnTheBoundaryAtAnEnd) {
   }
 }
 
-TEST(BreadthFirst, ranksEachVertexOnceComponentAfterComponent) {
+TEST(BreadthFirst, RanksEachVertexOnceComponentAfterComponent) {
   for (const TestMesh& mesh : oddMeshes()) {
     const BreadthFirstOrder ordered(mesh);
     EXPECT_EQ(ordered.rank.size(), mesh.vertexCount());
@@ -87,13 +87,13 @@ TEST(BreadthFirst, ranksEachVertexOnceComponentAfterComponent) {
   }
 }
 
-TEST(BreadthFirst, isTheSameTwice) {
+TEST(BreadthFirst, IsTheSameTwice) {
   const TestMesh mesh = shuffled(shellGrid(5), 3);
   const BreadthFirstOrder a(mesh), b(mesh);
   EXPECT_TRUE(std::equal(a.rank.data(), a.rank.data() + a.rank.size(), b.rank.data()));
 }
 
-TEST(BreadthFirst, stopsWhenItIsToldTo) {
+TEST(BreadthFirst, StopsWhenItIsToldTo) {
   OrderMesh mesh(fullGrid(3, 3, 3));
   for (int at = 0; at < 6; ++at) {
     Account account;

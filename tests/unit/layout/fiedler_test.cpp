@@ -53,7 +53,7 @@ struct Solved {
   std::array<double, 4> values;
 };
 
-TEST(Fiedler, ofAPathIsACosine) {
+TEST(Fiedler, OfAPathIsACosine) {
   for (uint32_t n : {2u, 5u, 33u, 300u}) {
     const Solved solved(grid(1, n));
     for (uint32_t k = 0; k < 3 && k + 1 < n; ++k)
@@ -64,7 +64,7 @@ TEST(Fiedler, ofAPathIsACosine) {
   }
 }
 
-TEST(Fiedler, ofAGridHasItsLowestValues) {
+TEST(Fiedler, OfAGridHasItsLowestValues) {
   const uint32_t a = slowRun() ? 12 : 40, b = 2 * a + 3;
   const Solved solved(grid(a, b));
   EXPECT_NEAR(solved.values[0], ofPath(b, 1), 1e-3 * ofPath(b, 1));
@@ -72,7 +72,7 @@ TEST(Fiedler, ofAGridHasItsLowestValues) {
   EXPECT_NEAR(solved.values[2], ofPath(a, 1), 1e-3 * ofPath(a, 1));
 }
 
-TEST(Fiedler, vectorsAreOrthonormalAndWithoutAMean) {
+TEST(Fiedler, VectorsAreOrthonormalAndWithoutAMean) {
   const uint32_t a = slowRun() ? 10 : 30;
   const Solved solved(grid(a, a));  // the lowest eigenvalue is double
   EXPECT_NEAR(solved.values[1], solved.values[0], 1e-3 * solved.values[0]);
@@ -88,7 +88,7 @@ TEST(Fiedler, vectorsAreOrthonormalAndWithoutAMean) {
   }
 }
 
-TEST(Fiedler, ofAStarIsFound) {
+TEST(Fiedler, OfAStarIsFound) {
   std::vector<std::set<uint32_t>> of(400);
   for (uint32_t v = 1; v < 400; ++v) of[0].insert(v), of[v].insert(0);
   const Solved solved((ListedGraph(of)));  // 1, as often as there are leaves but one
@@ -105,7 +105,7 @@ double energy(const GraphView& graph, const std::vector<Four>& x, size_t k) {
   return sum;
 }
 
-TEST(Fiedler, aRoughSolutionIsSymmetricAndNearerThanNone) {
+TEST(Fiedler, ARoughSolutionIsSymmetricAndNearerThanNone) {
   const ListedGraph graph = grid(20, 30);
   Account account;
   LaplacianLevels levels(graph.view(), account);

@@ -39,7 +39,7 @@ std::vector<float> guideAlong(const TestMesh& mesh, int axis, float factor) {
   return guide;
 }
 
-TEST(FrontGrowth, ofAGridIsAPlaneWide) {
+TEST(FrontGrowth, OfAGridIsAPlaneWide) {
   const TestMesh mesh = shuffled(fullGrid(3, 4, 9), 1);
   MeshGraph graph(mesh);
   std::vector<uint32_t> sequence(mesh.vertexCount());
@@ -56,7 +56,7 @@ TEST(FrontGrowth, ofAGridIsAPlaneWide) {
 }
 
 // Read backwards it is a stream, in which cells come as late as possible one by one.
-TEST(FrontGrowth, itsWidthBoundsThatOfTheStream) {
+TEST(FrontGrowth, ItsWidthBoundsThatOfTheStream) {
   for (const TestMesh& mesh : {fullGrid(3, 4, 5), shellGrid(4), slitGrid(4)}) {
     MeshGraph graph(mesh);
     std::vector<uint32_t> sequence(mesh.vertexCount());
@@ -73,7 +73,7 @@ TEST(FrontGrowth, itsWidthBoundsThatOfTheStream) {
   }
 }
 
-TEST(FrontGrowth, withAStrongGuideIsTheGuide) {
+TEST(FrontGrowth, WithAStrongGuideIsTheGuide) {
   const TestMesh mesh = fullGrid(2, 2, 6);
   MeshGraph graph(mesh);
   std::vector<uint32_t> sequence(mesh.vertexCount());
@@ -85,7 +85,7 @@ TEST(FrontGrowth, withAStrongGuideIsTheGuide) {
     EXPECT_LE(mesh.position(sequence[i - 1], 2), mesh.position(sequence[i], 2) + 1);
 }
 
-TEST(FrontGrowth, layersRiseAlongTheSequenceByOneAtEachFront) {
+TEST(FrontGrowth, LayersRiseAlongTheSequenceByOneAtEachFront) {
   const TestMesh mesh = fullGrid(3, 3, 40);
   MeshGraph graph(mesh);
   std::vector<uint32_t> sequence(mesh.vertexCount());

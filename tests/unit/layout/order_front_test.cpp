@@ -32,7 +32,7 @@ TestMesh threeCells() {
                   {0, 1, 2, 3, 1, 2, 3, 4, 0, 4, 5, 6});
 }
 
-TEST(OrderFront, isAsCountedByHand) {
+TEST(OrderFront, IsAsCountedByHand) {
   const OrderMesh mesh(threeCells());
   Account account;
   // 0 to 3 come with the first cell, 4 with the second, which is the last one for 1, 2 and 3; then
@@ -45,7 +45,7 @@ TEST(OrderFront, isAsCountedByHand) {
   expectFront(frontOfRanks(mesh.connectivity, backwards, account), 2, 5, 5, (4 + 5 + 4) / 3.0);
 }
 
-TEST(OrderFront, theStreamHoldsEachCellAtItsLastVertex) {
+TEST(OrderFront, TheStreamHoldsEachCellAtItsLastVertex) {
   const OrderMesh mesh(threeCells());
   Account account;
   StreamOrder order(account);
@@ -61,7 +61,7 @@ TEST(OrderFront, theStreamHoldsEachCellAtItsLastVertex) {
   EXPECT_EQ(order.used_vertices, 7u);
 }
 
-TEST(OrderFront, isThatOfAPlainCountOnRandomRanks) {
+TEST(OrderFront, IsThatOfAPlainCountOnRandomRanks) {
   Random random(3);
   std::vector<TestMesh> meshes = oddMeshes();
   meshes.push_back(shuffled(fullGrid(3, 4, 5), 1));
@@ -78,7 +78,7 @@ TEST(OrderFront, isThatOfAPlainCountOnRandomRanks) {
   }
 }
 
-TEST(OrderFront, ofCellsAsTheyStandCountsThoseCells) {
+TEST(OrderFront, OfCellsAsTheyStandCountsThoseCells) {
   const OrderMesh mesh(threeCells());
   Account account;
   StreamOrder order(account);
@@ -91,7 +91,7 @@ TEST(OrderFront, ofCellsAsTheyStandCountsThoseCells) {
   expectFront(order, 2, 5, 7, (4 + 5 + 4) / 3.0);
 }
 
-TEST(OrderFront, givesItsMemoryBack) {
+TEST(OrderFront, GivesItsMemoryBack) {
   const OrderMesh mesh(fullGrid(3, 3, 3));
   Account account;
   {

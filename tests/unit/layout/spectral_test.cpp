@@ -30,7 +30,7 @@ struct SpectralOrder {
   int told = 0;
 };
 
-TEST(Spectral, sweepsABarAlongItsLongAxis) {
+TEST(Spectral, SweepsABarAlongItsLongAxis) {
   const int n = slowRun() ? 3 : 6;
   const TestMesh bar = shuffled(fullGrid(n, n, 8 * n, 0.1), 1);
   SpectralOrder ordered(bar);
@@ -51,7 +51,7 @@ TEST(Spectral, sweepsABarAlongItsLongAxis) {
   EXPECT_GT(ordered.told, 10);
 }
 
-TEST(Spectral, isNoWiderThanASweepOfCompactDomains) {
+TEST(Spectral, IsNoWiderThanASweepOfCompactDomains) {
   const int n = slowRun() ? 4 : 8;
   for (const TestMesh& mesh : {fullGrid(n, n, n), shellGrid(n), fullGrid(n, 2 * n, 2 * n),
                                shuffled(fullGrid(n, n + 1, n + 2, 0.1), 7)}) {
@@ -61,7 +61,7 @@ TEST(Spectral, isNoWiderThanASweepOfCompactDomains) {
 }
 
 // A tube that turns back twice: a sweep meets three arms at once, or one of them lengthwise.
-TEST(Spectral, followsATubeThatTurns) {
+TEST(Spectral, FollowsATubeThatTurns) {
   const int arm = slowRun() ? 12 : 30;
   SpectralOrder ordered(cubes(11, 3, arm, [arm](int x, int, int z) {
     return x % 4 != 3 || (x == 3 ? z >= arm - 3 : z < 3);
@@ -69,7 +69,7 @@ TEST(Spectral, followsATubeThatTurns) {
   EXPECT_LE(2 * ordered.width(), ordered.bestSweepWidth());
 }
 
-TEST(Spectral, doesNotDependOnTheOrderBefore) {
+TEST(Spectral, DoesNotDependOnTheOrderBefore) {
   const int n = slowRun() ? 3 : 5;
   const TestMesh bar = fullGrid(n, n, 5 * n, 0.1);
   const int64_t width = SpectralOrder(bar).width();
@@ -79,7 +79,7 @@ TEST(Spectral, doesNotDependOnTheOrderBefore) {
   }
 }
 
-TEST(Spectral, ranksEachVertexOnceComponentAfterComponent) {
+TEST(Spectral, RanksEachVertexOnceComponentAfterComponent) {
   for (const TestMesh& mesh : oddMeshes()) {
     const SpectralOrder ordered(mesh);
     EXPECT_EQ(ordered.rank.size(), mesh.vertexCount());
@@ -89,7 +89,7 @@ TEST(Spectral, ranksEachVertexOnceComponentAfterComponent) {
 }
 
 // All cells meet at two vertices: the graph has two vertices that all others neighbour.
-TEST(Spectral, ordersAFan) {
+TEST(Spectral, OrdersAFan) {
   std::vector<int64_t> cells;
   const int64_t rim = 500;
   for (int64_t i = 0; i < rim; ++i) {
@@ -102,13 +102,13 @@ TEST(Spectral, ordersAFan) {
   EXPECT_LE(ordered.width(), 6);
 }
 
-TEST(Spectral, isTheSameTwice) {
+TEST(Spectral, IsTheSameTwice) {
   const TestMesh mesh = shuffled(shellGrid(6), 3);
   const SpectralOrder a(mesh), b(mesh);
   EXPECT_TRUE(std::equal(a.rank.data(), a.rank.data() + a.rank.size(), b.rank.data()));
 }
 
-TEST(Spectral, stopsWhenItIsToldTo) {
+TEST(Spectral, StopsWhenItIsToldTo) {
   OrderMesh mesh(fullGrid(3, 3, 9));
   for (int at : {0, 1, 2, 5, 20}) {
     Account account;
@@ -127,7 +127,7 @@ TEST(Spectral, stopsWhenItIsToldTo) {
   }
 }
 
-TEST(Spectral, failsCleanlyWithoutMemory) {
+TEST(Spectral, FailsCleanlyWithoutMemory) {
   OrderMesh mesh(fullGrid(3, 3, 9));
   Account needed;
   {
@@ -148,7 +148,7 @@ TEST(Spectral, failsCleanlyWithoutMemory) {
 }
 
 // Smooth values: along a bar they rise or fall with it; from i to i + 1 in the i-th component.
-TEST(Spectral, findsValuesThatVarySmoothly) {
+TEST(Spectral, FindsValuesThatVarySmoothly) {
   const int n = slowRun() ? 3 : 5;
   const TestMesh bar = shuffled(fullGrid(n, n, 8 * n, 0.1), 1);
   const OrderMesh mesh(bar);

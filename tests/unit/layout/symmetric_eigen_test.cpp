@@ -19,7 +19,7 @@ std::vector<double> randomSymmetric(size_t n, uint64_t seed) {
   return matrix;
 }
 
-TEST(SymmetricEigen, ofTwoByTwoIsAsSolvedByHand) {
+TEST(SymmetricEigen, OfTwoByTwoIsAsSolvedByHand) {
   const Eigen eigen = symmetricEigen({2, 1, 1, 2}, 2);  // 1 along (1, -1), 3 along (1, 1)
   EXPECT_NEAR(eigen.values[0], 1, 1e-14);
   EXPECT_NEAR(eigen.values[1], 3, 1e-14);
@@ -27,7 +27,7 @@ TEST(SymmetricEigen, ofTwoByTwoIsAsSolvedByHand) {
   EXPECT_NEAR(eigen.vectors[2], eigen.vectors[3], 1e-14);
 }
 
-TEST(SymmetricEigen, vectorsAreOrthonormalAndSolveTheEquation) {
+TEST(SymmetricEigen, VectorsAreOrthonormalAndSolveTheEquation) {
   for (size_t n : {1, 3, 12, 32}) {
     const auto matrix = randomSymmetric(n, n);
     const Eigen eigen = symmetricEigen(matrix, n);
@@ -47,7 +47,7 @@ TEST(SymmetricEigen, vectorsAreOrthonormalAndSolveTheEquation) {
   }
 }
 
-TEST(SymmetricEigen, ofNothingIsNothing) {
+TEST(SymmetricEigen, OfNothingIsNothing) {
   EXPECT_TRUE(symmetricEigen({}, 0).values.empty());
   for (double value : symmetricEigen(std::vector<double>(9, 0.0), 3).values) EXPECT_EQ(value, 0);
 }

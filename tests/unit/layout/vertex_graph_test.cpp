@@ -27,7 +27,7 @@ struct Built {
   uint32_t components = 0;
 };
 
-TEST(VertexGraph, hasEachNeighbourOnce) {
+TEST(VertexGraph, HasEachNeighbourOnce) {
   std::vector<TestMesh> meshes = oddMeshes();
   meshes.push_back(shuffled(fullGrid(3, 4, 5), 1));
   for (const TestMesh& mesh : meshes) {
@@ -41,7 +41,7 @@ TEST(VertexGraph, hasEachNeighbourOnce) {
   }
 }
 
-TEST(VertexGraph, listsTheCellsOfAVertex) {
+TEST(VertexGraph, ListsTheCellsOfAVertex) {
   const Built built(shuffled(fullGrid(2, 3, 4), 2));
   const Connectivity& mesh = built.mesh.connectivity;
   for (uint32_t v = 0; v < mesh.vertices; ++v) {
@@ -54,13 +54,13 @@ TEST(VertexGraph, listsTheCellsOfAVertex) {
   }
 }
 
-TEST(VertexGraph, aCellThatNamesAVertexTwiceIsListedOnceThere) {
+TEST(VertexGraph, ACellThatNamesAVertexTwiceIsListedOnceThere) {
   const Built built(makeMesh(ScalarType::kFloat64, std::vector<double>(9, 0.0), {0, 1, 1, 2}));
   EXPECT_EQ(built.lists.cell.size(), 3u);
   EXPECT_EQ(built.graph.degree(1), 2u);
 }
 
-TEST(VertexGraph, componentsShareNoVertexAndUnusedVerticesAreTheirOwn) {
+TEST(VertexGraph, ComponentsShareNoVertexAndUnusedVerticesAreTheirOwn) {
   EXPECT_EQ(Built(fullGrid(2, 2, 2)).components, 1u);
   EXPECT_EQ(Built(cubesAtVertex(2)).components, 1u);
   EXPECT_EQ(Built(apart(2)).components, 2u);
@@ -70,7 +70,7 @@ TEST(VertexGraph, componentsShareNoVertexAndUnusedVerticesAreTheirOwn) {
   EXPECT_EQ(Built(makeMesh(ScalarType::kFloat64, {}, {})).components, 0u);
 }
 
-TEST(VertexGraph, membersAreOfTheirComponentsBreadthFirst) {
+TEST(VertexGraph, MembersAreOfTheirComponentsBreadthFirst) {
   const Built built(shuffled(apart(2), 5));
   const auto neighbours = neighboursOf(built.mesh.connectivity);
   ASSERT_EQ(built.start[built.components], built.graph.vertices);
@@ -86,7 +86,7 @@ TEST(VertexGraph, membersAreOfTheirComponentsBreadthFirst) {
   }
 }
 
-TEST(VertexGraph, theBoundaryIsWhereOneCellHasAFace) {
+TEST(VertexGraph, TheBoundaryIsWhereOneCellHasAFace) {
   const TestMesh grid = fullGrid(3, 3, 3);
   const Built built(grid);
   for (uint32_t v = 0; v < built.graph.vertices; ++v) {

@@ -100,7 +100,7 @@ TEST(BoxGrid, CutsBricks) {
   EXPECT_GT(grid.brickKey(first), grid.brickKey(second));
 }
 
-TEST(BoxGrid, TakesNoBox) {
+TEST(BoxGrid, TakesABoxOfNothing) {
   const double infinity = std::numeric_limits<double>::infinity();
   const double low[3] = {infinity, infinity, infinity}, high[3] = {-infinity, -infinity, -infinity};
   BoxGrid grid(low, high);

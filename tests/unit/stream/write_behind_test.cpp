@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 #include "batch_ring.h"
 #include "shapes.h"
@@ -120,11 +122,17 @@ TEST(WriteBehind, DropsWhatWaitsWhenItIsLeft) {
   const Tasks tasks(2);
   for (size_t put = 0; put < 12; ++put) {
     WatchedSink sink;
-    WriteBehind behind(sink, tasks);
-    MeshStream in(mesh, smallBatches());
-    behind.begin(in.schema());
-    BatchView batch;
-    for (size_t i = 0; i < put && in.next(batch); ++i) behind.put(batch);
+    {
+      WriteBehind behind(sink, tasks);
+      MeshStream in(mesh, smallBatches());
+      behind.begin(in.schema());
+      BatchView batch;
+      for (size_t i = 0; i < put && in.next(batch); ++i) behind.put(batch);
+    }
+    const size_t taken = sink.taken;
+    EXPECT_LE(taken, put);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(sink.taken, taken);  // nobody writes any more
   }
 }
 
