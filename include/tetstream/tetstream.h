@@ -859,7 +859,8 @@ typedef struct tetstream_comparison_info {
   double distance, rms_distance;   /* from the original's boundary to the simplified one: the
                                       largest, and the root of the mean square; infinite, as are
                                       fields' errors, of a simplified mesh without cells; NaN, as
-                                      their places are, where there is no boundary in the `box` */
+                                      their places are, where there is no boundary to measure
+                                      from: in the `box`, or of a mesh without cells */
   double distance_back, rms_distance_back; /* from the simplified boundary to the original's */
   double distance_place[3];        /* where `distance` is */
   double distance_back_place[3];   /* where `distance_back` is */

@@ -120,7 +120,7 @@ void Output::start(const std::string& temp_dir, bool is_mapped) {
     options_.is_mapped = is_mapped;
     options_.note = [this](const std::string& note) { addNote(note); };
     stays_with_caller_ = bytes_->waits();
-    if (progress_) options_.tell = [this] { tellWriting(); };
+    if (progress_) options_.tell = [this] { beforeWrite(); };
     bytes_ = watched(std::move(bytes_), options_.tell);
     sink_ = format_->create(std::move(bytes_), options_);
   } else {
@@ -137,10 +137,14 @@ void Output::begin(const Schema& schema) {
 }
 
 void Output::finish() {
-  is_finishing_ = true;
-  if (format_) tellWriting();
+  struct Scope {
+    std::atomic<std::thread::id>& finishing;
+    ~Scope() { finishing = std::thread::id(); }
+  };
+  const Scope scope{finishing_};
+  finishing_ = std::this_thread::get_id();
+  if (format_ && progress_) tellWriting();
   sink().finish();
-  is_finishing_ = false;
 }
 
 ProgressFunction Output::watchedBy(ProgressFunction progress) {
@@ -152,9 +156,12 @@ ProgressFunction Output::watchedBy(ProgressFunction progress) {
   };
 }
 
+void Output::beforeWrite() {
+  if (finishing_.load() == std::this_thread::get_id() && pause_.isOver()) tellWriting();
+}
+
 // Nobody knows how much is still to come.
 void Output::tellWriting() {
-  if (!is_finishing_ || !progress_) return;
   told_.phase = "write";
   told_.fraction = -1;
   progress_(told_);

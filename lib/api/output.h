@@ -2,11 +2,13 @@
 // still uses it. Depends on registry.h, callbacks.h.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "callbacks.h"
@@ -65,6 +67,7 @@ class Output final : public Sink {
 
  private:
   Sink& sink();
+  void beforeWrite();
   void tellWriting();
   void addNote(const std::string& note);
 
@@ -83,7 +86,8 @@ class Output final : public Sink {
   std::function<void()> rest_;
   ProgressFunction progress_;
   Progress told_;  // last
-  bool is_finishing_ = false;
+  TellingPause pause_;
+  std::atomic<std::thread::id> finishing_ = {};  // who completes the file; others may write before
 };
 
 }  // namespace tetstream

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <thread>
 
 namespace tetstream {
@@ -11,34 +10,25 @@ using Clock = std::chrono::steady_clock;
 
 static constexpr std::chrono::milliseconds kPause{20};
 
-// When the thread that made it is to tell, and no other. note: not in the unnamed namespace, as a
-// class that the header declares has one.
-class Turn {
- public:
-  bool come() {
-    if (std::this_thread::get_id() != thread_) return false;
-    const Clock::time_point now = Clock::now();
-    if (now - told_ < kPause) return false;
-    told_ = now;
-    return true;
-  }
-
- private:
-  const std::thread::id thread_ = std::this_thread::get_id();
-  Clock::time_point told_{};
-};
+bool TellingPause::isOver() {
+  const Clock::time_point now = Clock::now();
+  if (now - told_ < kPause) return false;
+  told_ = now;
+  return true;
+}
 
 // Helpers may read, too, and count.
 struct ByteWatch::State {
   Tell tell;
-  Turn turn;
+  const std::thread::id thread = std::this_thread::get_id();
+  TellingPause pause;
   std::atomic<uint64_t> done{0};
   uint64_t total = 0;
   bool is_total_known = true;
 
   size_t count(size_t bytes) {
     done.fetch_add(bytes, std::memory_order_relaxed);
-    if (!turn.come() || !tell) return bytes;
+    if (std::this_thread::get_id() != thread || !tell || !pause.isOver()) return bytes;
     const double share =
         static_cast<double>(done) / static_cast<double>(std::max<uint64_t>(total, 1));
     tell(is_total_known ? std::min(share, 1.0) : -1);
@@ -73,11 +63,11 @@ class WatchedSink final : public ByteSink {
       : ByteSink(bytes->name()), bytes_(std::move(bytes)), tell_(std::move(tell)) {}
 
   void write(const void* data, size_t size) override {
-    if (turn_.come()) tell_();
+    tell_();
     bytes_->write(data, size);
   }
   void writeAt(uint64_t offset, const void* data, size_t size) override {
-    if (turn_.come()) tell_();
+    tell_();
     bytes_->writeAt(offset, data, size);
   }
   bool seekable() const override { return bytes_->seekable(); }
@@ -87,7 +77,6 @@ class WatchedSink final : public ByteSink {
  private:
   std::unique_ptr<ByteSink> bytes_;
   std::function<void()> tell_;
-  Turn turn_;
 };
 
 }  // namespace

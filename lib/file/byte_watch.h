@@ -2,12 +2,22 @@
 // Depends on bytes.h.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 
 #include "bytes.h"
 
 namespace tetstream {
+
+// Whoever is told of each step of something long wants to hear of it some times a second.
+class TellingPause {
+ public:
+  bool isOver();  // and then the next one begins
+
+ private:
+  std::chrono::steady_clock::time_point told_{};
+};
 
 // `tell` is called by reads of the thread that made the watch, until that ends, some times a
 // second; what it throws leaves the read.
@@ -29,8 +39,8 @@ class ByteWatch {
   std::shared_ptr<State> state_;  // null where nothing is watched
 };
 
-// The same sink; `tell`, if there is any, is called some times a second before the thread that
-// calls this writes to it, and what it throws leaves the write.
+// The same sink; `tell`, if there is any, is called before each write, by the thread that writes;
+// what it throws leaves the write.
 std::unique_ptr<ByteSink> watched(std::unique_ptr<ByteSink> bytes, std::function<void()> tell);
 
 }  // namespace tetstream

@@ -61,7 +61,7 @@ void OrderedFaces::sortCorners() {
         for (size_t i = 0; i < 3 * count; ++i) {
           if (corners[i] < 0 || corners[i] >= points)
             fail(Status::kBadData, "labelled face %llu: point %lld is not one of the mesh's %lld",
-                 static_cast<unsigned long long>(number + first + i / 3),
+                 static_cast<unsigned long long>(source_.faceNumber(first + i / 3)),
                  static_cast<long long>(corners[i]) + static_cast<long long>(number),
                  static_cast<long long>(points));
           add(sort, static_cast<uint64_t>(corners[i]), uint64_t{3 * first + i});
@@ -82,7 +82,7 @@ void OrderedFaces::joinNumbers() {
     while (has_point && known < point) has_point = takeNext(points, &known, &vertex);
     if (!has_point || known != point)
       fail(Status::kBadData, "labelled face %llu: no cell has its point %llu",
-           static_cast<unsigned long long>(source_.firstNumber() + corner / 3),
+           static_cast<unsigned long long>(source_.faceNumber(corner / 3)),
            static_cast<unsigned long long>(source_.firstNumber() + point));
     add(numbers, corner, vertex);
   }

@@ -319,9 +319,11 @@ void Comparison::compareRegions() {
     region_words_ = "none";
 }
 
-// Of the plane, which may lie beside the meshes or in a gap between their parts. Beside the part
-// that is compared the simplified mesh goes on, which tells nothing of that part.
+// Of a plane that was named, which may lie beside the meshes or in a gap between their parts; in
+// one of our choice a gap is drawn. Beside the part that is compared the simplified mesh goes on,
+// which tells nothing of that part.
 void Comparison::checkCutMeets(const CutComparison& cut) const {
+  if (plan_.options.cut.find('=') == std::string::npos) return;
   if (cut.original->cellsCut() > 0 || (isWhole() && cut.simplified->cellsCut() > 0)) return;
   const int axis = cut.plane.axis;
   const Box& box = original_->cells().box();

@@ -124,6 +124,13 @@ expect_error 2 "cut.tets" compare cut.tets in.tets
 expect_error 4 "" compare in.tets out.vtu --memory 100k
 only_files in.tets out.vtu cut.tets
 [[ $(tetstream --version) == *"no cairo"* ]] && exit 0
+# In a plane of our choice a gap between two bodies is drawn; one that was named is refused.
+printf 'MeshVersionFormatted 2 Dimension 3 Vertices 8\n%s\nTetrahedra 2 1 2 3 4 0 5 6 7 8 0 End\n' \
+  "0 0 0 0 2 0 0 0 0 2 0 0 0 0 0.1 0 0 0 1 0 0 2 1 0 2 0 1 0 0 0 0.9 0" > gap.mesh
+expect 0 compare gap.mesh gap.mesh --quiet --picture gap.svg "${less_pixels[@]}"
+expect_error 1 "the cut at z = 0.5 meets no cell" compare gap.mesh gap.mesh --picture gap2.svg \
+  --cut z=0.5 "${less_pixels[@]}"
+rm gap.mesh gap.svg
 for picture in a.svg a.png; do
   expect 0 compare in.tets out.vtu --quiet --picture $picture --cut z=0.1 --title "Two balls" \
     "${less_pixels[@]}"

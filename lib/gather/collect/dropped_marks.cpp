@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "status.h"
+
 namespace tetstream {
 
 static bool any(const uint8_t* locks, size_t count) {
@@ -14,10 +16,16 @@ void DroppedMarks::tell(bool* told, const std::string& text) {
 }
 
 void DroppedMarks::lookAtLocks(const BatchView& batch) {
-  if (batch.edge_count > 0 || any(batch.locked, batch.vertex_count) ||
-      any(batch.face_locks, batch.face_count))
-    tell(&told_locks_, std::string("locks of vertices, edges and faces are left out: ") + format_ +
-                           " has no place for them");
+  if (!told_vertices_ && any(batch.locked, batch.vertex_count))
+    tell(&told_vertices_,
+         textOf("locks of vertices are left out: %s has no place for them", format_));
+  lookAtLockedFaces(batch);
+}
+
+void DroppedMarks::lookAtLockedFaces(const BatchView& batch) {
+  if (!told_locks_ && (batch.edge_count > 0 || any(batch.face_locks, batch.face_count)))
+    tell(&told_locks_,
+         textOf("locks of edges and faces are left out: %s has no place for them", format_));
 }
 
 void DroppedMarks::look(const BatchView& batch) {

@@ -13,6 +13,7 @@ class DroppedMarks {
       : note_(options.note), name_(bytes.name()), format_(format) {}
   void look(const BatchView& batch);  // locks and faces
   void lookAtLocks(const BatchView& batch);
+  void lookAtLockedFaces(const BatchView& batch);  // and edges
 
  private:
   void tell(bool* told, const std::string& text);
@@ -20,7 +21,7 @@ class DroppedMarks {
   std::function<void(const std::string&)> note_;
   std::string name_;
   const char* format_;
-  bool told_locks_ = false, told_faces_ = false;
+  bool told_vertices_ = false, told_locks_ = false, told_faces_ = false;
 };
 
 }  // namespace tetstream

@@ -16,13 +16,10 @@ void MeshCollector::begin(const Schema& schema) {
 void MeshCollector::put(const BatchView& batch) {
   const uint64_t first = mesh_->pointCount();
   mesh_->append(batch);
-  BatchView lost = batch;
-  if (holdsLocks()) {
-    for (size_t i = 0; batch.locked && i < batch.vertex_count; ++i)
-      if (batch.locked[i]) mesh_->lock(first + i);
-    lost.locked = nullptr;
-  }
-  dropped_.lookAtLocks(lost);
+  if (!holdsLocks()) return dropped_.lookAtLocks(batch);
+  dropped_.lookAtLockedFaces(batch);
+  for (size_t i = 0; batch.locked && i < batch.vertex_count; ++i)
+    if (batch.locked[i]) mesh_->lock(first + i);
 }
 
 void MeshCollector::finish() {

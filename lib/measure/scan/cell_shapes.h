@@ -1,4 +1,4 @@
-// measure/scan: the shapes of the cells of a mesh. Depends on nothing.
+// measure/scan: the shapes of the cells of a mesh. Depends on mesh/geometry.
 #pragma once
 
 #include <cstdint>

@@ -35,11 +35,12 @@ constexpr double kShareToSpare = 0.002;
 // Where more than this share is below the first of them, flips that bring some above leave as many
 // behind: sixteen layers of one cell took twenty times as long for nothing.
 constexpr double kShareThin = 0.5;
-// Walls are thin where more than this share of the cells have all corners on the boundary or on
-// interfaces. There a cell that has become flat cannot move into the wall: without a price on such
-// cells collapses end at two and a half times the target (21 tubes in a shell), or take two to
-// three times the error. Bodies have 0.001 to 0.02 of such cells, gears, grains and walls 0.08
-// to 1. Of few cells it tells nothing, and flips take memory that a budget has not planned.
+// Walls are thin where more than this share of the cells have all corners on the boundary, on
+// interfaces or on labelled faces. There a cell that has become flat cannot move into the wall:
+// without a price on such cells collapses end at two and a half times the target (21 tubes in a
+// shell), or take two to three times the error. Bodies have 0.001 to 0.02 of such cells, gears,
+// grains and walls 0.08 to 1. Of few cells it tells nothing, and flips take memory that a budget
+// has not planned.
 constexpr double kShareOfWalls = 0.05;
 constexpr int64_t kLeastForWalls = 400;
 // A prime: cells often come in patterns of 5, 6, 12 or 24, a hexahedron after the other.
@@ -303,8 +304,9 @@ void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
   }
 }
 
-// Counts cells whose corners are all known, once. What is locked stays as it is, as do the cuts
-// round a sample, which are no boundary.
+// Of what is new in each window every 17th cell; those at its front, with corners that are not
+// known yet, are passed over. What is locked stays as it is, as do the cuts round a sample, which
+// are no boundary.
 template <class S>
 void Metric<S>::sampleWalls(uint32_t first, uint32_t end) {
   const Topology& mesh = core_.window.mesh;

@@ -182,7 +182,7 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
 
 template <class S>
 bool SweepSelector<S>::isStoppedByFloor(const Tally& before, int64_t cells_before) const {
-  if (core_.shapesFirst() || core_.thin.degrees <= kLeastFloor ||
+  if (core_.shapesFirst() || core_.thin.degrees <= kLeastFloor || core_.tally.error_reached ||
       core_.window.liveCells() <= goal_.cells)
     return false;
   const int64_t thin = core_.tally.rejected_thin - before.rejected_thin;

@@ -35,15 +35,14 @@ std::string missInWords(const Core<S>& core) {
   if (core.tally.rejected_large > 0)
     text += textOf(" but with errors of a tenth of the %s and more",
                    core.plan.measures() ? "range of the fields" : "extent of the mesh");
-  if (core.interfaces)
-    text += "; regions by " + regionArrays(core) +
-            " keep their interfaces, unless they are not taken (option regions none, "
-            "--regions none)";
   if (report.window_cells < 2 * report.front_cells)
     text += textOf(
         "; the window of %lld cells is less than two fronts of %lld: give it more cells or "
         "memory",
         static_cast<long long>(report.window_cells), static_cast<long long>(report.front_cells));
+  if (core.interfaces)
+    text += "; the interfaces of regions by " + regionArrays(core) +
+            " are kept, unless there are to be no regions (option regions, --regions none)";
   const std::string kept = keptInWords(core.locked);
   if (!kept.empty()) text += "; kept as they are: " + kept;
   return text + textOf(

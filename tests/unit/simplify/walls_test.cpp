@@ -4,6 +4,7 @@
 
 #include "field_error.h"
 #include "simplify_testing.h"
+#include "tasks.h"
 #include "thin_cells.h"
 
 namespace tetstream::test {
@@ -75,6 +76,29 @@ TEST(Walls, AreReducedAsFarAsTheirThinCellsAllow) {
   EXPECT_LT(shareBelow(tenth.out.mesh, 10), 0.03);  // without 0.049
   EXPECT_LT(twentieth.report.cells_out, 1500);      // without 1709
   EXPECT_EQ(simplified(body(), toCells(0.1, 0)).report.flips, 0);
+}
+
+// Any number of threads and any cut of the stream gives the same; a budget and small meshes have no
+// flips, whose memory is not planned.
+TEST(Walls, AreReducedInTheSameWayHoweverTheyCome) {
+  const TestMesh mesh = columns();
+  for (const int64_t window : {int64_t{0}, static_cast<int64_t>(mesh.cellCount()) / 2}) {
+    SimplifyOptions options = toRatio(0.1, window);
+    const Result one = simplified(mesh, options);
+    EXPECT_GT(one.report.flips, 0);
+    Cut cut;
+    cut.batch_cells = 77;
+    EXPECT_TRUE(simplified(mesh, options, cut).out.allBytes() == one.out.allBytes());
+    const Tasks tasks(3);
+    options.tasks = &tasks;
+    EXPECT_TRUE(simplified(mesh, options).out.allBytes() == one.out.allBytes());
+  }
+  SimplifyOptions within = toCells(0.1, 0);
+  within.memory_bytes = 64 << 20;
+  EXPECT_EQ(simplified(mesh, within).report.flips, 0);
+  TestMesh small = withWaves(fullGrid(9, 9, 9));
+  small.addIntegerCellData("body", [&](size_t c) { return columnOf(small, c); });
+  EXPECT_EQ(simplified(small, toCells(0.1, 0)).report.flips, 0);
 }
 
 // The floor of angles gives way where little else is legal, with a bound on the error, too.

@@ -52,7 +52,7 @@ endfunction
 ## The default tells what is wanted: "" a text, false a logical, -1 an integer; the others are looked
 ## at where they are used.
 function need_like (caller, name, default, value)
-  if (ischar (default) && isempty (default) && ! ischar (value))
+  if (ischar (default) && isempty (default) && ! ischar (value) && ! isempty (value))
     error ("tetstream:bad-argument", "%s: option \"%s\": a text is wanted, not a %s", caller, name,
            class (value));
   elseif (islogical (default) || isequal (default, -1))
