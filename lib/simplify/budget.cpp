@@ -118,7 +118,7 @@ void CommonBound::changeUnits(double rescaled) {
 
 // With fewer fronts targets are missed more often.
 bool CommonBound::spreads(const Ledger& ledger) const {
-  return countsCells() && !(pilot_.bound > 0) &&
+  return target_.countsCells() && !(pilot_.bound > 0) &&
          static_cast<double>(ledger.live) >= kLeastFronts * static_cast<double>(ledger.front);
 }
 
@@ -127,7 +127,7 @@ void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
   const double strong = effort_ == Effort::kHigh ? kStrongWithEffort : kStrong;
   const bool is_strong = total(ledger) > strong * wanted(ledger);
   const bool is_blind = !pilot_.known() && spreads(ledger);
-  if (!is_blind && (!countsCells() || !is_strong)) return;
+  if (!is_blind && (!target_.countsCells() || !is_strong)) return;
   const bool is_long = !pilot_.known() && !ledger.flips;
   goal.approaches = kApproaches;
   if (!is_long) return;
@@ -167,7 +167,8 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
     goal.first_bound = pilot_bound_ = pilot_.bound / ledger.error_unit;
   } else {
     const double ratio = std::max(wanted(ledger) / std::max(total(ledger), 1.0), kFirstRatio);
-    const double kept = countsCells() ? ratio * static_cast<double>(ledger.live - ledger.front) : 0;
+    const double kept =
+        target_.countsCells() ? ratio * static_cast<double>(ledger.live - ledger.front) : 0;
     goal.cells = std::min(goal.cells, ledger.front + whole(kept));
     if (target_.error > 0) goal.most_error = kFirstError * ledger.error_limit;
   }

@@ -29,6 +29,7 @@ struct Ledger {
 struct Target {
   double ratio = 0, error = 0;
   int64_t cells = 0;
+  bool countsCells() const { return ratio > 0 || cells > 0; }
   // Cells out when `read` have come in: never more than asked for, but one where there are any.
   int64_t cellsOf(int64_t read) const {
     return std::max({static_cast<int64_t>(ratio * static_cast<double>(read)), std::min(cells, read),
@@ -97,7 +98,6 @@ class CommonBound final : public Budget {
   double boundForCells(const Ledger& ledger) const;
   double nextBound(const Ledger& ledger) const;
   int64_t leastOf(const Ledger& ledger) const;
-  bool countsCells() const { return target_.ratio > 0 || target_.cells > 0; }
   bool spreads(const Ledger& ledger) const;
   void approach(const Ledger& ledger, Goal& goal) const;
   void spread(double due, const Ledger& ledger, Goal& goal) const;

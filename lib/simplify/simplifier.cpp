@@ -369,7 +369,7 @@ class WindowedEngine final : public Simplifier::Engine {
     r.balance = inWords(core_.balance, core_.interfaces, plan_.schema.fields);
     tell(0);
     const Target target = targetOf(plan_.schema, options_);
-    const bool by_count = target.ratio > 0 || target.cells > 0;
+    const bool by_count = target.countsCells();
     r.target_cells = by_count ? target.cellsOf(r.cells_in) : 0;
     if (core_.tally.error_reached)
       r.reached = "error";

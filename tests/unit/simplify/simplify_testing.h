@@ -11,6 +11,7 @@
 #include "simplifier.h"
 #include "status.h"
 #include "test_mesh.h"
+#include "thrown_by.h"
 #include "vector3.h"
 
 namespace tetstream::test {
@@ -86,17 +87,6 @@ inline void expectReached(const Result& result) {
   EXPECT_LE(report.cells_out, report.target_cells) << report.limited_by;
   EXPECT_GE(report.cells_out,
             report.target_cells - std::max<int64_t>(report.target_cells / 500, 10));
-}
-
-// The status and sentence of what an action throws; kOk and "" if it throws nothing.
-template <class Action>
-std::pair<Status, std::string> thrownBy(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return {error.status(), error.text()};
-  }
-  return {Status::kOk, ""};
 }
 
 // Of the cells with this label in the first array of cell data.
