@@ -192,17 +192,24 @@ bool Collapser<Mesh>::keepCurveArea(uint32_t u, uint32_t v, const Embedded& embe
   return true;
 }
 
+// Of the edge merged where it is to be now.
+template <class Mesh>
+void Collapser<Mesh>::measureVolumes(uint32_t u, uint32_t v, const CellLabels& labels,
+                                     const SheetSides* sides) {
+  const uint32_t ends[2] = {u, v};
+  const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
+                       static_cast<double>(merged_[2])};
+  volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
+                   labels, sides);
+}
+
 // Moves the place, by as much as it takes, to where no region of the stars grows or shrinks, or
 // side of a sheet, or the body; returns the error there. Where that is too far the body changes,
 // but of regions nothing may: infinity.
 template <class Mesh>
 auto Collapser<Mesh>::keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels,
                                   const SheetSides* sides) -> S {
-  const uint32_t ends[2] = {u, v};
-  const double x[3] = {static_cast<double>(merged_[0]), static_cast<double>(merged_[1]),
-                       static_cast<double>(merged_[2])};
-  volumes_.measure(stars_, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
-                   labels, sides);
+  measureVolumes(u, v, labels, sides);
   double step[3], form[6];
   S cost[6];
   core_.kernels.spaceForm(mesh_.quadric(u), mesh_.quadric(v), core_.plan.dimension, cost);
@@ -249,21 +256,23 @@ bool Collapser<Mesh>::putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on
   return true;
 }
 
-// The place that sheets and curves want; returns the error there, 0 where it is the one at hand.
+// The place that sheets and curves want.
 template <class Mesh>
-auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Strata& strata) -> S {
+auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Strata& strata) -> Adjusted {
   const bool u_on_it = strata.u.stratum == Stratum::kCurve;
   const bool v_on_it = strata.v.stratum == Stratum::kCurve;
-  if (core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it))
-    return errorHere(u, v);
   const CellLabels& labels = strata.embedded.labels;
+  if (core_.exact_curves && (u_on_it || v_on_it) && putOnCurve(u, v, u_on_it, v_on_it)) {
+    measureVolumes(u, v, labels, nullptr);
+    return {errorHere(u, v), volumes_.changeHere() ? kIntoCurve : 1};
+  }
   const bool has_volumes = labels.count > 0 || keepsBody(u, v);
-  if (!core_.inner_sheets) return has_volumes ? keepVolumes(u, v, labels, nullptr) : S(0);
+  if (!core_.inner_sheets) return {has_volumes ? keepVolumes(u, v, labels, nullptr) : S(0)};
   const bool moved = u_on_it && v_on_it && keepCurveArea(u, v, strata.embedded);
   const bool is_cut =
       !(labelled_.u.empty() && labelled_.v.empty()) && sides_.find(stars_, labels, labelled_) > 1;
-  if (is_cut || has_volumes) return keepVolumes(u, v, labels, is_cut ? &sides_ : nullptr);
-  return moved ? errorHere(u, v) : S(0);
+  if (is_cut || has_volumes) return {keepVolumes(u, v, labels, is_cut ? &sides_ : nullptr)};
+  return {moved ? errorHere(u, v) : S(0)};
 }
 
 // `ring` as gathered from one end, towards the other.
@@ -322,12 +331,12 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (on_sheet && (strata.any() || keepsBody(u, v))) {
     gather(!u_first);
     if (core_.inner_sheets) listLabelled(u, v);
-    const S moved = adjust(u, v, strata);
-    if (!std::isfinite(moved)) return Outcome::kTooFar;
-    price_ = growthPrice(*error, moved);
+    const Adjusted moved = adjust(u, v, strata);
+    if (!std::isfinite(moved.error)) return Outcome::kTooFar;
+    price_ = growthPrice(*error, moved.error * S(moved.cost));
     if (price_ > most_price) return Outcome::kDear;
-    if (isTooLarge(moved)) return Outcome::kTooLarge;
-    *error = std::max(*error, moved);
+    if (isTooLarge(moved.error)) return Outcome::kTooLarge;
+    *error = std::max(*error, moved.error);
   }
   if (isPriced(most_price)) {
     angle = core_.dear.front();

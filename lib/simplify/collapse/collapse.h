@@ -77,12 +77,18 @@ class Collapser {
   void listLabelled(uint32_t u, uint32_t v);
   bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, float most_price);
-  S adjust(uint32_t u, uint32_t v, const Strata& strata);
+  // The error at a place that was changed, 0 at the one at hand, and its price in it.
+  struct Adjusted {
+    S error;
+    float cost = 1;
+  };
+  Adjusted adjust(uint32_t u, uint32_t v, const Strata& strata);
   bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
   S errorHere(uint32_t u, uint32_t v) const;
   uint32_t nextOnCurve(uint32_t v, uint32_t before, const Star& star, const Star& ring,
                        const Embedded& embedded) const;
   bool keepCurveArea(uint32_t u, uint32_t v, const Embedded& embedded);
+  void measureVolumes(uint32_t u, uint32_t v, const CellLabels& labels, const SheetSides* sides);
   S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels, const SheetSides* sides);
   bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const;

@@ -114,6 +114,15 @@ void RegionVolumes::close(const double ends[2][3]) {
     }
 }
 
+// In cubes of the edge's length.
+constexpr double kNoChange = 1e-5;
+
+bool RegionVolumes::changeHere() const {
+  const double square = dot(edge_, edge_), least = kNoChange * square * std::sqrt(square);
+  return std::any_of(changes_.begin(), changes_.end(),
+                     [least](const Change& change) { return std::fabs(change.volume) > least; });
+}
+
 // In units of the edge: gradients whose square is less are rounding, as at the tip of a crack,
 // whose two faces cancel.
 constexpr double kNoGradient = 1e-20;
