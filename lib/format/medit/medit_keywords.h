@@ -16,8 +16,9 @@ struct MeditKeyword {
   const CellKind* kind;
 };
 
-constexpr int kMeditDimension = 3, kMeditVertices = 4, kMeditTriangles = 6, kMeditTetrahedra = 8,
-              kMeditRequiredVertices = 15, kMeditEnd = 54, kMeditSolAtVertices = 62,
+constexpr int kMeditDimension = 3, kMeditVertices = 4, kMeditEdges = 5, kMeditTriangles = 6,
+              kMeditTetrahedra = 8, kMeditRequiredVertices = 15, kMeditRequiredEdges = 16,
+              kMeditRequiredTriangles = 17, kMeditEnd = 54, kMeditSolAtVertices = 62,
               kMeditSolAtTetrahedra = 66;
 
 // Null: none that is known.

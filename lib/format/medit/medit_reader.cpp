@@ -3,6 +3,7 @@
 // numbered from 1; references are the labels of cells and faces.
 #include <algorithm>
 
+#include "medit_required.h"
 #include "medit_scan.h"
 #include "medit_sol.h"
 #include "mesh_intake.h"
@@ -34,6 +35,7 @@ class MeditReader {
     if (!scan_.saysEnd()) intake_.note(std::string("it ") + kNoEnd);
     if (!any_vertices_) scan_.file().failBad("there are no Vertices");
     rows_.points = intake_.mesh().pointCount();
+    required_.lock(scan_.file(), intake_.mesh());
     readSolutions();
     return intake_.finish();
   }
@@ -45,8 +47,14 @@ class MeditReader {
       readDimension();
     } else if (section.number == kMeditVertices) {
       readVertices();
+    } else if (section.number == kMeditEdges) {
+      readEdges(section);
     } else if (section.number == kMeditRequiredVertices) {
       readRequired();
+    } else if (section.number == kMeditRequiredEdges) {
+      required_.readEdges(scan_, intake_);
+    } else if (section.number == kMeditRequiredTriangles) {
+      required_.readTriangles(scan_, intake_);
     } else if (section.number == kMeditSolAtVertices || section.number == kMeditSolAtTetrahedra) {
       rows_.points = intake_.mesh().pointCount();
       solutions_.read(scan_, intake_, rows_, section.number == kMeditSolAtTetrahedra);
@@ -99,6 +107,8 @@ class MeditReader {
       rows_.first_tetrahedron = intake_.cellCount();
       rows_.tetrahedra = count;
     }
+    if (section.number == kMeditTriangles)
+      required_.setTriangles(intake_.mesh().faceCount(), count);
     if (placeTetrahedra(kind, count)) return;
     const auto corners = static_cast<size_t>(cornersOf(kind.shape));
     const bool is_cell = dimensionOf(kind.shape) == 3;
@@ -115,6 +125,19 @@ class MeditReader {
         intake_.addCell(kind, ranks, row + nodes, static_cast<int64_t>(i + 1));
       else
         intake_.addFace(kind, ranks, row[nodes]);
+    }
+  }
+
+  // For those that are required.
+  void readEdges(const MeditSection& section) {
+    intake_.note("the section " + section.name + " is left out");
+    const uint64_t count = scan_.rows(3, 0, "edges");
+    const int64_t last = lastVertex();
+    int64_t edge[3];
+    for (uint64_t i = 0; i < count; ++i) {
+      scan_.integers(edge, 3, "an edge");
+      for (size_t k = 0; k < 2; ++k) checkVertex(edge[k], last);
+      required_.addEdge(edge[0] - 1, edge[1] - 1);
     }
   }
 
@@ -183,6 +206,7 @@ class MeditReader {
   MeditScan scan_;
   const ReadOptions& options_;
   MeshIntake intake_;
+  MeditRequired required_;
   MeditSolutions solutions_;
   MeditRows rows_;
   std::unique_ptr<ByteSource> solution_;  // beside the mesh; null: none is there

@@ -74,6 +74,39 @@ TEST(Medit, ReadsTextWithReferencesFacesAndLocks) {
 }
 
 // The sixth vertex is no cell's.
+std::vector<int> locksOf(const Input& input) {
+  const uint8_t* const locked = input.indexed->locked();
+  if (!locked) return {};
+  return {locked, locked + input.indexed->schema().vertex_count};
+}
+
+const std::string kFiveVertices =
+    "MeshVersionFormatted 2\nDimension 3\n"
+    "Vertices\n5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 0\n"
+    "Tetrahedra\n2\n1 2 3 4 0\n2 3 4 5 0\n";
+
+TEST(Medit, LocksTheVerticesOfRequiredEdgesAndTriangles) {
+  const std::string faces = "Quadrilaterals 1\n1 2 3 4 9\nTriangles 2\n1 2 3 7\n3 4 5 7\n";
+  const std::string edges = "Edges 2\n1 2 0\n4 1 0\n";
+  const std::string required = "RequiredTriangles 1\n2\n", one_edge = "RequiredEdges 1\n2\n";
+  const auto locks = [](const std::string& text) {
+    const Input input = openText(openMedit, kFiveVertices + text + "End\n");
+    return locksOf(input);
+  };
+  EXPECT_EQ(locks(faces + edges), std::vector<int>{});
+  EXPECT_EQ(locks(faces + required), (std::vector<int>{0, 0, 1, 1, 1}));
+  EXPECT_EQ(locks(edges + one_edge), (std::vector<int>{1, 0, 0, 1, 0}));
+  EXPECT_EQ(locks(faces + edges + required + one_edge), (std::vector<int>{1, 0, 1, 1, 1}));
+}
+
+TEST(Medit, NotesRequiredThingsThatNobodyHasToldOf) {
+  std::vector<std::string> notes;
+  const Input input =
+      openText(openMedit, kFiveVertices + "RequiredTriangles 2\n1\n3\nEnd\n", {}, &notes);
+  EXPECT_EQ(locksOf(input), std::vector<int>{});
+  EXPECT_TRUE(anyNote(notes, "2 required triangles, before which no triangles come, are left out"));
+}
+
 TEST(Medit, LeavesOutTrianglesWithPointsThatNoCellHas) {
   const std::string text =
       "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
@@ -175,6 +208,12 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
       {vertices + "Tetrahedra 1\n1 2 3 0 0\nEnd\n", "vertex 0"},
       {vertices + "Tetrahedra 1\n1 2 3 4 0", "without the word End"},
       {vertices + "Prisms 1\n1 2 3 4 1 2 0\nEnd\n", "cell 1 is a prism"},
+      {vertices + "Triangles 1\n1 2 3 0\nRequiredTriangles 1\n2\nEnd\n",
+       "line 11: number 2 of triangles, where there are 1 to 1"},
+      {vertices + "Edges 1\n1 2 0\nRequiredEdges 1\n0\nEnd\n", "line 11: number 0 of edges"},
+      {vertices + "Edges 1\n1 5 0\nEnd\n", "line 9: vertex 5, where there are 1 to 4"},
+      {head + "Edges 1\n1 2 0\nRequiredEdges 1\n1\nVertices 1\n0 0 0 0\nEnd\n",
+       "a required edge or triangle has vertex 2, where there are 1 to 1"},
       {vertices + "End\n", "no tetrahedron"},
       {head + "Tetrahedra 1\n1 2 3 9 0\nVertices 1\n0 0 0 0\nEnd\n",
        "tetrahedron 0 uses point 1, counted from 0; there are 1"},
