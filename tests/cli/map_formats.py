@@ -2,10 +2,11 @@
 
 map_formats.py labels IN OUT                   IN with a linear field density, cells of two labels that
                                                take turns, and the sides of the box as labelled faces
-map_formats.py agrees ORIGINAL FILE MAP [EXO]  exits with 0 if the cells and weights of the map give the
+map_formats.py agrees ORIGINAL FILE MAP [OF]   exits with 0 if the cells and weights of the map give the
                                                points of ORIGINAL back. FILE is one that VTK reads, or
                                                .sva in post-order; its cells have the numbers of the
-                                               elements of EXO, if that is named
+                                               elements of OF, an .exo or an .msh of version 4.1, if
+                                               that is named
 map_formats.py carried ORIGINAL VALUES         exits with 0 if these are ORIGINAL's density
 """
 
@@ -82,12 +83,42 @@ def corners_of(path):
     return points_of(grid)[cells_of(grid)]
 
 
-def agrees(original, path, map_path, exodus=None):
+def tags_of_cells(path):
+    """Of an .msh of version 4.1, text or binary, less those of the faces."""
+    with open(path, "rb") as file:
+        head, rest = file.read().split(b"$Elements\n")
+    text = head.split(b"\n")[1].split()[1] == b"0"
+    words = iter(rest.split(b"$End")[0].split()) if text else None
+
+    def take(count, kind):
+        nonlocal rest
+        if words:
+            return np.array([next(words) for _ in range(count)], "i8")
+        values = np.frombuffer(rest, kind, count)
+        rest = rest[values.nbytes:]
+        return values.astype("i8")
+
+    blocks, faces, cells = int(take(4, "u8")[0]), 0, []
+    for _ in range(blocks):
+        dimension = int(take(3, "i4")[0])
+        count = int(take(1, "u8")[0])
+        rows = take(count * (dimension + 2), "u8").reshape(count, -1)
+        faces += count if dimension == 2 else 0
+        cells.append(rows[:0 if dimension == 2 else count, 0])
+    return np.concatenate(cells) - faces
+
+
+def numbers_of_elements(path):
+    if path.endswith(".msh"):
+        return tags_of_cells(path)
+    return vtk_to_numpy(grid_of(path, numbered=True).GetCellData().GetArray("GlobalElementId"))
+
+
+def agrees(original, path, map_path, numbered=None):
     was = points_of(grid_of(original))
     corners = corners_of(path)
-    if exodus:
-        grid = grid_of(exodus, numbered=True)
-        number = vtk_to_numpy(grid.GetCellData().GetArray("GlobalElementId"))
+    if numbered:
+        number = numbers_of_elements(numbered)
         assert np.array_equal(np.sort(number), np.arange(1, len(corners) + 1))
         assert not np.array_equal(number, np.arange(1, len(corners) + 1)), "cells are not grouped"
         corners = corners[np.argsort(number)]

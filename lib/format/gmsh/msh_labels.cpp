@@ -39,35 +39,45 @@ void MshLabels::chooseColumns() {
   });
 }
 
-// A tag is the entity's, or the group's, where that is free; else one above all of them. Cells
-// without labels beside faces with such are one group: of a file that has groups, Gmsh saves again
-// what is in one only, and meshio does not read cells of none.
 void MshLabels::findVolumes() {
   int64_t groups[kRowsAtOnce] = {}, entities[kRowsAtOnce] = {};
   int64_t highest = 0;
+  MshVolume* last = nullptr;
   for (uint64_t first = 0; first < mesh_.cellCount(); first += kRowsAtOnce) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_.cellCount() - first));
     read(group_column_, first, n, groups);
     read(entity_column_, first, n, entities);
     for (size_t i = 0; i < n; ++i) {
-      volumes_.try_emplace({groups[i], entities[i]}, MshEntity{0, static_cast<int32_t>(groups[i])});
+      const auto rank = static_cast<int64_t>(volumes_.size());
+      const auto [found, is_new] = volumes_.try_emplace(
+          {groups[i], entities[i]}, MshVolume{0, static_cast<int32_t>(groups[i]), 0, rank});
+      are_together_ = are_together_ && (is_new || &found->second == last);
+      last = &found->second;
+      ++last->cells;
       highest = std::max({highest, groups[i], entities[i]});
     }
   }
+  chooseTags(highest);
+}
+
+// A tag is the entity's, or the group's, where that is free; else one above all of them. Cells
+// without labels beside faces with such are one group: of a file that has groups, Gmsh saves again
+// what is in one only, and meshio does not read cells of none.
+void MshLabels::chooseTags(int64_t highest) {
   std::set<int64_t> used;
-  const auto take = [&](MshEntity& entity, int64_t tag) {
-    if (tag > 0 && used.insert(tag).second) entity.tag = static_cast<int32_t>(tag);
+  const auto take = [&](MshVolume& volume, int64_t tag) {
+    if (tag > 0 && used.insert(tag).second) volume.tag = static_cast<int32_t>(tag);
   };
-  for (auto& [key, entity] : volumes_) take(entity, entity_column_ ? key.second : key.first);
+  for (auto& [key, volume] : volumes_) take(volume, entity_column_ ? key.second : key.first);
   int64_t low = 1;
-  for (auto& [key, entity] : volumes_) {
-    while (entity.tag == 0) {
+  for (auto& [key, volume] : volumes_) {
+    while (volume.tag == 0) {
       if (highest < INT32_MAX)
-        take(entity, ++highest);
+        take(volume, ++highest);
       else
-        take(entity, low++);
+        take(volume, low++);
     }
-    if (!group_column_ && !surfaces_.empty()) entity.group = kGroupOfAll;
+    if (!group_column_ && !surfaces_.empty()) volume.group = kGroupOfAll;
   }
 }
 

@@ -13,9 +13,12 @@
 
 namespace tetstream {
 
-// A volume or a surface: its tag, which differs from the others', and its group, 0 for none.
-struct MshEntity {
+// A volume: its tag, which differs from the others', its group, 0 for none, its cells, and how many
+// volumes were met before it.
+struct MshVolume {
   int32_t tag, group;
+  uint64_t cells;
+  int64_t rank;
 };
 
 class MshLabels {
@@ -27,14 +30,16 @@ class MshLabels {
   const std::optional<size_t>& groups() const { return group_column_; }
   const std::optional<size_t>& entities() const { return entity_column_; }
   bool isLabel(size_t column) const { return column == group_column_ || column == entity_column_; }
-  const std::map<std::pair<int64_t, int64_t>, MshEntity>& volumes() const { return volumes_; }
+  const std::map<std::pair<int64_t, int64_t>, MshVolume>& volumes() const { return volumes_; }
+  // Whether those of each volume follow each other.
+  bool cellsAreTogether() const { return are_together_; }
   // How many faces each has, by label, which is its tag and its group.
   const std::map<int64_t, uint64_t>& surfaces() const { return surfaces_; }
   uint64_t facesLeftOut() const { return faces_left_out_; }
   uint64_t faces() const { return faces_; }
   static bool isFaceLabel(int64_t label) { return label > 0 && label <= INT32_MAX; }
 
-  // Visits the entity of each cell, in order: visit(cell, entity).
+  // Visits the volume of each cell, in order: visit(cell, volume).
   template <class Visit>
   void forEachCell(Visit visit) {
     constexpr size_t kAtOnce = 1024;
@@ -53,11 +58,13 @@ class MshLabels {
   void read(const std::optional<size_t>& column, uint64_t first, size_t count, int64_t* out);
   void chooseColumns();
   void findVolumes();
+  void chooseTags(int64_t highest);
   void findSurfaces();
 
   MeshSpool& mesh_;
   std::optional<size_t> group_column_, entity_column_;
-  std::map<std::pair<int64_t, int64_t>, MshEntity> volumes_;
+  std::map<std::pair<int64_t, int64_t>, MshVolume> volumes_;
+  bool are_together_ = true;
   std::map<int64_t, uint64_t> surfaces_;
   uint64_t faces_ = 0, faces_left_out_ = 0;
 };

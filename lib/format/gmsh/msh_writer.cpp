@@ -34,6 +34,7 @@ class MshWriter final : public MeshCollector {
     out_ = &out;
     checkSizes();
     groupFaces();
+    if (options().newest && !labels.cellsAreTogether()) groupCells();
     noteLosses();
     writeHead();
     writeNames();
@@ -84,6 +85,9 @@ class MshWriter final : public MeshCollector {
     if (labels_->facesLeftOut() > 0)
       note(std::to_string(labels_->facesLeftOut()) +
            " labelled faces are left out: physical groups have numbers from 1 to 2147483647");
+    if (cells_ && options().is_mapped)
+      note("cells stand in blocks: cell N of the map is the element with the tag N + " +
+           std::to_string(labels_->faces() + 1));
     for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data})
       for (const Column& c : *columns) {
         noteName(c.name);
@@ -250,6 +254,10 @@ class MshWriter final : public MeshCollector {
   struct Face {
     int64_t corners[3];
   };
+  struct Cell {
+    int64_t corners[4];
+    uint64_t number;
+  };
 
   // Those that can be written, by label, so that each surface is one block: their order means
   // nothing, and labels may change from each to the next.
@@ -277,16 +285,44 @@ class MshWriter final : public MeshCollector {
               static_cast<const Face*>(faces_->rows().row(at))->corners);
   }
 
-  // visit(entity, corners)
+  // By volume, so that each is one block: other programs take a block for a set of cells of its
+  // own.
+  void groupCells() {
+    std::map<int64_t, uint64_t> counts;
+    for (const auto& [key, volume] : labels_->volumes()) counts[volume.rank] = volume.cells;
+    auto grouped = std::make_unique<GroupedRows<Cell>>(counts, options().temp_dir);
+    forEachCell([&](uint64_t number, const MshVolume& volume, const int64_t* corners) {
+      grouped->add(volume.rank, {{corners[0], corners[1], corners[2], corners[3]}, number});
+    });
+    grouped->finish();
+    cells_ = std::move(grouped);
+  }
+
+  // In the order of the stream: visit(number, volume, corners)
   template <class Visit>
   void forEachCell(Visit visit) {
     int64_t corners[4 * kRowsAtOnce];
-    labels_->forEachCell([&](uint64_t cell, const MshEntity& entity) {
+    labels_->forEachCell([&](uint64_t cell, const MshVolume& volume) {
       if (cell % kRowsAtOnce == 0)
         mesh_->readCells(cell, static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, cells() - cell)),
                          corners);
-      visit(entity, corners + 4 * (cell % kRowsAtOnce));
+      visit(cell, volume, corners + 4 * (cell % kRowsAtOnce));
     });
+  }
+
+  // In that of the file: visit(number in the stream, tag less those of the faces, corners). Tags
+  // say the order of the stream where a map names cells by it; else that of the file, since there
+  // are programs that read no others beside data.
+  template <class Visit>
+  void forEachElement(Visit visit) {
+    if (!cells_)
+      return forEachCell([&](uint64_t number, const MshVolume&, const int64_t* corners) {
+        visit(number, number + 1, corners);
+      });
+    for (uint64_t at = 0; at < cells(); ++at) {
+      const auto* const cell = static_cast<const Cell*>(cells_->rows().row(at));
+      visit(cell->number, (options().is_mapped ? cell->number : at) + 1, cell->corners);
+    }
   }
 
   template <class Stored>
@@ -307,10 +343,10 @@ class MshWriter final : public MeshCollector {
     out_->integer<int32_t>(2);
   }
 
-  void putElement2(int32_t kind, uint64_t tag, MshEntity entity, const int64_t* corners,
-                   size_t count) {
-    if (out_->binary()) return putElement<int32_t>(tag, {entity.group, entity.tag}, corners, count);
-    putElement<int32_t>(tag, {kind, 2, entity.group, entity.tag}, corners, count);
+  void putElement2(int32_t kind, uint64_t tag, int32_t group, int32_t entity,
+                   const int64_t* corners, size_t count) {
+    if (out_->binary()) return putElement<int32_t>(tag, {group, entity}, corners, count);
+    putElement<int32_t>(tag, {kind, 2, group, entity}, corners, count);
   }
 
   void writeElements2() {
@@ -319,76 +355,63 @@ class MshWriter final : public MeshCollector {
     uint64_t tag = 0, in_block = 0;
     forEachFace([&](int32_t label, const int64_t* corners) {
       blockHead2(kMshTriangle, &in_block, labels_->faces() - tag);
-      putElement2(kMshTriangle, ++tag, {label, label}, corners, 3);
+      putElement2(kMshTriangle, ++tag, label, label, corners, 3);
     });
     in_block = 0;
-    forEachCell([&](MshEntity entity, const int64_t* corners) {
+    forEachCell([&](uint64_t, const MshVolume& volume, const int64_t* corners) {
       blockHead2(kMshTetra, &in_block, elements() - tag);
-      putElement2(kMshTetra, ++tag, entity, corners, 4);
+      putElement2(kMshTetra, ++tag, volume.group, volume.tag, corners, 4);
     });
     end("Elements");
   }
 
-  // A run of elements of one entity is a block. The first pass counts the runs' lengths, of which
-  // there may be as many as elements: they go to a spool.
-  struct Runs {
-    explicit Runs(const std::string& temp_dir)
-        : lengths(sizeof(uint64_t), temp_dir, {2, 1 << 16}) {}
-    RowSpool lengths;
-    int32_t tag = 0;
-    uint64_t length = 0;
-    void add(int32_t entity) {
-      if (length > 0 && entity != tag) end();
-      tag = entity;
-      ++length;
-    }
-    void end() {
-      if (length > 0) lengths.append(&length, 1);
-      length = 0;
-    }
-  };
+  void blockHead4(int32_t dimension, int32_t entity, int32_t kind, uint64_t count) {
+    out_->integer<int32_t>(dimension);
+    out_->integer<int32_t>(entity);
+    out_->integer<int32_t>(kind);
+    sizeRow({count});
+  }
 
+  // A block for each surface and each volume.
   void writeElements4() {
-    Runs runs(options().temp_dir);
-    forEachFace([&](int32_t label, const int64_t*) { runs.add(label); });
-    runs.end();
-    forEachCell([&](MshEntity entity, const int64_t*) { runs.add(entity.tag); });
-    runs.end();
-    runs.lengths.finish();
+    std::vector<const MshVolume*> volumes(labels_->volumes().size());
+    for (const auto& [key, volume] : labels_->volumes())
+      volumes[static_cast<size_t>(volume.rank)] = &volume;
     section("Elements");
-    sizeRow({runs.lengths.rows(), elements(), elements() > 0 ? 1u : 0u, elements()});
-    uint64_t tag = 0, run = 0, left = 0;
-    const auto head = [&](int32_t dimension, int32_t entity, int32_t kind) {
-      if (left-- > 0) return;
-      left = *static_cast<const uint64_t*>(runs.lengths.row(run++));
-      out_->integer<int32_t>(dimension);
-      out_->integer<int32_t>(entity);
-      out_->integer<int32_t>(kind);
-      sizeRow({left--});
-    };
+    sizeRow({labels_->surfaces().size() + volumes.size(), elements(), elements() > 0 ? 1u : 0u,
+             elements()});
+    uint64_t tag = 0, left = 0;
     forEachFace([&](int32_t label, const int64_t* corners) {
-      head(2, label, kMshTriangle);
+      if (left == 0) {
+        left = labels_->surfaces().at(label);
+        blockHead4(2, label, kMshTriangle, left);
+      }
       putElement<uint64_t>(++tag, {}, corners, 3);
+      --left;
     });
-    left = 0;
-    forEachCell([&](MshEntity entity, const int64_t* corners) {
-      head(3, entity.tag, kMshTetra);
-      putElement<uint64_t>(++tag, {}, corners, 4);
+    auto volume = volumes.begin();
+    forEachElement([&](uint64_t, uint64_t cell_tag, const int64_t* corners) {
+      if (left == 0) {
+        left = (*volume)->cells;
+        blockHead4(3, (*volume++)->tag, kMshTetra, left);
+      }
+      putElement<uint64_t>(tag + cell_tag, {}, corners, 4);
+      --left;
     });
     end("Elements");
   }
 
   // ------------------------------------------------------------------------------------- data
 
-  template <class Read>
-  void writeData(const char* name, const Column& column, uint64_t rows, uint64_t first_tag,
-                 Read read) {
+  // `forEach` visits the rows: visit(tag, values).
+  template <class ForEach>
+  void writeData(const char* name, const Column& column, uint64_t rows, ForEach forEach) {
     section(name);
     out_->text("1\n\"" + plain(column.name) + "\"\n1\n0\n3\n0\n" +
                std::to_string(column.components) + "\n" + std::to_string(rows) + "\n");
     bool exact = true;
-    forEachRow(rows, column.bytesPerRow(), read, [&](uint64_t row, const unsigned char* values) {
-      out_->integer<int32_t>(static_cast<int64_t>(first_tag + row));
+    forEach([&](uint64_t tag, const unsigned char* values) {
+      out_->integer<int32_t>(static_cast<int64_t>(tag));
       for (int k = 0; k < column.components; ++k, values += sizeOf(column.type)) {
         out_->real(values, column.type);
         exact = exact && isExact(values, column.type);
@@ -407,21 +430,48 @@ class MshWriter final : public MeshCollector {
     return number >= -(int64_t{1} << 53) && number <= int64_t{1} << 53;
   }
 
+  template <class Visit>
+  void forEachPointRow(size_t field, Visit visit) {
+    forEachRow(
+        points(), mesh_->schema().fields[field].bytesPerRow(),
+        [&](uint64_t first, size_t n, void* out) { mesh_->readField(field, first, n, out); },
+        [&](uint64_t row, const unsigned char* values) { visit(row + 1, values); });
+  }
+
+  // In the order of the elements.
+  template <class Visit>
+  void forEachCellRow(size_t column, Visit visit) {
+    const size_t bytes = mesh_->schema().cell_data[column].bytesPerRow();
+    const uint64_t faces = labels_->faces();
+    const auto read = [&](uint64_t first, size_t n, void* out) {
+      mesh_->readCellData(column, first, n, out);
+    };
+    if (!cells_)
+      return forEachRow(cells(), bytes, read, [&](uint64_t row, const unsigned char* values) {
+        visit(faces + row + 1, values);
+      });
+    std::vector<unsigned char> values(bytes);
+    forEachElement([&](uint64_t number, uint64_t tag, const int64_t*) {
+      read(number, 1, values.data());
+      visit(faces + tag, values.data());
+    });
+  }
+
   void writeColumns() {
     const Schema& schema = mesh_->schema();
     for (size_t c = 0; c < schema.fields.size(); ++c)
-      writeData("NodeData", schema.fields[c], points(), 1,
-                [&](uint64_t first, size_t n, void* out) { mesh_->readField(c, first, n, out); });
+      writeData("NodeData", schema.fields[c], points(),
+                [&](const auto& visit) { forEachPointRow(c, visit); });
     for (size_t c = 0; c < schema.cell_data.size(); ++c)
       if (!labels_->isLabel(c))
-        writeData(
-            "ElementData", schema.cell_data[c], cells(), labels_->faces() + 1,
-            [&](uint64_t first, size_t n, void* out) { mesh_->readCellData(c, first, n, out); });
+        writeData("ElementData", schema.cell_data[c], cells(),
+                  [&](const auto& visit) { forEachCellRow(c, visit); });
   }
 
   MeshSpool* mesh_ = nullptr;
   MshLabels* labels_ = nullptr;
   std::unique_ptr<GroupedRows<Face>> faces_;
+  std::unique_ptr<GroupedRows<Cell>> cells_;  // where those of a volume do not follow each other
   NumberSink* out_ = nullptr;
 };
 

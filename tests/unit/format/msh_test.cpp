@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <sstream>
 
 #include "indexed_testing.h"
 
@@ -182,11 +183,28 @@ TEST(Msh, GivesBackWhatItHasWrittenInAllFourWays) {
     }
 }
 
-TEST(Msh, WritesRegionsAsGroupsAndKeepsTheirColumn) {
+// Forty cells of three materials, in turns, with the column asked for beside them.
+SvMesh materials(const std::vector<Column>& beside = {}) {
   Schema schema;
   schema.cell_data = {{"material", 1, ScalarType::kInt64}};
+  schema.cell_data.insert(schema.cell_data.end(), beside.begin(), beside.end());
   SvMesh m = indexedMesh(schema, 40);
   for (size_t i = 0; i < 40; ++i) m.cell_data[0][i] = static_cast<double>(i / 7 % 3);
+  return m;
+}
+
+// Rows of its cells by material, in each in their order: as blocks of version 4.1 are.
+template <class Row>
+std::vector<Row> grouped(const SvMesh& m, const std::vector<Row>& rows) {
+  std::vector<Row> all;
+  for (double material : {0.0, 1.0, 2.0})
+    for (size_t i = 0; i < rows.size(); ++i)
+      if (m.cell_data[0][i] == material) all.push_back(rows[i]);
+  return all;
+}
+
+TEST(Msh, WritesRegionsAsGroupsAndKeepsTheirColumn) {
+  const SvMesh m = materials();
   for (bool binary : {false, true})
     for (bool newest : {false, true}) {
       const Bytes file = write(m, binary, newest);
@@ -194,9 +212,52 @@ TEST(Msh, WritesRegionsAsGroupsAndKeepsTheirColumn) {
       ASSERT_EQ(r.schema.cell_data.size(), 1u);
       EXPECT_EQ(r.schema.cell_data[0].name, "material");
       EXPECT_EQ(r.schema.cell_data[0].type, ScalarType::kInt64);
-      EXPECT_EQ(r.cell_data, m.cell_data);
+      EXPECT_EQ(r.cells, (newest ? grouped(m, m.cells) : m.cells));
+      EXPECT_EQ(r.cell_data[0], (newest ? grouped(m, m.cell_data[0]) : m.cell_data[0]));
       EXPECT_EQ(std::string(file.begin(), file.end()).find("ElementData"), std::string::npos);
     }
+}
+
+// The first and the last element of the second block, with what stands before its corners.
+std::string tagsOfSecondBlock(const Bytes& file) {
+  const std::string text(file.begin(), file.end());
+  const size_t block = text.find("\n3 1 4 14 \n");
+  if (block == std::string::npos) return text;
+  std::istringstream rows(text.substr(block));
+  std::string row, first, last;
+  std::getline(rows, row);
+  std::getline(rows, row);
+  for (int i = 0; i < 14; ++i) {
+    std::getline(rows, row);
+    (i == 0 ? first : last) = row.substr(0, row.find(' '));
+  }
+  return first + " " + last;
+}
+
+// Data stand in the order of the elements, since there are programs that go by it. Tags are
+// numbers in the file, or, where a map names cells by them, in the stream.
+TEST(Msh, GroupsDataOfCellsAndNumbersThemForMaps) {
+  const SvMesh m = materials({{"half", 1, ScalarType::kFloat64}});
+  for (bool is_mapped : {false, true}) {
+    Bytes file;
+    std::vector<std::string> notes;
+    WriteOptions options;
+    options.binary = false;
+    options.is_mapped = is_mapped;
+    options.note = [&notes](const std::string& note) { notes.push_back(note); };
+    putStream(m, *createMsh(createMemory(file), options), 7);
+    EXPECT_EQ(tagsOfSecondBlock(file), is_mapped ? "8 35" : "15 28");
+    EXPECT_EQ(anyNote(notes, "cell N of the map is the element with the tag N + 1"), is_mapped);
+    const SvMesh r = readBytes(openMsh, file);
+    EXPECT_EQ(r.cells, grouped(m, m.cells));
+    EXPECT_EQ(r.cell_data[1], grouped(m, m.cell_data[1]));
+  }
+}
+
+TEST(Msh, LeavesCellsThatAreTogetherInTheirOrder) {
+  SvMesh m = materials();
+  for (size_t i = 0; i < 40; ++i) m.cell_data[0][i] = i < 20 ? 5 : 2;
+  EXPECT_EQ(readBytes(openMsh, write(m, true, true)).cells, m.cells);
 }
 
 TEST(Msh, KeepsRegionsOfWhichAllAreZero) {
