@@ -63,7 +63,10 @@ class Reader {
   StreamInfo* getInfo();
   // Reads everything.
   StreamInfo* inspect(const Options& options, const Function& progress);
+  // Of what inspect found.
   tetstream_front_info getFront();
+  int32_t faceLabelCount();
+  tetstream_face_label_info getFaceLabel(int32_t index);
   const char* note(int32_t index) const { return tetstream_reader_note(handle_.get(), index); }
 
   tetstream_reader* handle() const { return handle_.get(); }

@@ -111,6 +111,20 @@ tetstream_front_info Reader::getFront() {
   });
 }
 
+int32_t Reader::faceLabelCount() {
+  tetstream_face_label_info label = {};
+  label.struct_size = sizeof label;
+  int32_t count = 0;
+  while (tetstream_reader_get_face_label(handle_.get(), count, &label) == TETSTREAM_OK) ++count;
+  return count;
+}
+
+tetstream_face_label_info Reader::getFaceLabel(int32_t index) {
+  return filled<tetstream_face_label_info>([&](tetstream_face_label_info& out) {
+    check(tetstream_reader_get_face_label(handle_.get(), index, &out), handle_);
+  });
+}
+
 // --------------------------------------------------------------------------------------- writer
 
 // What a writer of the language's is made of.

@@ -29,6 +29,7 @@
 %rename(MeshFigures) tetstream_mesh_figures;
 %rename(FieldComparison) tetstream_field_comparison;
 %rename(RegionComparison) tetstream_region_comparison;
+%rename(FaceLabelInfo) tetstream_face_label_info;
 %rename(FaceLabelComparison) tetstream_face_label_comparison;
 
 // --------------------------------------------------------------------------------- constants

@@ -47,6 +47,7 @@ class Names(unittest.TestCase):
         self.assertEqual(Reader.mesh(self.mesh).info().label_names, NAMES)
         self.assertEqual(tetstream.info(self.mesh).label_names, NAMES)
         self.assertEqual(Reader.generate("ball", 100).info().label_names, {})
+        self.assertEqual(tetstream.info(Reader.generate("ball", 100)).face_labels, {})
 
     def test_a_format_without_them_leaves_them_out(self):
         notes = self.mesh.write(self.folder / "out.vtu")

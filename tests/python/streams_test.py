@@ -144,7 +144,8 @@ class Generators(unittest.TestCase):
                               face_labels=numpy.full(len(faces), 7), locked_edges=edge,
                               locked_faces=numpy.arange(len(faces)) < 2)
         self.assertEqual(Reader.stream(mesh).info().face_count, len(faces))
-        self.assertEqual(tetstream.info(mesh).face_count, len(faces))
+        found = tetstream.info(mesh)
+        self.assertEqual((found.face_count, found.face_labels), (len(faces), {7: len(faces)}))
         result = self.simplified(Reader.stream(mesh))
         self.assertLess(len(result.cells), 0.5 * len(cells))
         self.assertEqual(set(result.face_labels), {7})

@@ -48,8 +48,3 @@ function figures = tetstream_compare (original, simplified, varargin)
     comparison.write (own.picture, []);
   endif
 endfunction
-
-## A struct array of what `get` gives for 0, 1, ..., count - 1.
-function found = all_of (get, count)
-  found = [arrayfun(get, 0:(count - 1), "UniformOutput", false){:}];
-endfunction

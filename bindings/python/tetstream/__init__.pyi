@@ -150,6 +150,7 @@ class StreamInfo(Record):
     front_span: int
     front_cells: int
     front: Record
+    face_labels: dict[int, int]
     indexed: bool
     box: NDArray[numpy.float64] | None
     ranges: dict[str, NDArray[numpy.float64] | None]

@@ -43,8 +43,11 @@ def info(source, *, progress=None, **options):
     with _progress.told(progress) as tell:
         reader = _streams.reader_of(source, made, tell)
         found = reader._handle.inspect(made._handle, tell)
-    front = Record.copied(reader._handle.get_front())
-    return _streams.stream_info(found, front=front, notes=reader.notes)
+    handle = reader._handle
+    labels = [handle.get_face_label(i) for i in range(handle.face_label_count())]
+    return _streams.stream_info(found, front=Record.copied(handle.get_front()),
+                                face_labels={label.label: label.faces for label in labels},
+                                notes=reader.notes)
 
 
 # ----------------------------------------------------------------------------------- diagrams
