@@ -101,7 +101,7 @@ void XdmfBeside::addFaces(const XdmfGrid& grid, const XdmfTopology& topology) {
   const uint64_t count = faces.cells * static_cast<uint64_t>(values->components);
   std::optional<ValueType> type = wholeType(*values, count);
   // What was not whole as float64 may be as float32.
-  if (isFloat(values->type) && XdmfFields::isUntyped(of_cells[0].items[0])) type.reset();
+  if (isFloat(values->type) && of_cells[0].items[0].isUntyped()) type.reset();
   if (!type || values->components != 1)
     return leaveOut(grid, "its array \"" + cutName(of_cells[0].name) +
                               "\" is no label of faces: it has not one integer to each");

@@ -142,7 +142,11 @@ int vtkTypeOfXdmf(const std::string& topology) {
 
 void addXdmfCells(const XdmfTopology& topology, XdmfArrays& arrays, const std::string& temp_dir,
                   MeshPiece& piece) {
-  const XdmfItem& item = topology.items.front();
+  XdmfItem item = topology.items.front();
+  if (item.isUntyped()) {
+    item.kind = "Int";
+    item.precision = sizeof(int64_t);
+  }
   piece.connectivity = arrays.arrayOf(item, "topology", 1);
   if (isFloat(piece.connectivity->type))
     fail(Status::kBadData, "%s are no integers", arrays.describe(item).c_str());

@@ -70,14 +70,10 @@ std::optional<MeshArray> XdmfFields::valuesOf(const XdmfAttribute& attribute, ui
   return whole ? std::move(whole) : arrays_.arrayOf(item, name, width);
 }
 
-bool XdmfFields::isUntyped(const XdmfItem& item) {
-  return !item.is_slab && !item.has_kind && sameWord(item.format, "XML");
-}
-
 // note: as float64, of which float32, what such text is otherwise, has not all integers.
 std::optional<MeshArray> XdmfFields::wholeOf(XdmfItem item, const std::string& name,
                                              int components) {
-  if (!isUntyped(item)) return {};
+  if (!item.isUntyped()) return {};
   item.precision = sizeof(double);
   MeshArray values = arrays_.arrayOf(item, name, components);
   const std::optional<ValueType> type = wholeType(values, item.count());

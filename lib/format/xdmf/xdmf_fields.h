@@ -26,8 +26,6 @@ class XdmfFields {
   // are not. None if it is no list of values or has too many components.
   std::optional<MeshArray> valuesOf(const XdmfAttribute& attribute, uint64_t rows,
                                     bool may_be_whole);
-  // Whether the file does not tell what the values are.
-  static bool isUntyped(const XdmfItem& item);
 
  private:
   void add(const XdmfAttribute& attribute, uint64_t rows, const Spread& spread,

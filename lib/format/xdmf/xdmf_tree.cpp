@@ -18,6 +18,10 @@ uint64_t XdmfItem::count() const {
   return count;
 }
 
+bool XdmfItem::isUntyped() const {
+  return !is_slab && !has_kind && sameWord(format, "XML");
+}
+
 namespace {
 
 constexpr size_t kMaxGrids = 1 << 18, kMaxItems = 1 << 20;

@@ -26,6 +26,8 @@ struct XdmfItem {
   std::string reference;
 
   uint64_t count() const;
+  // Whether the file does not tell what the values are: text, of which each number tells.
+  bool isUntyped() const;
 };
 
 struct XdmfAttribute {

@@ -54,6 +54,16 @@ TEST(Xdmf, OneGridIsReadWithItsValues) {
   }
 }
 
+// Text whose type the file does not tell is of integers where nodes are told.
+TEST(Xdmf, CellsNeedNoTypeInText) {
+  const auto cells = [](const std::string& text) {
+    return file(uniform("m", "<Topology TopologyType=\"Tetrahedron\">" + xdmfItem("2 4", text) +
+                                 "</Topology>" + kXdmfPoints));
+  };
+  EXPECT_EQ(readAs("xdmf", cells("0 1 2 3 1 2 3 4")).cells, kTwoCells);
+  EXPECT_TRUE(has(failureAs("xdmf", cells("0 1 2 3 1 2 3 4.5")), "BAD_DATA"));
+}
+
 // As ParaView writes arrays: with empty words, which say that it is no function.
 TEST(Xdmf, EmptyWordsMakeNoFunction) {
   const auto withWords = [](std::string text, const std::string& words) {
