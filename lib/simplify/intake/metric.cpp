@@ -379,13 +379,19 @@ void Metric<S>::prepare(uint32_t first, uint32_t end) {
   core_.face_weight = fields_together_ * core_.options.boundary_weight * extent() / length_unit_;
 }
 
-// Minimizers lie beyond the values they come from where a field bends: of a density, below 0.
+// Of a field's range.
+constexpr double kMostBeyond = 0.25;
+
+// Minimizers lie beyond the values they come from where a field bends: of a density, below 0. Where
+// it jumps and few cells are left they would do so by most of the range, for no smaller error.
 template <class S>
 void Metric<S>::keepRange() {
-  if (core_.options.field_range == FieldRange::kFree) return;
+  const bool is_free = core_.options.field_range == FieldRange::kFree;
+  if (is_free && followsPaper(core_.options.mode)) return;
   for (size_t i = 3; i < low_.size(); ++i) {
-    core_.least[i] = static_cast<S>(low_[i]);
-    core_.most[i] = static_cast<S>(high_[i]);
+    const double slack = is_free ? kMostBeyond * rangeOf(i) : 0;
+    core_.least[i] = static_cast<S>(low_[i] - slack);
+    core_.most[i] = static_cast<S>(high_[i] + slack);
   }
 }
 

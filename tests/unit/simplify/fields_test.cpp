@@ -210,6 +210,15 @@ TEST(SeveralFields, StayWithinTheirRangeIfAsked) {
   }
 }
 
+// Sheets of one layer of vertices: where few cells are left the best values are far from 0 and 1.
+TEST(SeveralFields, LeaveTheirRangeByAQuarterAtMost) {
+  TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), fieldsSide(), 0.3);
+  addPositionField(mesh, {"sheets", 1, k64},
+                   [](double x, double, double) { return std::lround(x) % 4 == 2 ? 1 : 0; });
+  for (double ratio : {0.1, 0.03, 0.01})
+    EXPECT_LE(excess(mesh, simplified(mesh, toRatio(ratio)).out.mesh), 0.25 + 1e-12);
+}
+
 // A header that tells half of the range: values are as those they come from.
 TEST(SeveralFields, AreNotPressedIntoARangeThatIsTooNarrow) {
   TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), fieldsSide(), 0.1);
