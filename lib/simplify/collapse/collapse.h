@@ -8,9 +8,9 @@
 #include "edge_notes.h"
 #include "heirs.h"
 #include "link.h"
+#include "merged_place.h"
 #include "patch.h"
 #include "price.h"
-#include "region_volumes.h"
 #include "sheet_sides.h"
 #include "sound.h"
 #include "star_kernels.h"
@@ -83,21 +83,14 @@ class Collapser {
     float cost = 1;
   };
   Adjusted adjust(uint32_t u, uint32_t v, const Strata& strata);
-  bool putOnCurve(uint32_t u, uint32_t v, bool u_on_it, bool v_on_it);
-  S errorHere(uint32_t u, uint32_t v) const;
   uint32_t nextOnCurve(uint32_t v, uint32_t before, const Star& star, const Star& ring,
                        const Embedded& embedded) const;
   bool keepCurveArea(uint32_t u, uint32_t v, const Embedded& embedded);
-  void measureVolumes(uint32_t u, uint32_t v, const CellLabels& labels, const SheetSides* sides);
-  S keepVolumes(uint32_t u, uint32_t v, const CellLabels& labels, const SheetSides* sides);
-  bool isFarther(uint32_t u, uint32_t v) const;
   bool turnsSameCell(uint32_t u, uint32_t v, const ThinAngle& angle) const;
   Outcome refuseFor(uint32_t u, uint32_t v, const StarCell& turned);
   double growth(uint32_t u, uint32_t v, S error);
   bool passesLimit(uint32_t u, uint32_t v, S error);
   bool isTooLarge(S error) const { return static_cast<double>(error) > core_.most_error; }
-  bool placeAt(uint32_t u, uint32_t v, S* z);
-  void moveBy(uint32_t u, uint32_t v, const S step[3]);
   // Of a mesh without regions: whether the boundary is there to shrink or grow.
   bool keepsBody(uint32_t u, uint32_t v) const {
     return core_.keeps_body && (mesh_.isBoundary(u) || mesh_.isBoundary(v));
@@ -111,8 +104,6 @@ class Collapser {
   using Thin = ThinCounts<Mesh>;
   Outcome thins(uint32_t u, uint32_t v, float most_price, const StarShape& after);
   bool thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after);
-  void interpolateCarried(uint32_t u, uint32_t v);
-  void pickNearest(uint32_t u, uint32_t v);
   void mergeInto(uint32_t u, uint32_t v, S error);
   void trace(uint32_t u, uint32_t v, double error);
 
@@ -131,10 +122,8 @@ class Collapser {
   EdgeFaces<Mesh> edge_faces_;
   StrataCondition::Labelled labelled_;  // of the edge that is tested
   SheetSides sides_;
-  RegionVolumes volumes_;
   Stars stars_;
-  std::vector<S> merged_;  // values of the merged vertex
-  std::vector<S> z_;       // its place, normalised and relative to the edge's midpoint
+  MergedPlace<Mesh> place_;
   Heirs heirs_;
   std::vector<uint32_t> traced_before_;  // in slots of the window
   std::vector<PlacedCell> traced_after_;

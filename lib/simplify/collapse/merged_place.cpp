@@ -1,0 +1,188 @@
+#include "merged_place.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "barycentric.h"
+#include "curve_area.h"
+
+namespace tetstream {
+
+// Of an edge's length: nearer to it than this is on it.
+constexpr double kOnEdge = 1e-3;
+
+template <class Mesh>
+bool MergedPlace<Mesh>::set(uint32_t u, uint32_t v, const S* z) {
+  u_ = u;
+  v_ = v;
+  std::copy_n(z, z_.size(), z_.data());
+  std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
+              values_.data() + core_.plan.dimension);
+  return place();
+}
+
+// The new position is rounded to the type in which it is written: what is tested is what the file
+// will hold. Where fields are to keep their range, values stay in what is known of it, or in that
+// of the two ends where a header has told a narrower one.
+template <class Mesh>
+bool MergedPlace<Mesh>::place() {
+  const S *a = mesh_.values(u_), *b = mesh_.values(v_);
+  const bool to_float = core_.plan.schema.position_type == ScalarType::kFloat32;
+  bool gave_way = false;
+  for (size_t i = 0; i < core_.scale.size(); ++i) {
+    const S middle = a[i] + S(0.5) * (b[i] - a[i]);
+    S& x = values_[i] = middle + z_[i] * core_.inverse_scale[i];
+    if (to_float && i < 3) x = static_cast<S>(static_cast<float>(x));
+    if (!(x < core_.least[i] || x > core_.most[i])) continue;
+    x = std::clamp(x, std::min({core_.least[i], a[i], b[i]}),
+                   std::max({core_.most[i], a[i], b[i]}));
+    z_[i] = (x - middle) * core_.scale[i];
+    gave_way = true;
+  }
+  return gave_way;
+}
+
+template <class Mesh>
+auto MergedPlace<Mesh>::error() const -> S {
+  return core_.kernels.errorAt(mesh_.quadric(u_), mesh_.values(u_), mesh_.quadric(v_),
+                               mesh_.values(v_), core_.scale.data(), core_.plan.dimension,
+                               z_.data());
+}
+
+template <class Mesh>
+bool MergedPlace<Mesh>::isFinite() const {
+  return std::all_of(values_.begin(), values_.begin() + core_.plan.dimension,
+                     [](S x) { return std::isfinite(x); });
+}
+
+template <class Mesh>
+bool MergedPlace<Mesh>::isFartherFromU() const {
+  double difference = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const auto a = static_cast<double>(values_[i] - mesh_.values(u_)[i]);
+    const auto b = static_cast<double>(values_[i] - mesh_.values(v_)[i]);
+    difference += a * a - b * b;
+  }
+  return difference > 0;
+}
+
+// The place goes a step, normalised, and the fields with it to what is best for them there.
+template <class Mesh>
+void MergedPlace<Mesh>::moveBy(const S step[3]) {
+  for (size_t i = 0; i < 3; ++i) z_[i] += step[i];
+  core_.kernels.followStep(mesh_.quadric(u_), mesh_.quadric(v_), core_.plan.dimension, step,
+                           z_.data());
+  place();
+}
+
+template <class Mesh>
+bool MergedPlace<Mesh>::putOnCurve(bool u_on_it, bool v_on_it) {
+  double along[3], square = 0, dot = 0, off = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    along[i] = static_cast<double>((mesh_.values(v_)[i] - mesh_.values(u_)[i]) * core_.scale[i]);
+    square += along[i] * along[i];
+    dot += along[i] * static_cast<double>(z_[i]);
+  }
+  double t = v_on_it ? 0.5 : -0.5;
+  if (u_on_it == v_on_it) {
+    t = std::clamp(dot / square, -0.5, 0.5);
+    for (size_t i = 0; i < 3; ++i) {
+      const double d = static_cast<double>(z_[i]) - t * along[i];
+      off += d * d;
+    }
+    if (!(off <= kOnEdge * kOnEdge * square)) return false;
+  }
+  S step[3];
+  for (size_t i = 0; i < 3; ++i) step[i] = static_cast<S>(t * along[i]) - z_[i];
+  moveBy(step);
+  if (u_on_it != v_on_it) std::copy_n(mesh_.values(v_on_it ? v_ : u_), 3, values_.data());
+  return true;
+}
+
+template <class Mesh>
+bool MergedPlace<Mesh>::keepCurveArea(uint32_t behind_u, uint32_t behind_v) {
+  const uint32_t chain[4] = {behind_u, u_, v_, behind_v};
+  double p[4][3], x[3];
+  S step[3];
+  for (size_t i = 0; i < 3; ++i) {
+    for (int k = 0; k < 4; ++k) p[k][i] = static_cast<double>(mesh_.values(chain[k])[i]);
+    x[i] = static_cast<double>(values_[i]);
+  }
+  if (!keepArea(p[0], p[1], p[2], p[3], x)) return false;
+  for (size_t i = 0; i < 3; ++i) step[i] = (static_cast<S>(x[i]) - values_[i]) * core_.scale[i];
+  moveBy(step);
+  return true;
+}
+
+template <class Mesh>
+void MergedPlace<Mesh>::measureVolumes(const Stars& stars, const CellLabels& labels,
+                                       const SheetSides* sides) {
+  const uint32_t ends[2] = {u_, v_};
+  const double x[3] = {at(0), at(1), at(2)};
+  volumes_.measure(stars, ends, mesh_.allValues(), static_cast<size_t>(mesh_.valueStride()), x,
+                   labels, sides);
+}
+
+template <class Mesh>
+bool MergedPlace<Mesh>::changesVolumes(const Stars& stars, const CellLabels& labels) {
+  measureVolumes(stars, labels, nullptr);
+  return volumes_.changeHere();
+}
+
+template <class Mesh>
+auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels,
+                                    const SheetSides* sides) -> S {
+  measureVolumes(stars, labels, sides);
+  double step[3], form[6];
+  S cost[6];
+  core_.kernels.spaceForm(mesh_.quadric(u_), mesh_.quadric(v_), core_.plan.dimension, cost);
+  std::copy_n(cost, 6, form);
+  const bool is_near = volumes_.step(form, step);
+  if (!is_near && labels.count > 0) return std::numeric_limits<S>::infinity();
+  if (!is_near && !sides) return S(0);
+  S scaled[3];
+  for (size_t i = 0; i < 3; ++i) scaled[i] = static_cast<S>(step[i]) * core_.scale[i];
+  moveBy(scaled);
+  return error();
+}
+
+// A value that is not finite has no part in a mean: there the nearest corner's is taken, so that
+// such places do not grow.
+template <class Mesh>
+void MergedPlace<Mesh>::interpolateCarried(const Stars& stars) {
+  const double x[3] = {at(0), at(1), at(2)};
+  double best = -1e301, weights[4] = {1, 0, 0, 0};
+  uint32_t corners[4] = {u_, u_, u_, u_};
+  for (const Star* star : {&stars.ring, &stars.u, &stars.v}) {
+    if (best >= 0) break;  // x lies in that cell
+    const uint32_t centre = star == &stars.v ? v_ : u_;
+    const NearestCell nearest =
+        nearestCell(x, mesh_.allValues(), mesh_.valueStride(), static_cast<double>(core_.scale[0]),
+                    centre, star->begin(), star->size());
+    if (!(nearest.least > best)) continue;
+    best = nearest.least;
+    corners[0] = centre;
+    std::copy_n((*star)[nearest.place].t, 3, corners + 1);
+  }
+  double p[4][3];
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) p[k][i] = static_cast<double>(mesh_.values(corners[k])[i]);
+  clampedWeights(p, x, weights);
+  const auto nearest = static_cast<size_t>(std::max_element(weights, weights + 4) - weights);
+  for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
+    double sum = 0;
+    for (int k = 0; k < 4; ++k)
+      sum += weights[k] * static_cast<double>(mesh_.values(corners[k])[i]);
+    const S mean = static_cast<S>(sum);
+    values_[static_cast<size_t>(i)] =
+        std::isfinite(mean) ? mean : mesh_.values(corners[nearest])[i];
+  }
+}
+
+template class MergedPlace<Window<float>>;
+template class MergedPlace<Window<double>>;
+template class MergedPlace<Patch<float>>;
+template class MergedPlace<Patch<double>>;
+
+}  // namespace tetstream

@@ -1,0 +1,64 @@
+// simplify/collapse: where two vertices go that become one, and the values that they have there.
+// Depends on core.h, region_volumes.h.
+#pragma once
+
+#include <vector>
+
+#include "core.h"
+#include "patch.h"
+#include "region_volumes.h"
+
+namespace tetstream {
+
+template <class Mesh>
+class MergedPlace {
+ public:
+  using S = typename Mesh::Scalar;
+
+  MergedPlace(Core<S>& core, Mesh& mesh)
+      : core_(core),
+        mesh_(mesh),
+        values_(static_cast<size_t>(core.plan.values)),
+        z_(static_cast<size_t>(core.plan.dimension)) {}
+
+  // Of u and v at z, normalised and relative to their edge's midpoint, with what u carries. Returns
+  // whether the values gave way to the range of a field.
+  bool set(uint32_t u, uint32_t v, const S* z);
+  S error() const;  // there
+  bool isFinite() const;
+  const std::vector<S>& values() const { return values_; }
+  bool isFartherFromU() const;  // than from v
+
+  // With features, curves stay where they are: what is merged with a vertex of one goes there, and
+  // between two of them a place off their edge by rounding goes onto it. False, and nothing is
+  // done, for other places between two.
+  bool putOnCurve(bool u_on_it, bool v_on_it);
+  // Of two vertices of a curve, with those behind them: to where the area is kept that the curve
+  // bounds; false if it stays.
+  bool keepCurveArea(uint32_t behind_u, uint32_t behind_v);
+  // Whether a region of the stars is larger there than before, or smaller, or the body.
+  bool changesVolumes(const Stars& stars, const CellLabels& labels);
+  // By as much as it takes, to where no region of the stars grows or shrinks, or side of a sheet,
+  // or the body; returns the error there. Where that is too far the body changes, but of regions
+  // nothing may: infinity.
+  S keepVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
+
+  // Carried fields take the value that the old cells have there.
+  void interpolateCarried(const Stars& stars);
+
+ private:
+  bool place();
+  void moveBy(const S step[3]);
+  void measureVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
+
+  double at(size_t axis) const { return static_cast<double>(values_[axis]); }
+
+  Core<S>& core_;
+  Mesh& mesh_;
+  uint32_t u_ = 0, v_ = 0;
+  RegionVolumes volumes_;
+  std::vector<S> values_;
+  std::vector<S> z_;  // the place, normalised and relative to the edge's midpoint
+};
+
+}  // namespace tetstream
