@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "mix.h"
 #include "status.h"
 
 namespace tetstream {
@@ -44,11 +45,14 @@ uint32_t JoinedSets::root(uint32_t member) {
   return member;
 }
 
+// The root is the later one in an order of all nodes that is as good as random (Goel, Khanna,
+// Larkin, Tarjan, SODA 2014): the way to it, of nodes that may have no other holder, is short even
+// from a member that is not looked at for long.
 bool JoinedSets::join(uint32_t a, uint32_t b) {
   a = root(a);
   b = root(b);
   if (a == b) return false;
-  if (nodes_[a].held < nodes_[b].held) std::swap(a, b);
+  if (mix(a) < mix(b)) std::swap(a, b);
   nodes_[b].parent = a;
   ++nodes_[a].held;
   --sets_;

@@ -27,6 +27,10 @@ static double squaredToSegment(const double a[3], const double b[3], const doubl
   return dot(to, to);
 }
 
+// Where the square of the sine between two sides is below this, the foot is rounding in part, and
+// nothing else in a triangle that is nearly a line: it may seem inside though an edge is nearer.
+constexpr double kThin = 1e-4;
+
 // The foot of the perpendicular if it is inside, else the best of the three edges.
 double squaredDistance(const double* corners, const double place[3], double coordinates[3]) {
   double u[3], v[3], w[3];
@@ -35,6 +39,7 @@ double squaredDistance(const double* corners, const double place[3], double coor
   subtract(place, corners, w);
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
   const double d = uu * vv - uv * uv;
+  double least = -1;
   if (d > 0) {
     const double s = (vv * wu - uv * wv) / d, t = (uu * wv - uv * wu) / d;
     if (s >= 0 && t >= 0 && s + t <= 1) {
@@ -42,10 +47,10 @@ double squaredDistance(const double* corners, const double place[3], double coor
       coordinates[0] = 1 - s - t;
       coordinates[1] = s;
       coordinates[2] = t;
-      return dot(w, w);
+      least = dot(w, w);
+      if (d > kThin * uu * vv) return least;
     }
   }
-  double least = -1;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     double share = 0;

@@ -1,12 +1,14 @@
-// Cell arrays as fields, and means at points.
+// Cell arrays as fields.
 #include "cells_to_points.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <memory>
+#include <vector>
 
 #include "mesh_spool.h"
-#include "point_means.h"
 
 namespace tetstream {
 namespace {
@@ -68,21 +70,6 @@ TEST(CellsToPoints, FieldsAreTheMeansOfTheCellsRound) {
   int32_t region[3];
   mesh->readCellData(2, 0, 3, region);
   EXPECT_EQ(region[2], 2);
-}
-
-// More values than a bucket holds, in no order.
-TEST(PointMeans, OfManyValuesComeInOrder) {
-  constexpr uint64_t kPoints = 300000, kTimes = 5;
-  PointMeans means({"f", 1, ScalarType::kFloat64}, kPoints, kTimes * kPoints, "",
-                   [](size_t, auto add) {
-                     for (uint64_t i = 0; i < kTimes * kPoints; ++i)
-                       if (const uint64_t point = i * 7919 % kPoints; point % 10 != 3)
-                         add(point, static_cast<double>(point) + static_cast<double>(i / kPoints));
-                   });
-  std::vector<double> out(kPoints);
-  means.read(0, kPoints, out.data());
-  for (uint64_t point = 0; point < kPoints; ++point)
-    ASSERT_EQ(out[point], point % 10 == 3 ? 0 : static_cast<double>(point) + 2) << point;
 }
 
 }  // namespace

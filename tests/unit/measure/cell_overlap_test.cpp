@@ -1,23 +1,14 @@
 // The common part of two cells and integrals over it, where they are known.
 #include "cell_overlap.h"
-#include "vector3.h"
 
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
-#include "random.h"
+#include "cells_testing.h"
 
 namespace tetstream::test {
 namespace {
-
-using Cell = std::vector<double>;
-const Cell kCorner = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-
-double volumeOf(const Cell& c) {
-  return std::fabs(sixVolume(&c[0], &c[3], &c[6], &c[9])) / 6;
-}
 
 // The volume that both have, and into *overlap the rest.
 double common(const Cell& a, const Cell& b, CellOverlap* overlap) {
@@ -26,19 +17,6 @@ double common(const Cell& a, const Cell& b, CellOverlap* overlap) {
   EXPECT_TRUE(map.set(b.data()));
   if (!map.planesOf(a.data(), planes) || !overlap->set(planes)) return 0;
   return overlap->volume * volumeOf(a);
-}
-
-Cell moved(Cell cell, double x, double y, double z, double scale = 1) {
-  for (size_t i = 0; i < 12; i += 3) {
-    cell[i] = scale * cell[i] + x;
-    cell[i + 1] = scale * cell[i + 1] + y;
-    cell[i + 2] = scale * cell[i + 2] + z;
-  }
-  return cell;
-}
-
-double uniform(Random& random) {
-  return static_cast<double>(random.next() >> 11) * 0x1p-53;
 }
 
 TEST(CellOverlap, OfACellWithItselfIsTheCell) {
