@@ -2,6 +2,7 @@
 // fields and other cell arrays are variables of one time step. After the same sources as the
 // reader.
 #include <algorithm>
+#include <cstring>
 #include <set>
 
 #include "exodus_blocks.h"
@@ -10,6 +11,7 @@
 #include "label_names.h"
 #include "mesh_collector.h"
 #include "netcdf_writer.h"
+#include "ordered_rows.h"
 #include "rows_at_once.h"
 #include "status.h"
 
@@ -141,16 +143,28 @@ class ExodusWriter final : public MeshCollector {
     return *static_cast<const uint64_t*>(cells_->rows().row(element));
   }
 
-  // visit(cell, count) for runs of cells that are `elements` elements from `first` on.
-  template <class Visit>
-  void forRuns(uint64_t first, uint64_t elements, Visit visit) {
-    for (uint64_t at = first, end = first + elements; at < end;) {
-      const uint64_t cell = cellAt(at);
-      size_t n = 1;
-      while (n < kRowsAtOnce && at + n < end && cellAt(at + n) == cell + n) ++n;
-      visit(cell, n);
-      at += n;
+  // Rows of cells, in the order of the elements: read(first, count, out) reads them in the cells'.
+  template <class Read>
+  std::unique_ptr<OrderedRows> inElements(size_t row_bytes, Read read) {
+    auto rows = std::make_unique<OrderedRows>(cells(), row_bytes, options().temp_dir);
+    forEachRow(cells(), row_bytes, read, [&](uint64_t cell, const unsigned char* row) {
+      rows->put(static_cast<uint64_t>(*static_cast<const int64_t*>(elements_->row(cell))), row);
+    });
+    rows->finish();
+    return rows;
+  }
+
+  // visit(row of the element) for `count` elements from `first` on, of what inElements makes.
+  template <class Rows, class Read, class Visit>
+  void forElements(Rows& rows, size_t row_bytes, Read read, uint64_t first, uint64_t count,
+                   Visit visit) {
+    if (!is_reordered_) {
+      const auto from = [&](uint64_t at, size_t n, void* out) { read(first + at, n, out); };
+      return forEachRow(count, row_bytes, from,
+                        [&](uint64_t, const unsigned char* row) { visit(row); });
     }
+    if (!rows) rows = inElements(row_bytes, read);
+    for (uint64_t element = first; element < first + count; ++element) visit(rows->row(element));
   }
 
   // ------------------------------------------------------------------------------------- the head
@@ -307,11 +321,15 @@ class ExodusWriter final : public MeshCollector {
   }
 
   void putCorners(NetcdfValues& values, uint64_t first, uint64_t elements) {
-    std::vector<int64_t> rows(4 * kRowsAtOnce);
-    forRuns(first, elements, [&](uint64_t cell, size_t n) {
-      mesh_->readCells(cell, n, rows.data());
-      for (size_t i = 0; i < 4 * n; ++i) values.put(rows[i] + 1);
-    });
+    const auto read = [this](uint64_t at, size_t n, void* out) {
+      mesh_->readCells(at, n, static_cast<int64_t*>(out));
+    };
+    forElements(corners_, 4 * sizeof(int64_t), read, first, elements,
+                [&](const unsigned char* row) {
+                  int64_t corners[4];
+                  std::memcpy(corners, row, sizeof corners);
+                  for (const int64_t corner : corners) values.put(corner + 1);
+                });
   }
 
   // ------------------------------------------------------------------------------------ side sets
@@ -386,13 +404,14 @@ class ExodusWriter final : public MeshCollector {
 
   void putArray(NetcdfValues& values, const ExodusVariable& v, const BlockRows& rows) {
     const Column& column = schema().cell_data[v.column];
-    const size_t width = column.bytesPerRow();
     const size_t at = static_cast<size_t>(v.component) * sizeOf(column.type);
-    std::vector<unsigned char> held(kRowsAtOnce * width);
-    forRuns(rows.first, rows.elements, [&](uint64_t cell, size_t n) {
-      mesh_->readCellData(v.column, cell, n, held.data());
-      for (size_t i = 0; i < n; ++i) values.put(held.data() + i * width + at, column.type, 1);
-    });
+    if (ordered_column_ != v.column) ordered_.reset();
+    ordered_column_ = v.column;
+    const auto read = [&](uint64_t first, size_t n, void* out) {
+      mesh_->readCellData(v.column, first, n, out);
+    };
+    forElements(ordered_, column.bytesPerRow(), read, rows.first, rows.elements,
+                [&](const unsigned char* row) { values.put(row + at, column.type, 1); });
     noteRounding(values, column);
   }
 
@@ -408,7 +427,11 @@ class ExodusWriter final : public MeshCollector {
   std::map<int64_t, uint64_t> blocks_;            // elements by label
   std::unique_ptr<GroupedRows<uint64_t>> cells_;  // by element
   std::unique_ptr<RowSpool> elements_;            // by cell, from 0
-  bool is_reordered_ = false;                     // they are not in the order of cells
+  // By element, where that is not the order of the cells: corners; the last array that was asked
+  // for.
+  std::unique_ptr<OrderedRows> corners_, ordered_;
+  size_t ordered_column_ = SIZE_MAX;
+  bool is_reordered_ = false;  // they are not in the order of cells
   std::vector<BlockRows> block_rows_;
   std::vector<ExodusVariable> fields_, arrays_;
   NetcdfType real_ = NetcdfType::kDouble;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "grouped_rows.h"
 #include "label_names.h"
@@ -10,6 +11,7 @@
 #include "msh_kinds.h"
 #include "msh_labels.h"
 #include "number_sink.h"
+#include "ordered_rows.h"
 #include "rows_at_once.h"
 #include "status.h"
 
@@ -310,18 +312,16 @@ class MshWriter final : public MeshCollector {
     });
   }
 
-  // In that of the file: visit(number in the stream, tag less those of the faces, corners). Tags
-  // say the order of the stream where a map names cells by it; else that of the file, since there
-  // are programs that read no others beside data.
+  // In that of the file: visit(number, corners)
   template <class Visit>
   void forEachElement(Visit visit) {
     if (!cells_)
       return forEachCell([&](uint64_t number, const MshVolume&, const int64_t* corners) {
-        visit(number, number + 1, corners);
+        visit(number, corners);
       });
     for (uint64_t at = 0; at < cells(); ++at) {
       const auto* const cell = static_cast<const Cell*>(cells_->rows().row(at));
-      visit(cell->number, (options().is_mapped ? cell->number : at) + 1, cell->corners);
+      visit(cell->number, cell->corners);
     }
   }
 
@@ -372,7 +372,8 @@ class MshWriter final : public MeshCollector {
     sizeRow({count});
   }
 
-  // A block for each surface and each volume.
+  // A block for each surface and each volume. Tags tell the order of the stream, by which a map
+  // names cells.
   void writeElements4() {
     std::vector<const MshVolume*> volumes(labels_->volumes().size());
     for (const auto& [key, volume] : labels_->volumes())
@@ -390,12 +391,12 @@ class MshWriter final : public MeshCollector {
       --left;
     });
     auto volume = volumes.begin();
-    forEachElement([&](uint64_t, uint64_t cell_tag, const int64_t* corners) {
+    forEachElement([&](uint64_t number, const int64_t* corners) {
       if (left == 0) {
         left = (*volume)->cells;
         blockHead4(3, (*volume++)->tag, kMshTetra, left);
       }
-      putElement<uint64_t>(tag + cell_tag, {}, corners, 4);
+      putElement<uint64_t>(tag + number + 1, {}, corners, 4);
       --left;
     });
     end("Elements");
@@ -438,23 +439,39 @@ class MshWriter final : public MeshCollector {
         [&](uint64_t row, const unsigned char* values) { visit(row + 1, values); });
   }
 
-  // In the order of the elements.
+  // In the order of the elements, by which some programs go.
   template <class Visit>
   void forEachCellRow(size_t column, Visit visit) {
     const size_t bytes = mesh_->schema().cell_data[column].bytesPerRow();
-    const uint64_t faces = labels_->faces();
+    const uint64_t first_tag = labels_->faces() + 1;
     const auto read = [&](uint64_t first, size_t n, void* out) {
       mesh_->readCellData(column, first, n, out);
     };
     if (!cells_)
       return forEachRow(cells(), bytes, read, [&](uint64_t row, const unsigned char* values) {
-        visit(faces + row + 1, values);
+        visit(first_tag + row, values);
       });
-    std::vector<unsigned char> values(bytes);
-    forEachElement([&](uint64_t number, uint64_t tag, const int64_t*) {
-      read(number, 1, values.data());
-      visit(faces + tag, values.data());
+    OrderedRows rows(cells(), bytes, options().temp_dir);
+    std::vector<uint64_t> next = firstOfVolumes();
+    std::vector<unsigned char> held(kRowsAtOnce * bytes);
+    labels_->forEachCell([&](uint64_t cell, const MshVolume& volume) {
+      const size_t at = cell % kRowsAtOnce;
+      if (at == 0) read(cell, std::min<uint64_t>(kRowsAtOnce, cells() - cell), held.data());
+      rows.put(next[static_cast<size_t>(volume.rank)]++, held.data() + at * bytes);
     });
+    rows.finish();
+    uint64_t place = 0;
+    forEachElement(
+        [&](uint64_t number, const int64_t*) { visit(first_tag + number, rows.row(place++)); });
+  }
+
+  // Elements before each volume's, by its rank.
+  std::vector<uint64_t> firstOfVolumes() const {
+    std::vector<uint64_t> first(labels_->volumes().size() + 1, 0);
+    for (const auto& [key, volume] : labels_->volumes())
+      first[static_cast<size_t>(volume.rank) + 1] = volume.cells;
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
   }
 
   void writeColumns() {
