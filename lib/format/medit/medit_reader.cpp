@@ -23,7 +23,8 @@ class MeditReader {
         // note: text of version 1 is written with a double's digits by many.
         intake_(
             scan_.file(), options,
-            scan_.binary() && scan_.version() == 1 ? ScalarType::kFloat32 : ScalarType::kFloat64) {
+            scan_.binary() && scan_.version() == 1 ? ScalarType::kFloat32 : ScalarType::kFloat64),
+        required_(options.temp_dir) {
     const bool wide = scan_.version() == 4;
     intake_.addLabels(kMeditReference, wide);
     intake_.addPointLabels(kMeditReference, wide);
@@ -35,7 +36,7 @@ class MeditReader {
     if (!scan_.saysEnd()) intake_.note(std::string("it ") + kNoEnd);
     if (!any_vertices_) scan_.file().failBad("there are no Vertices");
     rows_.points = intake_.mesh().pointCount();
-    required_.lock(scan_.file(), intake_.mesh());
+    required_.lock(scan_.file(), intake_);
     readSolutions();
     return intake_.finish();
   }
@@ -48,7 +49,7 @@ class MeditReader {
     } else if (section.number == kMeditVertices) {
       readVertices();
     } else if (section.number == kMeditEdges) {
-      readEdges(section);
+      readEdges();
     } else if (section.number == kMeditRequiredVertices) {
       readRequired();
     } else if (section.number == kMeditRequiredEdges) {
@@ -108,7 +109,7 @@ class MeditReader {
       rows_.tetrahedra = count;
     }
     if (section.number == kMeditTriangles)
-      required_.setTriangles(intake_.mesh().faceCount(), count);
+      required_.addTriangles(intake_.mesh().faceCount(), count);
     if (placeTetrahedra(kind, count)) return;
     const auto corners = static_cast<size_t>(cornersOf(kind.shape));
     const bool is_cell = dimensionOf(kind.shape) == 3;
@@ -129,15 +130,13 @@ class MeditReader {
   }
 
   // For those that are required.
-  void readEdges(const MeditSection& section) {
-    intake_.note("the section " + section.name + " is left out");
+  void readEdges() {
     const uint64_t count = scan_.rows(3, 0, "edges");
-    const int64_t last = lastVertex();
     int64_t edge[3];
+    scan_.expectRows(count, {{{false, 3}}});
     for (uint64_t i = 0; i < count; ++i) {
       scan_.integers(edge, 3, "an edge");
-      for (size_t k = 0; k < 2; ++k) checkVertex(edge[k], last);
-      required_.addEdge(edge[0] - 1, edge[1] - 1);
+      required_.addEdge(edge[0], edge[1]);
     }
   }
 

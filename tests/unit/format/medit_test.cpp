@@ -97,6 +97,11 @@ TEST(Medit, LocksTheVerticesOfRequiredEdgesAndTriangles) {
   EXPECT_EQ(locks(faces + required), (std::vector<int>{0, 0, 1, 1, 1}));
   EXPECT_EQ(locks(edges + one_edge), (std::vector<int>{1, 0, 0, 1, 0}));
   EXPECT_EQ(locks(faces + edges + required + one_edge), (std::vector<int>{1, 0, 1, 1, 1}));
+  // Numbers go on in further sections, and those that were told stay.
+  const std::string more = "Triangles 1\n1 2 4 7\n", third = "RequiredTriangles 1\n3\n";
+  EXPECT_EQ(locks(faces + required + more), (std::vector<int>{0, 0, 1, 1, 1}));
+  EXPECT_EQ(locks(faces + more + third), (std::vector<int>{1, 1, 0, 1, 0}));
+  EXPECT_EQ(locks(faces + required + "Triangles 0\n"), (std::vector<int>{0, 0, 1, 1, 1}));
 }
 
 TEST(Medit, NotesRequiredThingsThatNobodyHasToldOf) {
@@ -211,7 +216,8 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
       {vertices + "Triangles 1\n1 2 3 0\nRequiredTriangles 1\n2\nEnd\n",
        "line 11: number 2 of triangles, where there are 1 to 1"},
       {vertices + "Edges 1\n1 2 0\nRequiredEdges 1\n0\nEnd\n", "line 11: number 0 of edges"},
-      {vertices + "Edges 1\n1 5 0\nEnd\n", "line 9: vertex 5, where there are 1 to 4"},
+      {vertices + "Edges 1\n1 5 0\nRequiredEdges 1\n1\nEnd\n",
+       "a required edge or triangle has vertex 5, where there are 1 to 4"},
       {head + "Edges 1\n1 2 0\nRequiredEdges 1\n1\nVertices 1\n0 0 0 0\nEnd\n",
        "a required edge or triangle has vertex 2, where there are 1 to 1"},
       {vertices + "End\n", "no tetrahedron"},
