@@ -32,7 +32,7 @@ void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
       mesh.numbers.count(mesh.size_bytes, 1, "the number of physical groups of an entity");
   for (uint64_t i = 0; i < groups; ++i) {
     const int64_t group = mesh.numbers.integer(kMshInt, "a physical group of an entity");
-    if (i == 0) mesh.physical[{dimension, tag}] = group < 0 ? -group : group;
+    if (i == 0) mesh.physical[{dimension, tag}] = mesh.labelOf(dimension, std::abs(group));
   }
   if (groups > 1) mesh.further_groups += groups - 1;
   if (dimension == 0) return;

@@ -42,6 +42,11 @@ void readMshHint(std::string_view line, MshHints* hints) {
     hints->labels_named = true;
     return;
   }
+  if (what == "zero") {
+    int64_t group;
+    if (parseInteger(takeWord(line), &group) && group > 0) hints->zero_group = group;
+    return;
+  }
   ScalarType type;
   if (!typeOf(takeWord(line), &type)) return;
   if (what == "position" && isFloat(type)) hints->position_type = type;

@@ -17,10 +17,12 @@ bool isIntegerColumn(const Column& column) {
 
 }  // namespace
 
-MshLabels::MshLabels(MeshSpool& mesh) : mesh_(mesh) {
+MshLabels::MshLabels(MeshSpool& mesh, const WriteOptions& options)
+    : mesh_(mesh), options_(options) {
   chooseColumns();
   findSurfaces();
-  findVolumes();
+  chooseTags(findVolumes(), options.newest);
+  if (options.newest) groupZero();
 }
 
 void MshLabels::read(const std::optional<size_t>& column, uint64_t first, size_t count,
@@ -39,12 +41,14 @@ void MshLabels::chooseColumns() {
   });
 }
 
-void MshLabels::findVolumes() {
+// Returns the highest label.
+int64_t MshLabels::findVolumes() {
   int64_t groups[kRowsAtOnce] = {}, entities[kRowsAtOnce] = {};
   int64_t highest = 0;
   MshVolume* last = nullptr;
   for (uint64_t first = 0; first < mesh_.cellCount(); first += kRowsAtOnce) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_.cellCount() - first));
+    if (options_.tell) options_.tell();
     read(group_column_, first, n, groups);
     read(entity_column_, first, n, entities);
     for (size_t i = 0; i < n; ++i) {
@@ -57,16 +61,16 @@ void MshLabels::findVolumes() {
       highest = std::max({highest, groups[i], entities[i]});
     }
   }
-  chooseTags(highest);
+  return highest;
 }
 
 // A tag is the entity's, or the group's, where that is free; else one above all of them. Cells
 // without labels beside faces with such are one group: of a file that has groups, Gmsh saves again
 // what is in one only, and meshio does not read cells of none.
-void MshLabels::chooseTags(int64_t highest) {
+void MshLabels::chooseTags(int64_t highest, bool are_unique) {
   std::set<int64_t> used;
   const auto take = [&](MshVolume& volume, int64_t tag) {
-    if (tag > 0 && used.insert(tag).second) volume.tag = static_cast<int32_t>(tag);
+    if (tag > 0 && (used.insert(tag).second || !are_unique)) volume.tag = static_cast<int32_t>(tag);
   };
   for (auto& [key, volume] : volumes_) take(volume, entity_column_ ? key.second : key.first);
   int64_t low = 1;
@@ -78,7 +82,20 @@ void MshLabels::chooseTags(int64_t highest) {
         take(volume, low++);
     }
     if (!group_column_ && !surfaces_.empty()) volume.group = kGroupOfAll;
+    renumbered_ += entity_column_ && volume.tag != key.second;
   }
+}
+
+// For the same sake, cells of the label 0 beside such with groups have one of their own.
+void MshLabels::groupZero() {
+  std::set<int64_t> used;
+  for (const auto& [key, volume] : volumes_) used.insert(volume.group);
+  if (!group_column_ || used.count(0) == 0 || (used.size() == 1 && surfaces_.empty())) return;
+  int64_t group = *used.rbegin() < INT32_MAX ? *used.rbegin() + 1 : 1;
+  while (used.count(group) > 0) ++group;
+  zero_group_ = static_cast<int32_t>(group);
+  for (auto& [key, volume] : volumes_)
+    if (volume.group == 0) volume.group = zero_group_;
 }
 
 void MshLabels::findSurfaces() {

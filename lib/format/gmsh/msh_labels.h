@@ -1,5 +1,5 @@
 // format/gmsh: how the labels of cells and faces become Gmsh's entities and physical groups.
-// Depends on mesh_spool.h, msh_hints.h.
+// Depends on mesh_spool.h, msh_hints.h, format_rows.h.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,15 @@
 #include <optional>
 #include <utility>
 
+#include "format_rows.h"
 #include "label_column.h"
 #include "mesh_spool.h"
 #include "msh_hints.h"
 
 namespace tetstream {
 
-// A volume: its tag, which differs from the others', its group, 0 for none, its cells, and how many
-// volumes were met before it.
+// A volume: its tag, which in version 4.1 differs from the others', its group, 0 for none, its
+// cells, and how many volumes were met before it.
 struct MshVolume {
   int32_t tag, group;
   uint64_t cells;
@@ -23,14 +24,18 @@ struct MshVolume {
 
 class MshLabels {
  public:
-  // Reads the labels once.
-  explicit MshLabels(MeshSpool& mesh);
+  // Reads the labels once. All of it lives as long as this.
+  MshLabels(MeshSpool& mesh, const WriteOptions& options);
 
   // Cell arrays that have become groups and entities; none: there is no such array.
   const std::optional<size_t>& groups() const { return group_column_; }
   const std::optional<size_t>& entities() const { return entity_column_; }
   bool isLabel(size_t column) const { return column == group_column_ || column == entity_column_; }
   const std::map<std::pair<int64_t, int64_t>, MshVolume>& volumes() const { return volumes_; }
+  // The group of the cells whose label is 0, where others have groups; 0: none.
+  int32_t zeroGroup() const { return zero_group_; }
+  // Volumes that have another tag than their cells' entities.
+  uint64_t renumbered() const { return renumbered_; }
   // Whether those of each volume follow each other.
   bool cellsAreTogether() const { return are_together_; }
   // How many faces each has, by label, which is its tag and its group.
@@ -39,7 +44,8 @@ class MshLabels {
   uint64_t faces() const { return faces_; }
   static bool isFaceLabel(int64_t label) { return label > 0 && label <= INT32_MAX; }
 
-  // Visits the volume of each cell, in order: visit(cell, volume).
+  // Visits the volume of each cell, in order: visit(cell, volume). Some of the time it tells that
+  // the file is being written, which may throw.
   template <class Visit>
   void forEachCell(Visit visit) {
     constexpr size_t kAtOnce = 1024;
@@ -47,6 +53,7 @@ class MshLabels {
     for (uint64_t first = 0; first < mesh_.cellCount(); first += kAtOnce) {
       const uint64_t left = mesh_.cellCount() - first;
       const size_t n = left < kAtOnce ? static_cast<size_t>(left) : kAtOnce;
+      if (options_.tell) options_.tell();
       read(group_column_, first, n, groups);
       read(entity_column_, first, n, entities);
       for (size_t i = 0; i < n; ++i)
@@ -57,14 +64,18 @@ class MshLabels {
  private:
   void read(const std::optional<size_t>& column, uint64_t first, size_t count, int64_t* out);
   void chooseColumns();
-  void findVolumes();
-  void chooseTags(int64_t highest);
+  int64_t findVolumes();
+  void chooseTags(int64_t highest, bool are_unique);
+  void groupZero();
   void findSurfaces();
 
   MeshSpool& mesh_;
+  const WriteOptions& options_;
   std::optional<size_t> group_column_, entity_column_;
   std::map<std::pair<int64_t, int64_t>, MshVolume> volumes_;
   bool are_together_ = true;
+  int32_t zero_group_ = 0;
+  uint64_t renumbered_ = 0;
   std::map<int64_t, uint64_t> surfaces_;
   uint64_t faces_ = 0, faces_left_out_ = 0;
 };

@@ -42,6 +42,10 @@ struct MshMesh {
   enum class FaceLabels { kEntities, kGroups } face_labels = FaceLabels::kEntities;
 
   void checkTag(int64_t tag) const;  // of a node or an element
+  // That a physical group stands for.
+  int64_t labelOf(int dimension, int64_t group) const {
+    return dimension == 3 && group == hints.zero_group ? 0 : group;
+  }
   // A cell or a face, by its nodes' tags.
   void addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group, int64_t entity);
   void beginNodes();

@@ -122,7 +122,8 @@ class MshReader {
       const bool of_cells = key.first == 3 && !mesh_.hints.physical.empty();
       const bool of_faces = key.first == 2 && mesh_.face_labels == MshMesh::FaceLabels::kGroups;
       if (of_cells || of_faces)
-        names.push_back({of_cells ? mesh_.hints.physical : "", key.second, name});
+        names.push_back(
+            {of_cells ? mesh_.hints.physical : "", mesh_.labelOf(key.first, key.second), name});
       else
         ++left_out;
     }

@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "grouped_rows.h"
 #include "label_names.h"
 #include "mesh_collector.h"
+#include "msh_elements.h"
 #include "msh_kinds.h"
 #include "msh_labels.h"
 #include "number_sink.h"
-#include "ordered_rows.h"
 #include "rows_at_once.h"
 #include "status.h"
 
@@ -30,13 +29,14 @@ class MshWriter final : public MeshCollector {
  protected:
   void write(MeshSpool& mesh) override {
     mesh_ = &mesh;
-    MshLabels labels(mesh);
+    MshLabels labels(mesh, options());
     labels_ = &labels;
     NumberSink out(bytes(), options().binary);
     out_ = &out;
     checkSizes();
     groupFaces();
-    if (options().newest && !labels.cellsAreTogether()) groupCells();
+    MshElements elements(mesh, labels, options());
+    elements_ = &elements;
     noteLosses();
     writeHead();
     writeNames();
@@ -87,7 +87,14 @@ class MshWriter final : public MeshCollector {
     if (labels_->facesLeftOut() > 0)
       note(std::to_string(labels_->facesLeftOut()) +
            " labelled faces are left out: physical groups have numbers from 1 to 2147483647");
-    if (cells_ && options().is_mapped)
+    if (labels_->zeroGroup() > 0)
+      note("cells whose label is 0 are the physical group " + std::to_string(labels_->zeroGroup()) +
+           ": groups have numbers from 1");
+    if (labels_->renumbered() > 0)
+      note("entities have one group and numbers from 1: " + std::to_string(labels_->renumbered()) +
+           " have other numbers than \"" + mesh_->schema().cell_data[*labels_->entities()].name +
+           "\" says");
+    if (elements_->areReordered() && options().is_mapped)
       note("cells stand in blocks: cell N of the map is the element with the tag N + " +
            std::to_string(labels_->faces() + 1));
     for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data})
@@ -140,6 +147,8 @@ class MshWriter final : public MeshCollector {
     };
     label("physical", labels_->groups());
     label("geometrical", labels_->entities());
+    if (labels_->zeroGroup() > 0)
+      text += "tetstream zero " + std::to_string(labels_->zeroGroup()) + "\n";
     for (const Column& c : schema.fields) hint("field", c);
     for (const Column& c : schema.cell_data) hint("cells", c);
     out_->text(text + "$EndComments\n");
@@ -149,8 +158,9 @@ class MshWriter final : public MeshCollector {
   std::pair<int, int64_t> groupOf(const LabelName& name) const {
     if (name.array.empty()) return {2, MshLabels::isFaceLabel(name.label) ? name.label : 0};
     const auto& column = labels_->groups();
-    const bool is_group = column && mesh_->schema().cell_data[*column].name == name.array;
-    return {3, is_group && name.label > 0 && name.label <= INT32_MAX ? name.label : 0};
+    if (!column || mesh_->schema().cell_data[*column].name != name.array) return {3, 0};
+    if (name.label == 0) return {3, labels_->zeroGroup()};
+    return {3, name.label > 0 && name.label <= INT32_MAX ? name.label : 0};
   }
 
   void writeNames() {
@@ -256,10 +266,6 @@ class MshWriter final : public MeshCollector {
   struct Face {
     int64_t corners[3];
   };
-  struct Cell {
-    int64_t corners[4];
-    uint64_t number;
-  };
 
   // Those that can be written, by label, so that each surface is one block: their order means
   // nothing, and labels may change from each to the next.
@@ -285,44 +291,6 @@ class MshWriter final : public MeshCollector {
       for (const uint64_t end = at + count; at < end; ++at)
         visit(static_cast<int32_t>(label),
               static_cast<const Face*>(faces_->rows().row(at))->corners);
-  }
-
-  // By volume, so that each is one block: other programs take a block for a set of cells of its
-  // own.
-  void groupCells() {
-    std::map<int64_t, uint64_t> counts;
-    for (const auto& [key, volume] : labels_->volumes()) counts[volume.rank] = volume.cells;
-    auto grouped = std::make_unique<GroupedRows<Cell>>(counts, options().temp_dir);
-    forEachCell([&](uint64_t number, const MshVolume& volume, const int64_t* corners) {
-      grouped->add(volume.rank, {{corners[0], corners[1], corners[2], corners[3]}, number});
-    });
-    grouped->finish();
-    cells_ = std::move(grouped);
-  }
-
-  // In the order of the stream: visit(number, volume, corners)
-  template <class Visit>
-  void forEachCell(Visit visit) {
-    int64_t corners[4 * kRowsAtOnce];
-    labels_->forEachCell([&](uint64_t cell, const MshVolume& volume) {
-      if (cell % kRowsAtOnce == 0)
-        mesh_->readCells(cell, static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, cells() - cell)),
-                         corners);
-      visit(cell, volume, corners + 4 * (cell % kRowsAtOnce));
-    });
-  }
-
-  // In that of the file: visit(number, corners)
-  template <class Visit>
-  void forEachElement(Visit visit) {
-    if (!cells_)
-      return forEachCell([&](uint64_t number, const MshVolume&, const int64_t* corners) {
-        visit(number, corners);
-      });
-    for (uint64_t at = 0; at < cells(); ++at) {
-      const auto* const cell = static_cast<const Cell*>(cells_->rows().row(at));
-      visit(cell->number, cell->corners);
-    }
   }
 
   template <class Stored>
@@ -358,7 +326,7 @@ class MshWriter final : public MeshCollector {
       putElement2(kMshTriangle, ++tag, label, label, corners, 3);
     });
     in_block = 0;
-    forEachCell([&](uint64_t, const MshVolume& volume, const int64_t* corners) {
+    elements_->forEachCell([&](uint64_t, const MshVolume& volume, const int64_t* corners) {
       blockHead2(kMshTetra, &in_block, elements() - tag);
       putElement2(kMshTetra, ++tag, volume.group, volume.tag, corners, 4);
     });
@@ -391,7 +359,7 @@ class MshWriter final : public MeshCollector {
       --left;
     });
     auto volume = volumes.begin();
-    forEachElement([&](uint64_t number, const int64_t* corners) {
+    elements_->forEach([&](uint64_t number, const int64_t* corners) {
       if (left == 0) {
         left = (*volume)->cells;
         blockHead4(3, (*volume++)->tag, kMshTetra, left);
@@ -439,41 +407,6 @@ class MshWriter final : public MeshCollector {
         [&](uint64_t row, const unsigned char* values) { visit(row + 1, values); });
   }
 
-  // In the order of the elements, by which some programs go.
-  template <class Visit>
-  void forEachCellRow(size_t column, Visit visit) {
-    const size_t bytes = mesh_->schema().cell_data[column].bytesPerRow();
-    const uint64_t first_tag = labels_->faces() + 1;
-    const auto read = [&](uint64_t first, size_t n, void* out) {
-      mesh_->readCellData(column, first, n, out);
-    };
-    if (!cells_)
-      return forEachRow(cells(), bytes, read, [&](uint64_t row, const unsigned char* values) {
-        visit(first_tag + row, values);
-      });
-    OrderedRows rows(cells(), bytes, options().temp_dir);
-    std::vector<uint64_t> next = firstOfVolumes();
-    std::vector<unsigned char> held(kRowsAtOnce * bytes);
-    labels_->forEachCell([&](uint64_t cell, const MshVolume& volume) {
-      const size_t at = cell % kRowsAtOnce;
-      if (at == 0) read(cell, std::min<uint64_t>(kRowsAtOnce, cells() - cell), held.data());
-      rows.put(next[static_cast<size_t>(volume.rank)]++, held.data() + at * bytes);
-    });
-    rows.finish();
-    uint64_t place = 0;
-    forEachElement(
-        [&](uint64_t number, const int64_t*) { visit(first_tag + number, rows.row(place++)); });
-  }
-
-  // Elements before each volume's, by its rank.
-  std::vector<uint64_t> firstOfVolumes() const {
-    std::vector<uint64_t> first(labels_->volumes().size() + 1, 0);
-    for (const auto& [key, volume] : labels_->volumes())
-      first[static_cast<size_t>(volume.rank) + 1] = volume.cells;
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    return first;
-  }
-
   void writeColumns() {
     const Schema& schema = mesh_->schema();
     for (size_t c = 0; c < schema.fields.size(); ++c)
@@ -481,14 +414,17 @@ class MshWriter final : public MeshCollector {
                 [&](const auto& visit) { forEachPointRow(c, visit); });
     for (size_t c = 0; c < schema.cell_data.size(); ++c)
       if (!labels_->isLabel(c))
-        writeData("ElementData", schema.cell_data[c], cells(),
-                  [&](const auto& visit) { forEachCellRow(c, visit); });
+        writeData("ElementData", schema.cell_data[c], cells(), [&](const auto& visit) {
+          elements_->forEachRow(c, [&](uint64_t number, const unsigned char* values) {
+            visit(labels_->faces() + number + 1, values);
+          });
+        });
   }
 
   MeshSpool* mesh_ = nullptr;
   MshLabels* labels_ = nullptr;
+  MshElements* elements_ = nullptr;
   std::unique_ptr<GroupedRows<Face>> faces_;
-  std::unique_ptr<GroupedRows<Cell>> cells_;  // where those of a volume do not follow each other
   NumberSink* out_ = nullptr;
 };
 

@@ -254,6 +254,39 @@ TEST(Msh, GroupsDataOfCellsAndNumbersThemForMaps) {
   }
 }
 
+// Groups have numbers from 1, and of a file with groups other programs take no cells without one.
+TEST(Msh, GivesCellsOfLabel0AGroupBesideOthers) {
+  SvMesh m = materials();
+  m.schema.label_names = {{"material", 0, "air"}, {"material", 2, "steel"}};
+  for (bool binary : {false, true}) {
+    std::vector<std::string> notes;
+    const Bytes file = write(m, binary, true, &notes);
+    EXPECT_TRUE(anyNote(notes, "cells whose label is 0 are the physical group 3"));
+    const std::string text(file.begin(), file.end());
+    EXPECT_NE(text.find("tetstream zero 3\n"), std::string::npos);
+    EXPECT_NE(text.find("3 3 \"air\"\n3 2 \"steel\"\n"), std::string::npos);
+    Input again = openMsh(openMemory(file.data(), file.size(), "mesh"), {});
+    EXPECT_EQ(again.indexed->schema().label_names, m.schema.label_names);
+    EXPECT_EQ(readAll(again).cell_data[0], grouped(m, m.cell_data[0]));
+  }
+  EXPECT_EQ(readBytes(openMsh, write(m, true, false)).cell_data[0], m.cell_data[0]);
+}
+
+// An entity of version 4.1 has one group, an element of version 2.2 both numbers.
+TEST(Msh, NotesEntitiesThatGetOtherNumbers) {
+  SvMesh m = materials({{"gmsh:geometrical", 1, ScalarType::kInt32}});
+  for (size_t i = 0; i < 40; ++i) {
+    m.cell_data[0][i] = 1 + static_cast<double>(i % 2);
+    m.cell_data[1][i] = 1 + static_cast<double>(i % 3);
+  }
+  std::vector<std::string> notes;
+  write(m, true, true, &notes);
+  EXPECT_TRUE(anyNote(notes, "3 have other numbers than \"gmsh:geometrical\" says"));
+  notes.clear();
+  EXPECT_EQ(readBytes(openMsh, write(m, true, false, &notes)).cell_data, m.cell_data);
+  EXPECT_TRUE(notes.empty());
+}
+
 TEST(Msh, LeavesCellsThatAreTogetherInTheirOrder) {
   SvMesh m = materials();
   for (size_t i = 0; i < 40; ++i) m.cell_data[0][i] = i < 20 ? 5 : 2;
