@@ -133,6 +133,7 @@ class ExodusWriter final : public MeshCollector {
     for (uint64_t at = 0; at < cells(); at += kRowsAtOnce) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, cells() - at));
       int64_t labels[kRowsAtOnce];
+      tell();
       std::fill_n(labels, n, int64_t{1});
       if (block_column_) readLabels(*mesh_, *block_column_, at, n, labels);
       for (size_t i = 0; i < n; ++i) visit(labels[i]);
@@ -147,7 +148,11 @@ class ExodusWriter final : public MeshCollector {
   template <class Read>
   std::unique_ptr<OrderedRows> inElements(size_t row_bytes, Read read) {
     auto rows = std::make_unique<OrderedRows>(cells(), row_bytes, options().temp_dir);
-    forEachRow(cells(), row_bytes, read, [&](uint64_t cell, const unsigned char* row) {
+    const auto read_and_told = [&](uint64_t first, size_t n, void* out) {
+      tell();
+      read(first, n, out);
+    };
+    forEachRow(cells(), row_bytes, read_and_told, [&](uint64_t cell, const unsigned char* row) {
       rows->put(static_cast<uint64_t>(*static_cast<const int64_t*>(elements_->row(cell))), row);
     });
     rows->finish();
