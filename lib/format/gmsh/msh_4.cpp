@@ -1,5 +1,6 @@
 // Entities, nodes and elements of Gmsh's format 4.1: blocks, each of one entity.
 #include <algorithm>
+#include <cmath>
 
 #include "msh_mesh.h"
 #include "rows_at_once.h"
