@@ -160,9 +160,9 @@ class ExodusWriter final : public MeshCollector {
   }
 
   // visit(row of the element) for `count` elements from `first` on, of what inElements makes.
-  template <class Rows, class Read, class Visit>
-  void forElements(Rows& rows, size_t row_bytes, Read read, uint64_t first, uint64_t count,
-                   Visit visit) {
+  template <class Read, class Visit>
+  void forElements(std::unique_ptr<OrderedRows>& rows, size_t row_bytes, Read read, uint64_t first,
+                   uint64_t count, Visit visit) {
     if (!is_reordered_) {
       const auto from = [&](uint64_t at, size_t n, void* out) { read(first + at, n, out); };
       return forEachRow(count, row_bytes, from,

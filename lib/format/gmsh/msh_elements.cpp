@@ -10,7 +10,7 @@ MshElements::MshElements(MeshSpool& mesh, MshLabels& labels, const WriteOptions&
   std::map<int64_t, uint64_t> counts;
   for (const auto& [key, volume] : labels.volumes()) counts[volume.rank] = volume.cells;
   auto grouped = std::make_unique<GroupedRows<Cell>>(counts, options.temp_dir);
-  forEachCell([&](uint64_t number, const MshVolume& volume, const int64_t* corners) {
+  forEachInStream([&](uint64_t number, const MshVolume& volume, const int64_t* corners) {
     grouped->add(volume.rank, {{corners[0], corners[1], corners[2], corners[3]}, number});
   });
   grouped->finish();

@@ -1,5 +1,5 @@
 // format/gmsh: the cells of a mesh in the order in which they are written. Depends on msh_labels.h,
-// grouped_rows.h, ordered_rows.h.
+// gather/rows, mesh_collector.h.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "mesh_collector.h"
 #include "msh_labels.h"
 #include "ordered_rows.h"
+#include "rows_at_once.h"
 
 namespace tetstream {
 
@@ -16,7 +17,7 @@ namespace tetstream {
 // for a set of cells of its own.
 class MshElements {
  public:
-  // All of it lives as long as this.
+  // The arguments have to outlive this.
   MshElements(MeshSpool& mesh, MshLabels& labels, const WriteOptions& options);
 
   // Whether that takes cells out of the order of the stream.
@@ -24,7 +25,7 @@ class MshElements {
 
   // In the order of the stream: visit(number, volume, corners)
   template <class Visit>
-  void forEachCell(Visit visit) {
+  void forEachInStream(Visit visit) {
     int64_t corners[4 * kRowsAtOnce];
     labels_.forEachCell([&](uint64_t cell, const MshVolume& volume) {
       const size_t at = cell % kRowsAtOnce;
@@ -35,9 +36,9 @@ class MshElements {
 
   // In that of the file: visit(number in the stream, corners)
   template <class Visit>
-  void forEach(Visit visit) {
+  void forEachInFile(Visit visit) {
     if (!cells_)
-      return forEachCell([&](uint64_t number, const MshVolume&, const int64_t* corners) {
+      return forEachInStream([&](uint64_t number, const MshVolume&, const int64_t* corners) {
         visit(number, corners);
       });
     for (uint64_t at = 0; at < mesh_.cellCount(); ++at) {
@@ -57,7 +58,7 @@ class MshElements {
           visit);
     const std::unique_ptr<OrderedRows> rows = inOrder(column, bytes);
     uint64_t place = 0;
-    forEach([&](uint64_t number, const int64_t*) { visit(number, rows->row(place++)); });
+    forEachInFile([&](uint64_t number, const int64_t*) { visit(number, rows->row(place++)); });
   }
 
  private:

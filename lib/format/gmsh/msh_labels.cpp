@@ -21,7 +21,12 @@ MshLabels::MshLabels(MeshSpool& mesh, const WriteOptions& options)
     : mesh_(mesh), options_(options) {
   chooseColumns();
   findSurfaces();
-  chooseTags(findVolumes(), options.newest);
+  int64_t highest = findVolumes();
+  if (options.newest && entity_column_ && volumes_.size() > kMostGroups) {
+    entity_column_.reset();
+    highest = findVolumes();
+  }
+  chooseTags(highest);
   if (options.newest) groupZero();
 }
 
@@ -43,6 +48,8 @@ void MshLabels::chooseColumns() {
 
 // Returns the highest label.
 int64_t MshLabels::findVolumes() {
+  volumes_.clear();
+  are_together_ = true;
   int64_t groups[kRowsAtOnce] = {}, entities[kRowsAtOnce] = {};
   int64_t highest = 0;
   MshVolume* last = nullptr;
@@ -64,15 +71,19 @@ int64_t MshLabels::findVolumes() {
   return highest;
 }
 
-// A tag is the entity's, or the group's, where that is free; else one above all of them. Cells
-// without labels beside faces with such are one group: of a file that has groups, Gmsh saves again
-// what is in one only, and meshio does not read cells of none.
-void MshLabels::chooseTags(int64_t highest, bool are_unique) {
+// A tag is the entity's, or the group's, where that is free or, in version 2.2, whoever has it;
+// else one above all of them. Cells without labels beside faces with such are one group: of a file
+// that has groups, Gmsh saves again what is in one only, and meshio does not read cells of none.
+void MshLabels::chooseTags(int64_t highest) {
   std::set<int64_t> used;
   const auto take = [&](MshVolume& volume, int64_t tag) {
-    if (tag > 0 && (used.insert(tag).second || !are_unique)) volume.tag = static_cast<int32_t>(tag);
+    if (tag > 0 && used.insert(tag).second) volume.tag = static_cast<int32_t>(tag);
   };
-  for (auto& [key, volume] : volumes_) take(volume, entity_column_ ? key.second : key.first);
+  for (auto& [key, volume] : volumes_) {
+    const int64_t tag = entity_column_ ? key.second : key.first;
+    take(volume, tag);
+    if (!options_.newest && tag > 0) volume.tag = static_cast<int32_t>(tag);
+  }
   int64_t low = 1;
   for (auto& [key, volume] : volumes_) {
     while (volume.tag == 0) {
@@ -86,11 +97,15 @@ void MshLabels::chooseTags(int64_t highest, bool are_unique) {
   }
 }
 
-// For the same sake, cells of the label 0 beside such with groups have one of their own.
+// For the same sake, cells of the label 0 beside such with groups, or beside faces, have one of
+// their own, which no label has, not even one that has a name and no cell.
 void MshLabels::groupZero() {
   std::set<int64_t> used;
   for (const auto& [key, volume] : volumes_) used.insert(volume.group);
   if (!group_column_ || used.count(0) == 0 || (used.size() == 1 && surfaces_.empty())) return;
+  for (const LabelName& name : mesh_.schema().label_names)
+    if (name.array == mesh_.schema().cell_data[*group_column_].name && isGroup(name.label))
+      used.insert(name.label);
   int64_t group = *used.rbegin() < INT32_MAX ? *used.rbegin() + 1 : 1;
   while (used.count(group) > 0) ++group;
   zero_group_ = static_cast<int32_t>(group);
@@ -105,8 +120,8 @@ void MshLabels::findSurfaces() {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - first));
     mesh_.readFaces(first, n, corners, labels);
     for (size_t i = 0; i < n; ++i) {
-      const bool known = isFaceLabel(labels[i]) &&
-                         (surfaces_.size() < kMostGroups || surfaces_.count(labels[i]) > 0);
+      const bool known =
+          isGroup(labels[i]) && (surfaces_.size() < kMostGroups || surfaces_.count(labels[i]) > 0);
       if (known) ++surfaces_[labels[i]];
       ++(known ? faces_ : faces_left_out_);
     }

@@ -24,7 +24,7 @@ struct MshVolume {
 
 class MshLabels {
  public:
-  // Reads the labels once. All of it lives as long as this.
+  // The arguments have to outlive this.
   MshLabels(MeshSpool& mesh, const WriteOptions& options);
 
   // Cell arrays that have become groups and entities; none: there is no such array.
@@ -36,13 +36,13 @@ class MshLabels {
   int32_t zeroGroup() const { return zero_group_; }
   // Volumes that have another tag than their cells' entities.
   uint64_t renumbered() const { return renumbered_; }
-  // Whether those of each volume follow each other.
+  // Whether the cells of each volume follow each other.
   bool cellsAreTogether() const { return are_together_; }
   // How many faces each has, by label, which is its tag and its group.
   const std::map<int64_t, uint64_t>& surfaces() const { return surfaces_; }
   uint64_t facesLeftOut() const { return faces_left_out_; }
   uint64_t faces() const { return faces_; }
-  static bool isFaceLabel(int64_t label) { return label > 0 && label <= INT32_MAX; }
+  static bool isGroup(int64_t label) { return label > 0 && label <= INT32_MAX; }
 
   // Visits the volume of each cell, in order: visit(cell, volume). Some of the time it tells that
   // the file is being written, which may throw.
@@ -65,7 +65,7 @@ class MshLabels {
   void read(const std::optional<size_t>& column, uint64_t first, size_t count, int64_t* out);
   void chooseColumns();
   int64_t findVolumes();
-  void chooseTags(int64_t highest, bool are_unique);
+  void chooseTags(int64_t highest);
   void groupZero();
   void findSurfaces();
 

@@ -91,7 +91,7 @@ class MshWriter final : public MeshCollector {
       note("cells whose label is 0 are the physical group " + std::to_string(labels_->zeroGroup()) +
            ": groups have numbers from 1");
     if (labels_->renumbered() > 0)
-      note("entities have one group and numbers from 1: " + std::to_string(labels_->renumbered()) +
+      note("an entity has one group: " + std::to_string(labels_->renumbered()) +
            " have other numbers than \"" + mesh_->schema().cell_data[*labels_->entities()].name +
            "\" says");
     if (elements_->areReordered() && options().is_mapped)
@@ -156,11 +156,11 @@ class MshWriter final : public MeshCollector {
 
   // The group that a name is of: its dimension and its tag, 0 for none.
   std::pair<int, int64_t> groupOf(const LabelName& name) const {
-    if (name.array.empty()) return {2, MshLabels::isFaceLabel(name.label) ? name.label : 0};
+    if (name.array.empty()) return {2, MshLabels::isGroup(name.label) ? name.label : 0};
     const auto& column = labels_->groups();
     if (!column || mesh_->schema().cell_data[*column].name != name.array) return {3, 0};
     if (name.label == 0) return {3, labels_->zeroGroup()};
-    return {3, name.label > 0 && name.label <= INT32_MAX ? name.label : 0};
+    return {3, MshLabels::isGroup(name.label) ? name.label : 0};
   }
 
   void writeNames() {
@@ -326,7 +326,7 @@ class MshWriter final : public MeshCollector {
       putElement2(kMshTriangle, ++tag, label, label, corners, 3);
     });
     in_block = 0;
-    elements_->forEachCell([&](uint64_t, const MshVolume& volume, const int64_t* corners) {
+    elements_->forEachInStream([&](uint64_t, const MshVolume& volume, const int64_t* corners) {
       blockHead2(kMshTetra, &in_block, elements() - tag);
       putElement2(kMshTetra, ++tag, volume.group, volume.tag, corners, 4);
     });
@@ -359,7 +359,7 @@ class MshWriter final : public MeshCollector {
       --left;
     });
     auto volume = volumes.begin();
-    elements_->forEach([&](uint64_t number, const int64_t* corners) {
+    elements_->forEachInFile([&](uint64_t number, const int64_t* corners) {
       if (left == 0) {
         left = (*volume)->cells;
         blockHead4(3, (*volume++)->tag, kMshTetra, left);

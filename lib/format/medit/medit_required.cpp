@@ -1,7 +1,5 @@
 #include "medit_required.h"
 
-#include <algorithm>
-
 #include "status.h"
 
 namespace tetstream {
@@ -12,15 +10,15 @@ void MeditRequired::readNumbers(MeditScan& scan, MeshIntake& intake, const std::
   const uint64_t rows = scan.rows(1, 0, what.c_str());
   if (count == 0 && rows > 0)
     intake.leaveOut(what + ", before which no " + things + " come,", rows);
+  if (rows > 0) required.resize(static_cast<size_t>(count));
   for (uint64_t i = 0; i < rows; ++i) {
     int64_t number;
     scan.integers(&number, 1, what.c_str());
     if (count == 0) continue;
     if (number < 1 || static_cast<uint64_t>(number) > count)
       scan.file().failBad(textOf("number %lld of %s, where there are 1 to %llu",
-                                 static_cast<long long>(number), things.c_str(),
+                                 static_cast<long long>(number), what.c_str(),
                                  static_cast<unsigned long long>(count)));
-    required.resize(std::max(required.size(), static_cast<size_t>(count)));
     required[static_cast<size_t>(number - 1)] = true;
   }
 }

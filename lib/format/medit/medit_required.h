@@ -16,7 +16,8 @@ namespace tetstream {
 // before; where there are several, numbers go on from one to the next.
 class MeditRequired {
  public:
-  explicit MeditRequired(const std::string& temp_dir) : edges_(sizeof(Edge), temp_dir) {}
+  explicit MeditRequired(const std::string& temp_dir)
+      : edges_(sizeof(Edge), temp_dir, kSpooledInSequence) {}
 
   // By its ends, as the file numbers them.
   void addEdge(int64_t a, int64_t b) {
@@ -52,7 +53,7 @@ class MeditRequired {
   RowSpool edges_;
   std::vector<Section> triangles_;
   uint64_t triangle_count_ = 0;
-  std::vector<bool> required_edges_, required_triangles_;  // up to the last that is
+  std::vector<bool> required_edges_, required_triangles_;  // of those that had come
 };
 
 }  // namespace tetstream

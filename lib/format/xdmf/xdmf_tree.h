@@ -26,7 +26,8 @@ struct XdmfItem {
   std::string reference;
 
   uint64_t count() const;
-  // Whether the file does not tell what the values are: text, of which each number tells.
+  // Whether the file does not tell what the values are: text without NumberType, where each number
+  // shows what it is.
   bool isUntyped() const;
 };
 

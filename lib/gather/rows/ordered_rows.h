@@ -3,6 +3,7 @@
 // row_spool.h.
 #pragma once
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 #include <vector>

@@ -31,7 +31,8 @@ static double squaredToSegment(const double a[3], const double b[3], const doubl
 // nothing else in a triangle that is nearly a line: it may seem inside though an edge is nearer.
 constexpr double kThin = 1e-4;
 
-// The foot of the perpendicular if it is inside, else the best of the three edges.
+// The foot of the perpendicular if it is inside; else, or where the triangle is thin and one is
+// nearer, the best of the three edges.
 double squaredDistance(const double* corners, const double place[3], double coordinates[3]) {
   double u[3], v[3], w[3];
   subtract(corners + 3, corners, u);

@@ -77,7 +77,8 @@ class Collapser {
   void listLabelled(uint32_t u, uint32_t v);
   bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, float most_price);
-  // The error at a place that was changed, 0 at the one at hand, and its price in it.
+  // The error at a place that was changed, 0 where it was not, and how many times that counts in
+  // the edge's price.
   struct Adjusted {
     S error;
     float cost = 1;

@@ -19,14 +19,14 @@ bool MergedPlace<Mesh>::set(uint32_t u, uint32_t v, const S* z) {
   std::copy_n(z, z_.size(), z_.data());
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               values_.data() + core_.plan.dimension);
-  return place();
+  return update();
 }
 
 // The new position is rounded to the type in which it is written: what is tested is what the file
 // will hold. Where fields are to keep their range, values stay in what is known of it, or in that
-// of the two ends where a header has told a narrower one.
+// of the two ends where a header has told a narrower one. Returns whether z had to give way.
 template <class Mesh>
-bool MergedPlace<Mesh>::place() {
+bool MergedPlace<Mesh>::update() {
   const S *a = mesh_.values(u_), *b = mesh_.values(v_);
   const bool to_float = core_.plan.schema.position_type == ScalarType::kFloat32;
   bool gave_way = false;
@@ -73,7 +73,7 @@ void MergedPlace<Mesh>::moveBy(const S step[3]) {
   for (size_t i = 0; i < 3; ++i) z_[i] += step[i];
   core_.kernels.followStep(mesh_.quadric(u_), mesh_.quadric(v_), core_.plan.dimension, step,
                            z_.data());
-  place();
+  update();
 }
 
 template <class Mesh>
@@ -127,7 +127,7 @@ void MergedPlace<Mesh>::measureVolumes(const Stars& stars, const CellLabels& lab
 template <class Mesh>
 bool MergedPlace<Mesh>::changesVolumes(const Stars& stars, const CellLabels& labels) {
   measureVolumes(stars, labels, nullptr);
-  return volumes_.changeHere();
+  return volumes_.anyChanges();
 }
 
 template <class Mesh>

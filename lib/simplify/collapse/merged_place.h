@@ -1,5 +1,5 @@
 // simplify/collapse: where two vertices go that become one, and the values that they have there.
-// Depends on core.h, region_volumes.h.
+// Depends on core.h, mesh, region_volumes.h, curve_area.h.
 #pragma once
 
 #include <vector>
@@ -47,7 +47,7 @@ class MergedPlace {
   void interpolateCarried(const Stars& stars);
 
  private:
-  bool place();
+  bool update();
   void moveBy(const S step[3]);
   void measureVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
 

@@ -15,9 +15,9 @@ constexpr float kThinPrice = 2, kHighestPrice = 64;
 // error as its price: where curves and sheets are tightly curved, the step to it may be large.
 constexpr float kDearGrowth = 1.5f;
 
-// A vertex of a sheet that is merged into one of a curve, which stays where it is, changes the
-// volumes beside the sheet. Small as that is, it mostly has the same sign all along the curve, and
-// nothing makes up for it: it costs that many times the error.
+// What is merged with a vertex of a curve that stays where it is changes the volumes beside the
+// curve's sheets, unless they are plane. Small as that is, it mostly has the same sign all along
+// the curve, and nothing makes up for it: it costs that many times the error.
 constexpr float kIntoCurve = 4;
 
 // In the error of the best place. Where that is none, still a number.

@@ -114,10 +114,12 @@ void RegionVolumes::close(const double ends[2][3]) {
     }
 }
 
-// In cubes of the edge's length.
-constexpr double kNoChange = 1e-5;
+// Of six times the volume, in cubes of the edge's length: what round faces have whose radius is 250
+// times that. Plane ones that are not along the axes have less by the rounding of floats, as long
+// as they are no more than 16,000 edges from the origin.
+constexpr double kNoChange = 1e-3;
 
-bool RegionVolumes::changeHere() const {
+bool RegionVolumes::anyChanges() const {
   const double square = dot(edge_, edge_), least = kNoChange * square * std::sqrt(square);
   return std::any_of(changes_.begin(), changes_.end(),
                      [least](const Change& change) { return std::fabs(change.volume) > least; });

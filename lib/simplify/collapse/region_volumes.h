@@ -29,8 +29,8 @@ class RegionVolumes {
   template <class S>
   void measure(const Stars& stars, const uint32_t ends[2], const S* values, size_t stride,
                const double x[3], const CellLabels& labels, const SheetSides* sides);
-  // Whether any would be another at x, by more than rounding.
-  bool changeHere() const;
+  // Whether any would be another at x, by more than is worth a word.
+  bool anyChanges() const;
   // From x to where the volumes are as they were; `form` tells what a step costs, as its lower
   // triangle by rows. False if that is farther than the edge is long:
   // a region that has but small faces at the vertex, such as one cell, would become a spike. Its

@@ -73,7 +73,6 @@ TEST(Medit, ReadsTextWithReferencesFacesAndLocks) {
   EXPECT_TRUE(anyNote(notes, "the section Ridges is left out"));
 }
 
-// The sixth vertex is no cell's.
 std::vector<int> locksOf(const Input& input) {
   const uint8_t* const locked = input.indexed->locked();
   if (!locked) return {};
@@ -112,6 +111,7 @@ TEST(Medit, NotesRequiredThingsThatNobodyHasToldOf) {
   EXPECT_TRUE(anyNote(notes, "2 required triangles, before which no triangles come, are left out"));
 }
 
+// The sixth vertex is no cell's.
 TEST(Medit, LeavesOutTrianglesWithPointsThatNoCellHas) {
   const std::string text =
       "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
@@ -214,8 +214,9 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
       {vertices + "Tetrahedra 1\n1 2 3 4 0", "without the word End"},
       {vertices + "Prisms 1\n1 2 3 4 1 2 0\nEnd\n", "cell 1 is a prism"},
       {vertices + "Triangles 1\n1 2 3 0\nRequiredTriangles 1\n2\nEnd\n",
-       "line 11: number 2 of triangles, where there are 1 to 1"},
-      {vertices + "Edges 1\n1 2 0\nRequiredEdges 1\n0\nEnd\n", "line 11: number 0 of edges"},
+       "line 11: number 2 of required triangles, where there are 1 to 1"},
+      {vertices + "Edges 1\n1 2 0\nRequiredEdges 1\n0\nEnd\n",
+       "line 11: number 0 of required edges"},
       {vertices + "Edges 1\n1 5 0\nRequiredEdges 1\n1\nEnd\n",
        "a required edge or triangle has vertex 5, where there are 1 to 4"},
       {head + "Edges 1\n1 2 0\nRequiredEdges 1\n1\nVertices 1\n0 0 0 0\nEnd\n",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <map>
 #include <sstream>
 
 #include "indexed_testing.h"
@@ -257,19 +258,39 @@ TEST(Msh, GroupsDataOfCellsAndNumbersThemForMaps) {
 // Groups have numbers from 1, and of a file with groups other programs take no cells without one.
 TEST(Msh, GivesCellsOfLabel0AGroupBesideOthers) {
   SvMesh m = materials();
-  m.schema.label_names = {{"material", 0, "air"}, {"material", 2, "steel"}};
+  // The last one names a label that no cell has.
+  m.schema.label_names = {{"material", 0, "air"}, {"material", 2, "steel"}, {"material", 3, "oil"}};
   for (bool binary : {false, true}) {
     std::vector<std::string> notes;
     const Bytes file = write(m, binary, true, &notes);
-    EXPECT_TRUE(anyNote(notes, "cells whose label is 0 are the physical group 3"));
+    EXPECT_TRUE(anyNote(notes, "cells whose label is 0 are the physical group 4"));
     const std::string text(file.begin(), file.end());
-    EXPECT_NE(text.find("tetstream zero 3\n"), std::string::npos);
-    EXPECT_NE(text.find("3 3 \"air\"\n3 2 \"steel\"\n"), std::string::npos);
+    EXPECT_NE(text.find("tetstream zero 4\n"), std::string::npos);
+    EXPECT_NE(text.find("3 4 \"air\"\n3 2 \"steel\"\n3 3 \"oil\"\n"), std::string::npos);
     Input again = openMsh(openMemory(file.data(), file.size(), "mesh"), {});
     EXPECT_EQ(again.indexed->schema().label_names, m.schema.label_names);
     EXPECT_EQ(readAll(again).cell_data[0], grouped(m, m.cell_data[0]));
   }
   EXPECT_EQ(readBytes(openMsh, write(m, true, false)).cell_data[0], m.cell_data[0]);
+}
+
+// Labels up to the largest that a group can have leave numbers below them only.
+TEST(Msh, GivesLabel0AFreeNumberBelowTheLargest) {
+  SvMesh m = materials();
+  for (size_t i = 0; i < 40; ++i) m.cell_data[0][i] = i % 3 == 0 ? 0 : i % 3 == 1 ? 1 : 2147483647;
+  for (bool newest : {false, true}) {
+    const SvMesh r = readBytes(openMsh, write(m, true, newest));
+    ASSERT_EQ(r.schema.cell_data.size(), 1u);
+    std::map<double, int> cells, wanted;
+    for (size_t i = 0; i < 40; ++i) {
+      ++cells[r.cell_data[0][i]];
+      ++wanted[m.cell_data[0][i]];
+    }
+    EXPECT_EQ(cells, wanted);
+  }
+  const Bytes old = write(m, false, false);
+  const std::string text(old.begin(), old.end());
+  EXPECT_NE(text.find("1 4 2 0 2 "), std::string::npos) << "an entity that another group has";
 }
 
 // An entity of version 4.1 has one group, an element of version 2.2 both numbers.

@@ -15,7 +15,8 @@ namespace {
 // Of the row of a place.
 std::vector<unsigned char> orderedRow(uint64_t place, size_t bytes) {
   std::vector<unsigned char> row(bytes);
-  for (size_t i = 0; i < bytes; ++i) row[i] = static_cast<unsigned char>(place * 31 + i * 7);
+  std::mt19937 random(static_cast<uint32_t>(place));
+  for (unsigned char& byte : row) byte = static_cast<unsigned char>(random());
   return row;
 }
 

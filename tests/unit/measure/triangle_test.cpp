@@ -67,7 +67,7 @@ TEST(Triangle, HasNoNearerPointThanItsNearest) {
 // Two sides along each other, but for rounding or a little more, and places near them.
 TEST(Triangle, HasItsNearestPointHoweverThinItIs) {
   Random random(4);
-  for (double width : {0.0, 1e-15, 1e-12, 1e-9})
+  for (double width : {0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1e-2, 3e-2})
     for (double away : {1.0, 1e-3}) {
       for (int n = 0; n < 2000; ++n) {
         std::vector<double> corners = randomSimplex(random, 2, 1);
