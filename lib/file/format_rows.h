@@ -51,6 +51,11 @@ struct WriteOptions {
   bool binary = true;           // .msh: else text
   bool newest = true;           // .msh: 4.1, else 2.2
   bool post_order = false;      // .sva, .svb
+
+  // Where nothing is written for long. What `tell` throws leaves it.
+  void tellOfWriting() const {
+    if (tell) tell();
+  }
 };
 
 struct Format {

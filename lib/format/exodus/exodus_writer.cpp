@@ -133,7 +133,7 @@ class ExodusWriter final : public MeshCollector {
     for (uint64_t at = 0; at < cells(); at += kRowsAtOnce) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, cells() - at));
       int64_t labels[kRowsAtOnce];
-      tell();
+      options().tellOfWriting();
       std::fill_n(labels, n, int64_t{1});
       if (block_column_) readLabels(*mesh_, *block_column_, at, n, labels);
       for (size_t i = 0; i < n; ++i) visit(labels[i]);
@@ -149,7 +149,7 @@ class ExodusWriter final : public MeshCollector {
   std::unique_ptr<OrderedRows> inElements(size_t row_bytes, Read read) {
     auto rows = std::make_unique<OrderedRows>(cells(), row_bytes, options().temp_dir);
     const auto read_and_told = [&](uint64_t first, size_t n, void* out) {
-      tell();
+      options().tellOfWriting();
       read(first, n, out);
     };
     forEachRow(cells(), row_bytes, read_and_told, [&](uint64_t cell, const unsigned char* row) {

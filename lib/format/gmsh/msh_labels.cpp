@@ -55,7 +55,7 @@ int64_t MshLabels::findVolumes() {
   MshVolume* last = nullptr;
   for (uint64_t first = 0; first < mesh_.cellCount(); first += kRowsAtOnce) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_.cellCount() - first));
-    if (options_.tell) options_.tell();
+    options_.tellOfWriting();
     read(group_column_, first, n, groups);
     read(entity_column_, first, n, entities);
     for (size_t i = 0; i < n; ++i) {

@@ -11,6 +11,7 @@
 #include "label_column.h"
 #include "mesh_spool.h"
 #include "msh_hints.h"
+#include "rows_at_once.h"
 
 namespace tetstream {
 
@@ -48,12 +49,11 @@ class MshLabels {
   // the file is being written, which may throw.
   template <class Visit>
   void forEachCell(Visit visit) {
-    constexpr size_t kAtOnce = 1024;
-    int64_t groups[kAtOnce] = {}, entities[kAtOnce] = {};
-    for (uint64_t first = 0; first < mesh_.cellCount(); first += kAtOnce) {
+    int64_t groups[kRowsAtOnce] = {}, entities[kRowsAtOnce] = {};
+    for (uint64_t first = 0; first < mesh_.cellCount(); first += kRowsAtOnce) {
       const uint64_t left = mesh_.cellCount() - first;
-      const size_t n = left < kAtOnce ? static_cast<size_t>(left) : kAtOnce;
-      if (options_.tell) options_.tell();
+      const size_t n = left < kRowsAtOnce ? static_cast<size_t>(left) : kRowsAtOnce;
+      options_.tellOfWriting();
       read(group_column_, first, n, groups);
       read(entity_column_, first, n, entities);
       for (size_t i = 0; i < n; ++i)

@@ -51,7 +51,7 @@ class MeditReader {
     } else if (section.number == kMeditEdges) {
       readEdges();
     } else if (section.number == kMeditRequiredVertices) {
-      readRequired();
+      readRequiredVertices();
     } else if (section.number == kMeditRequiredEdges) {
       required_.readEdges(scan_, intake_);
     } else if (section.number == kMeditRequiredTriangles) {
@@ -177,7 +177,7 @@ class MeditReader {
                   static_cast<long long>(last));
   }
 
-  void readRequired() {
+  void readRequiredVertices() {
     const uint64_t count = scan_.rows(1, 0, "required vertices");
     for (uint64_t i = 0; i < count; ++i) {
       int64_t vertex;

@@ -30,11 +30,6 @@ class MeshCollector : public Sink {
   virtual bool holdsLocks() const { return false; }  // of points
 
   void note(const std::string& text) const;
-  // That the file is being written, some of the time; called where nothing is written for long. May
-  // throw.
-  void tell() const {
-    if (options_.tell) options_.tell();
-  }
   ByteSink& bytes() { return *bytes_; }
   const WriteOptions& options() const { return options_; }
 

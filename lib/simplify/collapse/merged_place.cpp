@@ -23,8 +23,8 @@ bool MergedPlace<Mesh>::set(uint32_t u, uint32_t v, const S* z) {
 }
 
 // The new position is rounded to the type in which it is written: what is tested is what the file
-// will hold. Where fields are to keep their range, values stay in what is known of it, or in that
-// of the two ends where a header has told a narrower one. Returns whether z had to give way.
+// will hold. Values stay in what their field may have, as far as its range is known, or in what the
+// two ends have where a header has told a narrower one. Returns whether z had to give way.
 template <class Mesh>
 bool MergedPlace<Mesh>::update() {
   const S *a = mesh_.values(u_), *b = mesh_.values(v_);

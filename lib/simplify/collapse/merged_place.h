@@ -22,7 +22,7 @@ class MergedPlace {
         z_(static_cast<size_t>(core.plan.dimension)) {}
 
   // Of u and v at z, normalised and relative to their edge's midpoint, with what u carries. Returns
-  // whether the values gave way to the range of a field.
+  // whether the values gave way to what their field may have.
   bool set(uint32_t u, uint32_t v, const S* z);
   S error() const;  // there
   bool isFinite() const;

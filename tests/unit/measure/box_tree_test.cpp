@@ -30,45 +30,44 @@ double squaredTo(const Box& box, const std::vector<double>& place) {
   return sum;
 }
 
-constexpr size_t kCounts[] = {0, 1, 4, 5, 9, 33, 3000};
-
-TEST(BoxTree, VisitsWhatMeetsABoxOnce) {
-  Random random(1);
-  for (size_t count : kCounts) {
+// visit(random, boxes, tree, account) for trees of none to many boxes.
+template <class Visit>
+void forTrees(uint32_t seed, Visit visit) {
+  Random random(seed);
+  for (const size_t count : {0, 1, 4, 5, 9, 33, 3000}) {
     Account account;
     const std::vector<Box> boxes = randomBoxes(random, count);
     const BoxTree tree(account, boxes.data(), count);
+    visit(random, boxes, tree, account);
+  }
+}
+
+TEST(BoxTree, VisitsWhatMeetsABoxOnce) {
+  forTrees(1, [](Random& random, const std::vector<Box>& boxes, const BoxTree& tree, Account&) {
     for (int n = 0; n < 100; ++n) {
       const Box asked = randomBox(random, 0.2);
       std::set<uint32_t> seen;
       tree.forEachNear(asked, [&](uint32_t i) { EXPECT_TRUE(seen.insert(i).second); });
-      for (uint32_t i = 0; i < count; ++i) EXPECT_TRUE(seen.count(i) || !boxes[i].meets(asked));
-      EXPECT_TRUE(count < 100 || seen.size() < count / 4) << seen.size();
+      for (uint32_t i = 0; i < boxes.size(); ++i)
+        EXPECT_TRUE(seen.count(i) || !boxes[i].meets(asked));
+      EXPECT_TRUE(boxes.size() < 100 || seen.size() < boxes.size() / 4) << seen.size();
     }
-  }
+  });
 }
 
 TEST(BoxTree, VisitsAllOfThemForABoxRoundAll) {
-  Random random(2);
-  for (size_t count : kCounts) {
-    Account account;
-    const std::vector<Box> boxes = randomBoxes(random, count);
-    const BoxTree tree(account, boxes.data(), count);
+  forTrees(2, [](Random&, const std::vector<Box>& boxes, const BoxTree& tree, Account&) {
     Box all;
     for (const Box& box : boxes) all.add(box);
     size_t seen = 0;
     tree.forEachNear(all, [&](uint32_t) { ++seen; });
-    EXPECT_EQ(seen, count);
+    EXPECT_EQ(seen, boxes.size());
     tree.forEachNear(Box(), [&](uint32_t) { ADD_FAILURE() << "near nothing"; });
-  }
+  });
 }
 
 TEST(BoxTree, FindsTheNearestOneWithFewVisits) {
-  Random random(3);
-  for (size_t count : kCounts) {
-    Account account;
-    const std::vector<Box> boxes = randomBoxes(random, count);
-    const BoxTree tree(account, boxes.data(), count);
+  forTrees(3, [](Random& random, const std::vector<Box>& boxes, const BoxTree& tree, Account&) {
     size_t visits = 0;
     for (int n = 0; n < 100; ++n) {
       const std::vector<double> place = randomSimplex(random, 1, 1);
@@ -80,8 +79,8 @@ TEST(BoxTree, FindsTheNearestOneWithFewVisits) {
       });
       EXPECT_EQ(found, least);
     }
-    EXPECT_TRUE(count < 100 || visits / 100 < count / 50) << visits;
-  }
+    EXPECT_TRUE(boxes.size() < 100 || visits / 100 < boxes.size() / 50) << visits;
+  });
 }
 
 // Halved along their row, whichever way it runs.
@@ -131,13 +130,9 @@ TEST(BoxTree, HoldsBoxesThatAreAllTheSame) {
 }
 
 TEST(BoxTree, TakesTheBytesThatItTells) {
-  Random random(6);
-  for (size_t count : kCounts) {
-    Account account;
-    const std::vector<Box> boxes = randomBoxes(random, count);
-    const BoxTree tree(account, boxes.data(), count);
-    EXPECT_LE(account.peak(), BoxTree::bytesFor(count));
-  }
+  forTrees(6, [](Random&, const std::vector<Box>& boxes, const BoxTree&, Account& account) {
+    EXPECT_LE(account.peak(), BoxTree::bytesFor(boxes.size()));
+  });
 }
 
 }  // namespace
