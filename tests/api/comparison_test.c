@@ -23,21 +23,22 @@ static tetstream_reader* callbacks(hostile_reader* hostile, const hostile_mesh* 
   return reader;
 }
 
+/* Slow runs take fewer points of boundaries, and fewer pixels, of which there are more with more
+ * memory: nothing that is looked at depends on their number. */
 static tetstream_options* options_with(const char* name, const char* value) {
   tetstream_options* options = NULL;
   CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  if (getenv("TETSTREAM_SLOW")) {
+    CHECK_EQUAL(tetstream_options_parse(options, "boundary-samples", "2000"), TETSTREAM_OK);
+    if (name && strcmp(name, "cut") == 0)
+      CHECK_EQUAL(tetstream_options_parse(options, "memory", "1M"), TETSTREAM_OK);
+  }
   if (name) CHECK_EQUAL(tetstream_options_parse(options, name, value), TETSTREAM_OK);
   return options;
 }
 
-/* Slow runs take fewer points of boundaries, and fewer pixels, of which there are more with more
- * memory: nothing that is looked at depends on their number. */
 static tetstream_comparison* comparison_with(const char* name, const char* value) {
   tetstream_options* options = options_with(name, value);
-  if (getenv("TETSTREAM_SLOW") && name && strcmp(name, "cut") == 0)
-    CHECK_EQUAL(tetstream_options_parse(options, "memory", "1M"), TETSTREAM_OK);
-  if (getenv("TETSTREAM_SLOW") && !(name && strcmp(name, "boundary-samples") == 0))
-    CHECK_EQUAL(tetstream_options_parse(options, "boundary-samples", "2000"), TETSTREAM_OK);
   tetstream_comparison* comparison = NULL;
   CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
   tetstream_options_destroy(options);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
+#include <span>
 
 #include "exact_reference.h"
 #include "groups.h"
@@ -45,10 +45,10 @@ Face faceOf(const Cell& cell, size_t without) {
 
 // A cell beside a face: its number, and on which side of the sorted face it lies.
 struct Side {
+  Face face;
   size_t cell;
   int sign;
 };
-using Faces = std::map<Face, std::vector<Side>>;
 
 // +1 or -1: the parity of the permutation that sorts the corners.
 int parity(const int64_t* corners_of) {
@@ -59,12 +59,19 @@ int parity(const int64_t* corners_of) {
   return sign;
 }
 
+// All sorted, each simplex once but for the sides of faces.
 struct Complex {
-  std::vector<Cell> cells;
-  Faces faces;
-  std::set<Edge> edges;
-  std::set<int64_t> vertices;
+  std::vector<Cell> cells;  // with its corners sorted, where it is in the mesh
+  std::vector<Side> sides;
+  std::vector<Edge> edges;
+  std::vector<int64_t> vertices;
 };
+
+template <class Simplex>
+void sortOut(std::vector<Simplex>& simplices) {
+  std::sort(simplices.begin(), simplices.end());
+  simplices.erase(std::unique(simplices.begin(), simplices.end()), simplices.end());
+}
 
 Complex complexOf(const TestMesh& mesh, const std::vector<int>& signs) {
   Complex k;
@@ -76,23 +83,39 @@ Complex complexOf(const TestMesh& mesh, const std::vector<int>& signs) {
     k.cells.push_back(cell);
     for (size_t j = 0; j < 4; ++j) {
       // The corner opposite: (f0 f1 f2 j) is an even or odd permutation of the sorted cell.
-      k.faces[faceOf(cell, j)].push_back({c, j % 2 == 0 ? -sorted_sign : sorted_sign});
-      k.vertices.insert(cell[j]);
-      for (size_t i = 0; i < j; ++i) k.edges.insert({cell[i], cell[j]});
+      k.sides.push_back({faceOf(cell, j), c, j % 2 == 0 ? -sorted_sign : sorted_sign});
+      k.vertices.push_back(cell[j]);
+      for (size_t i = 0; i < j; ++i) k.edges.push_back({cell[i], cell[j]});
     }
   }
+  std::sort(k.sides.begin(), k.sides.end(),
+            [](const Side& a, const Side& b) { return a.face < b.face; });
+  sortOut(k.edges);
+  sortOut(k.vertices);
   return k;
 }
 
-template <class Simplices, class Vertices>
-int64_t componentsOf(const Simplices& simplices, const Vertices& vertices, size_t count) {
+// Calls use(sides) with those of each face.
+template <class Use>
+void forEachFace(const Complex& k, const Use& use) {
+  for (auto begin = k.sides.begin(); begin != k.sides.end();) {
+    const auto end = std::find_if(begin, k.sides.end(),
+                                  [&](const Side& side) { return side.face != begin->face; });
+    use(std::span<const Side>(begin, end));
+    begin = end;
+  }
+}
+
+template <class Simplices>
+int64_t componentsOf(const Simplices& simplices, const std::vector<int64_t>& vertices,
+                     size_t count) {
   Groups groups(count);
   for (const auto& s : simplices)
     for (size_t j = 1; j < s.size(); ++j)
       groups.join(static_cast<size_t>(s[0]), static_cast<size_t>(s[j]));
-  std::set<size_t> roots;
-  for (int64_t v : vertices) roots.insert(groups.find(static_cast<size_t>(v)));
-  return static_cast<int64_t>(roots.size());
+  return std::count_if(vertices.begin(), vertices.end(), [&](int64_t v) {
+    return groups.find(static_cast<size_t>(v)) == static_cast<size_t>(v);
+  });
 }
 
 // The boundary faces round a vertex, as edges of its link, form one circle.
@@ -113,54 +136,56 @@ bool isCircle(const std::vector<Edge>& link) {
   return walked == next.size();
 }
 
-void countBoundary(const Complex& k, size_t vertex_count, MeshFacts& facts) {
+// Returns the number of faces.
+int64_t countFaces(const Complex& k, size_t vertex_count, MeshFacts& facts) {
+  int64_t count = 0;
   std::vector<Face> boundary;
   std::map<Edge, int> edges;
   std::map<int64_t, std::vector<Edge>> links;
-  for (const auto& [face, sides] : k.faces) {
+  forEachFace(k, [&](std::span<const Side> sides) {
+    ++count;
     if (sides.size() > 2) ++facts.crowded_faces;
     if (sides.size() == 2 && sides[0].sign * sides[1].sign > 0) ++facts.folded;
-    if (sides.size() != 1) continue;
+    if (sides.size() != 1) return;
+    const Face& face = sides[0].face;
     boundary.push_back(face);
     for (size_t j = 0; j < 3; ++j) {
       const Edge opposite = {face[j == 0 ? 1 : 0], face[j == 2 ? 1 : 2]};
       ++edges[opposite];
       links[face[j]].push_back(opposite);
     }
-  }
-  std::set<int64_t> vertices;
+  });
+  std::vector<int64_t> vertices;
   for (const auto& [v, link] : links) {
-    vertices.insert(v);
+    vertices.push_back(v);
     facts.pinched_vertices += !isCircle(link);
   }
-  for (const auto& [edge, count] : edges) facts.crowded_edges += count != 2;
+  for (const auto& [edge, sides] : edges) facts.crowded_edges += sides != 2;
   facts.boundary_faces = static_cast<int64_t>(boundary.size());
   facts.boundary_euler = static_cast<int64_t>(vertices.size()) -
                          static_cast<int64_t>(edges.size()) + facts.boundary_faces;
   facts.boundary_components = componentsOf(boundary, vertices, vertex_count);
+  return count;
 }
 
 // Vertices whose cells fall apart into pieces that share no face at the vertex.
-void countLooseStars(const Complex& k, MeshFacts& facts) {
-  std::map<int64_t, std::vector<size_t>> stars;
-  for (size_t c = 0; c < k.cells.size(); ++c)
-    for (int64_t v : k.cells[c]) stars[v].push_back(c);
-  for (const auto& [v, star] : stars) {
-    Groups groups(star.size());
-    for (size_t a = 0; a < star.size(); ++a)
-      for (size_t b = 0; b < a; ++b) {
-        int shared = 0;
-        for (int64_t w : k.cells[star[a]])
-          shared +=
-              static_cast<int>(std::count(k.cells[star[b]].begin(), k.cells[star[b]].end(), w));
-        if (shared >= 3) groups.join(a, b);
-      }
-    for (size_t a = 1; a < star.size(); ++a)
-      if (groups.find(a) != groups.find(0)) {
-        ++facts.pinched_vertices;
-        break;
-      }
-  }
+void countLooseStars(const Complex& k, size_t vertex_count, MeshFacts& facts) {
+  const auto cornerAt = [&](size_t cell, int64_t v) {
+    const Cell& corners = k.cells[cell];
+    return 4 * cell +
+           static_cast<size_t>(std::find(corners.begin(), corners.end(), v) - corners.begin());
+  };
+  Groups groups(4 * k.cells.size());
+  forEachFace(k, [&](std::span<const Side> sides) {
+    for (const Side& side : sides.subspan(1))
+      for (int64_t v : side.face) groups.join(cornerAt(sides[0].cell, v), cornerAt(side.cell, v));
+  });
+  std::vector<int> pieces(vertex_count, 0);
+  for (size_t corner = 0; corner < 4 * k.cells.size(); ++corner)
+    if (groups.find(corner) == corner)
+      ++pieces[static_cast<size_t>(k.cells[corner / 4][corner % 4])];
+  facts.pinched_vertices +=
+      std::count_if(pieces.begin(), pieces.end(), [](int count) { return count > 1; });
 }
 
 }  // namespace
@@ -191,13 +216,14 @@ MeshFacts factsOf(const TestMesh& mesh) {
   }
   const Complex k = complexOf(mesh, signs);
   facts.cells = static_cast<int64_t>(k.cells.size());
-  std::set<Cell> different(k.cells.begin(), k.cells.end());
+  std::vector<Cell> different = k.cells;
+  sortOut(different);
   facts.duplicates = facts.cells - static_cast<int64_t>(different.size());
+  const int64_t faces = countFaces(k, mesh.vertexCount(), facts);
   facts.euler = static_cast<int64_t>(k.vertices.size()) - static_cast<int64_t>(k.edges.size()) +
-                static_cast<int64_t>(k.faces.size()) - static_cast<int64_t>(different.size());
+                faces - static_cast<int64_t>(different.size());
   facts.components = componentsOf(k.cells, k.vertices, mesh.vertexCount());
-  countBoundary(k, mesh.vertexCount(), facts);
-  countLooseStars(k, facts);
+  countLooseStars(k, mesh.vertexCount(), facts);
   return facts;
 }
 

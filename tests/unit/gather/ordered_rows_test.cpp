@@ -15,7 +15,7 @@ namespace {
 // Of the row of a place.
 std::vector<unsigned char> orderedRow(uint64_t place, size_t bytes) {
   std::vector<unsigned char> row(bytes);
-  std::mt19937 random(static_cast<uint32_t>(place));
+  std::minstd_rand random(static_cast<uint32_t>(place) + 1);
   for (unsigned char& byte : row) byte = static_cast<unsigned char>(random());
   return row;
 }

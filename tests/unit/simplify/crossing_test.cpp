@@ -1,5 +1,6 @@
 // The boundary of what comes out does not pass through itself.
 #include <cmath>
+#include <iterator>
 
 #include "crossings.h"
 #include "simplify_testing.h"
@@ -31,7 +32,8 @@ TEST(Crossing, DoesNotComeOfCollapses) {
   const TestMesh mesh = gyroid(slowRun() ? 12 : 20);
   ASSERT_EQ(crossingPairs(mesh), 0);
   for (Mode mode : kModes)
-    for (double ratio : {0.3, 0.02}) {
+    for (double ratio : {0.02, 0.3}) {
+      if (slowRun() && ratio > 0.1) continue;
       const Result result = simplified(mesh, toRatio(ratio, 0, mode));
       expectSound(mesh, result);
       EXPECT_EQ(crossingPairs(result.out.mesh), 0) << static_cast<int>(mode) << " " << ratio;
@@ -39,7 +41,9 @@ TEST(Crossing, DoesNotComeOfCollapses) {
 }
 
 TEST(Crossing, DoesNotComeInAnyUnit) {
-  for (double unit : {1e-60, 1.1, 3.0, 1e60}) {
+  const double units[] = {1e-60, 1.1, 1e60, 3};
+  for (size_t i = 0; i < std::size(units); i += oneIn(2)) {
+    const double unit = units[i];
     const Result result = simplified(gyroid(12, unit), toRatio(0.1));
     EXPECT_EQ(crossingPairs(result.out.mesh), 0) << unit;
   }

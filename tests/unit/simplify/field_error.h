@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include "test_mesh.h"
@@ -66,30 +67,60 @@ struct InCell {
   Weights weights = {{0, 0, 0, 0}};
 };
 
-// Where x lies; outside of all, in the cell that it lies least outside of.
-inline InCell inCellOf(const double x[3], const std::vector<Barycentric>& cells) {
-  InCell found;
-  double deepest = -std::numeric_limits<double>::infinity();
-  for (const bool only_near : {true, false})
-    for (size_t c = 0; c < cells.size() && deepest < 0; ++c) {
-      if (only_near && !cells[c].mayHold(x)) continue;
-      const Weights w = cells[c].at(x);
-      if (w.smallest() <= deepest) continue;
-      deepest = w.smallest();
-      found = {c, w};
+// The cells of a mesh, in slabs along z: those that may hold a place are few then.
+class CellSearch {
+ public:
+  explicit CellSearch(const TestMesh& mesh) : slabs_(kSlabs), all_(mesh.cellCount()) {
+    double high = -low_;
+    for (size_t c = 0; c < mesh.cellCount(); ++c) {
+      cells_.push_back(barycentric(mesh, c));
+      low_ = std::min(low_, cells_[c].low[2]);
+      high = std::max(high, cells_[c].high[2]);
     }
-  return found;
-}
+    height_ = (high - low_) / kSlabs;
+    for (size_t c = 0; c < mesh.cellCount(); ++c)
+      for (size_t s = slabOf(cells_[c].low[2]); s <= slabOf(cells_[c].high[2]); ++s)
+        slabs_[s].push_back(c);
+    std::iota(all_.begin(), all_.end(), size_t{0});
+  }
+
+  // Where x lies; outside of all, in the cell that it lies least outside of.
+  InCell find(const double x[3]) const {
+    InCell found;
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (const std::vector<size_t>* among : {&slabs_[slabOf(x[2])], &all_})
+      for (size_t i = 0; i < among->size() && deepest < 0; ++i) {
+        const size_t c = (*among)[i];
+        if (among != &all_ && !cells_[c].mayHold(x)) continue;
+        const Weights w = cells_[c].at(x);
+        if (w.smallest() <= deepest) continue;
+        deepest = w.smallest();
+        found = {c, w};
+      }
+    return found;
+  }
+
+ private:
+  static constexpr size_t kSlabs = 64;
+  size_t slabOf(double z) const {
+    const double slab = (z - low_) / height_;
+    return slab > 0 ? std::min(static_cast<size_t>(slab), kSlabs - 1) : 0;
+  }
+
+  double low_ = std::numeric_limits<double>::infinity(), height_ = 0;
+  std::vector<Barycentric> cells_;
+  std::vector<std::vector<size_t>> slabs_;
+  std::vector<size_t> all_;
+};
 
 // Of each field, in its unit: root mean square, over the vertices of the original, of the error's
 // length where the vertex lies.
 inline std::vector<double> fieldErrors(const TestMesh& original, const TestMesh& result) {
-  std::vector<Barycentric> cells;
-  for (size_t c = 0; c < result.cellCount(); ++c) cells.push_back(barycentric(result, c));
+  const CellSearch cells(result);
   std::vector<double> sums(original.fields.size(), 0);
   for (size_t v = 0; v < original.vertexCount(); ++v) {
     const double x[3] = {original.position(v, 0), original.position(v, 1), original.position(v, 2)};
-    const InCell at = inCellOf(x, cells);
+    const InCell at = cells.find(x);
     for (size_t f = 0; f < sums.size(); ++f)
       for (int i = 0; i < original.schema.fields[f].components; ++i) {
         double error = -original.field(f, v, i);

@@ -135,7 +135,7 @@ TEST(Stretched, MeshesAreToTheSolversModeAsToAny) {
 // was 3, far more than there were below it already, and cells became as good as flat.
 TEST(Stretched, MeshesHaveTheirFloorInWhateverOrderTheirCellsCome) {
   const TestMesh grid = fullGrid(16, 16, 8);
-  for (size_t first = 0; first < 6; ++first) {
+  for (size_t first = 0; first < 6; first += oneIn(3)) {
     const TestMesh mesh = tall(grid, first);
     ASSERT_GT(shareBelow(mesh, 3), 0.3);
     ASSERT_EQ(shareBelow(mesh, 2), 0);
