@@ -197,7 +197,9 @@ TETSTREAM_API tetstream_status tetstream_options_get_text(const tetstream_option
                                                           int32_t id, const char **value);
 /* Measures the field of that name with that weight (>= 0, 1 is usual; 0: carried along, not
  * measured). It multiplies the field's squared error in units of its range, of a vector or tensor
- * the length of the box of its values; so does what TETSTREAM_OPTION_BALANCE finds. The first call
+ * the length of the box of its values; so does what TETSTREAM_OPTION_BALANCE finds. Weights tell
+ * fields from each other: the largest counts 1, also for TETSTREAM_OPTION_ERROR and in the report,
+ * where a lighter field may have an error as much larger as the root of its share. The first call
  * turns off the default, which measures every nodal float field with weight 1; fields not named are
  * then carried. That the field exists, and that not more than 125 components are measured
  * (UNSUPPORTED), is checked when the stream begins. Since 0.1. */

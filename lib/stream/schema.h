@@ -69,10 +69,5 @@ int findColumn(const std::vector<Column>& columns, const std::string& name);
 // Whether a cell array of this name tells which process had a cell, or whose copy it is, as
 // parallel programs write it: where such parts meet is nothing of the domain's.
 bool namesPartition(const std::string& name);
-// Whether integers are ids and no labels, by some rows of them, of which so many are different.
-constexpr bool areIds(size_t different, size_t rows) {
-  return different > (rows / 2 > 16 ? rows / 2 : 16);
-}
-constexpr uint64_t kRowsThatTell = 4096;  // as a rule, spread over all
 
 }  // namespace tetstream

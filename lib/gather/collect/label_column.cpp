@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <set>
-#include <vector>
 
+#include "id_census.h"
 #include "rows_at_once.h"
 
 namespace tetstream {
@@ -19,16 +19,24 @@ bool hasNames(const Schema& schema, const std::string& array) {
                      [&](const LabelName& name) { return name.array == array; });
 }
 
-bool looksLikeIds(MeshSpool& mesh, size_t column) {
-  const uint64_t step = mesh.cellCount() / kRowsThatTell + 1;
-  std::vector<int64_t> labels;
-  for (uint64_t cell = 0; cell < mesh.cellCount(); cell += step) {
-    labels.push_back(0);
-    readLabels(mesh, column, cell, 1, &labels.back());
+// Calls use(row, rows) with all labels of an array, some rows at a time, until it returns false.
+template <class Use>
+void forLabels(MeshSpool& mesh, size_t column, const Use& use) {
+  int64_t rows[kRowsAtOnce];
+  for (uint64_t first = 0; first < mesh.cellCount(); first += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh.cellCount() - first));
+    readLabels(mesh, column, first, n, rows);
+    if (!use(rows, n)) return;
   }
-  std::sort(labels.begin(), labels.end());
-  const auto end = std::unique(labels.begin(), labels.end());
-  return areIds(static_cast<size_t>(end - labels.begin()), labels.size());
+}
+
+bool looksLikeIds(MeshSpool& mesh, size_t column) {
+  IdCensus census(mesh.cellCount());
+  forLabels(mesh, column, [&](const int64_t* rows, size_t n) {
+    for (size_t i = 0; i < n; ++i) census.add(&rows[i], 1);
+    return true;
+  });
+  return census.areIds();
 }
 
 }  // namespace
@@ -57,21 +65,20 @@ void readLabels(MeshSpool& mesh, size_t column, uint64_t first, size_t count, in
 
 bool canBeGroups(MeshSpool& mesh, size_t column, int64_t least) {
   std::set<int64_t> found;
-  int64_t rows[kRowsAtOnce], last = 0;
-  bool any = false;
-  for (uint64_t first = 0; first < mesh.cellCount(); first += kRowsAtOnce) {
-    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh.cellCount() - first));
-    readLabels(mesh, column, first, n, rows);
-    for (size_t i = 0; i < n; ++i) {
+  int64_t last = 0;
+  bool any = false, can = true;
+  forLabels(mesh, column, [&](const int64_t* rows, size_t n) {
+    for (size_t i = 0; i < n && can; ++i) {
       if (any && rows[i] == last) continue;
       last = rows[i];
       any = true;
-      if (last < least || last > INT32_MAX) return false;
-      found.insert(last);
-      if (found.size() > kMostGroups) return false;
+      can = last >= least && last <= INT32_MAX;
+      if (can) found.insert(last);
+      can = can && found.size() <= kMostGroups;
     }
-  }
-  return true;
+    return can;
+  });
+  return can;
 }
 
 }  // namespace tetstream

@@ -9,6 +9,7 @@
 #include "label_names.h"
 #include "mixed_cells.h"
 #include "piece_column.h"
+#include "rows_at_once.h"
 #include "status.h"
 
 namespace tetstream {
@@ -232,22 +233,26 @@ class PiecedMesh final : public IndexedSource {
           noteUnlike(mesh_, array.name);
   }
 
-  // The first ones of a cell array, that tell.
-  void readTriangleRows(size_t column, std::vector<int64_t>& rows) {
+  void countTriangleLabels(size_t column, IdCensus& census) {
     PieceColumnPlan plan = cell_data_[column].plan();
     plan.type = ScalarType::kInt64;
     PieceColumn wide(mesh_, std::move(plan));
-    rows.resize(static_cast<size_t>(
-        std::min<uint64_t>(kRowsThatTell, mixed_->count(MixedCells::kTriangles))));
-    mixed_->readRows(MixedCells::kTriangles, 0, rows.size(), sizeof rows[0], rows.data(),
-                     [&](uint64_t cell, size_t n, void* to) { wide.read(cell, n, to); });
+    int64_t rows[kRowsAtOnce];
+    const uint64_t count = mixed_->count(MixedCells::kTriangles);
+    for (uint64_t first = 0; first < count; first += kRowsAtOnce) {
+      const auto some = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - first));
+      mixed_->readRows(MixedCells::kTriangles, first, some, sizeof rows[0], rows,
+                       [&](uint64_t cell, size_t n, void* to) { wide.read(cell, n, to); });
+      for (size_t i = 0; i < some; ++i) census.add(&rows[i], 1);
+    }
   }
 
   // By one cell array, which is nothing else if only faces have it.
   void labelFaces() {
     const auto faces = static_cast<long long>(mixed_->count(MixedCells::kTriangles));
     const int by = faceLabelColumn(
-        schema_.cell_data, [this](size_t column, auto& rows) { readTriangleRows(column, rows); });
+        schema_.cell_data, mixed_->count(MixedCells::kTriangles),
+        [this](size_t column, IdCensus& census) { countTriangleLabels(column, census); });
     if (by < 0)
       return mesh_.addNote(
           textOf("%lld triangles are left out: there is no cell array of integers, one to "

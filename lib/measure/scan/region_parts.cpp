@@ -6,7 +6,8 @@
 
 namespace tetstream {
 
-// Some labels tell; looked at again whenever there are twice as many.
+// Some labels tell; looked at again whenever there are twice as many. Of cells in any order the
+// first ones have many labels that are not theirs alone: ids are what hardly ever comes twice.
 constexpr size_t kLabelsThatTell = 1024;
 // Of a label: its node in the map, and its row in the comparison, which has room to grow.
 constexpr size_t kLabelBytes = 192;
@@ -14,7 +15,7 @@ constexpr size_t kLabelBytes = 192;
 bool RegionParts::looksLikeIds() const {
   const size_t labels = regions_.size();
   return labels >= kLabelsThatTell && std::has_single_bit(labels) &&
-         2 * static_cast<int64_t>(labels) > cells_seen_;
+         static_cast<int64_t>(labels) > cells_seen_ / 16 * 15;
 }
 
 void RegionParts::drop() {

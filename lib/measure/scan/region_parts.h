@@ -17,7 +17,7 @@ struct RegionFigures {
 // Of one array.
 class RegionParts {
  public:
-  // With `drops_ids` an array of ids, with more labels than one for two cells, is dropped.
+  // With `drops_ids` an array of ids, of which hardly any comes twice, is dropped.
   // Otherwise there are as many labels as the account allows.
   RegionParts(Account& account, bool drops_ids)
       : account_(account), drops_ids_(drops_ids), sets_(account), cells_(account) {}

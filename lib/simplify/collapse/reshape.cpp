@@ -20,7 +20,8 @@ Reshaper<S>::Reshaper(Core<S>& core, Patch<S>& patch, Tally& tally, Account& acc
       tally_(tally),
       reconnector_(patch, account),
       marks_(account),
-      means_(static_cast<size_t>(core.plan.cell_means)) {}
+      means_(static_cast<size_t>(core.plan.cell_means)),
+      old_means_(Reconnection::kMostRing * (means_.size() + 1)) {}
 
 template <class S>
 void Reshaper<S>::start() {
@@ -257,7 +258,9 @@ void Reshaper<S>::apply(const Reconnection& r) {
 }
 
 // Float cell data: each new cell stands for its share, by its volume, of what the old ones stood
-// for, and has their mean. Integers are those of the cell whose place it takes, of further cells
+// for, and has their mean. Where there is none, as a value is not finite, the new cells lie side by
+// side as the old ones do, and have the value that is where their middles are: such places neither
+// grow nor vanish. Integers are those of the cell whose place it takes, of further cells
 // those of the first: all are of one region.
 template <class S>
 void Reshaper<S>::handOverCellData(const Reconnection& r, const uint32_t* slots) {
@@ -265,25 +268,51 @@ void Reshaper<S>::handOverCellData(const Reconnection& r, const uint32_t* slots)
   for (uint32_t m = r.gone_count; m < r.made_count && core_.plan.cell_picks > 0; ++m)
     std::copy_n(window.cellPicks(patch_.cellSlotOf(r.gone[0])), core_.plan.cell_picks,
                 window.cellPicks(patch_.cellSlotOf(slots[m])));
-  const size_t n = means_.size();
-  if (n == 0) return;
-  double stood_for = 0, volume = 0, part[Reconnection::kMostCells];
-  std::fill(means_.begin(), means_.end(), 0.0);
-  for (uint32_t g = 0; g < r.gone_count; ++g) {
-    const double* const old = patch_.cellMeans(r.gone[g]);
-    stood_for += old[0];
-    for (size_t i = 0; i < n; ++i) means_[i] += old[0] * old[i + 1];
-  }
+  if (means_.empty()) return;
+  const double stood_for = takeMeans(r);
+  if (!(stood_for > 0)) return;
+  double volume = 0, handed_over = 0, part[Reconnection::kMostCells];
   for (uint32_t m = 0; m < r.made_count; ++m) {
     double p[4][3];
     positionsOf(r.made[m], p);
     volume += part[m] = sixVolume(p);
   }
-  for (uint32_t m = 0; m < r.made_count && stood_for > 0; ++m) {
+  for (uint32_t m = 0; m < r.made_count; ++m) {
     double* const to = patch_.cellMeans(slots[m]);
     to[0] = stood_for * (part[m] / volume);
-    for (size_t i = 0; i < n; ++i) to[i + 1] = means_[i] / stood_for;
+    const double* const there = oldMeansAt(handed_over + to[0] / 2, r.gone_count);
+    for (size_t i = 0; i < means_.size(); ++i)
+      to[i + 1] = std::isfinite(means_[i]) ? means_[i] : there[i + 1];
+    handed_over += to[0];
   }
+}
+
+// The old cells' rows and their mean; returns what they stood for.
+template <class S>
+double Reshaper<S>::takeMeans(const Reconnection& r) {
+  const size_t n = means_.size();
+  double stood_for = 0;
+  std::fill(means_.begin(), means_.end(), 0.0);
+  for (uint32_t g = 0; g < r.gone_count; ++g) {
+    const double* const old = patch_.cellMeans(r.gone[g]);
+    std::copy_n(old, n + 1, &old_means_[g * (n + 1)]);
+    stood_for += old[0];
+    for (size_t i = 0; i < n; ++i) means_[i] += old[0] * old[i + 1];
+  }
+  for (double& mean : means_) mean /= stood_for;
+  return stood_for;
+}
+
+// The row of the old cell that has this place where all lie side by side, as long as what each
+// stood for.
+template <class S>
+const double* Reshaper<S>::oldMeansAt(double place, uint32_t count) const {
+  const size_t width = means_.size() + 1;
+  const double* row = old_means_.data();
+  for (const double* const last = row + (count - 1) * width; row != last && place >= row[0];
+       row += width)
+    place -= row[0];
+  return row;
 }
 
 template <class S>

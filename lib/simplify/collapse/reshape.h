@@ -88,6 +88,8 @@ class Reshaper {
   double normalisedSixVolume(double p[4][3]) const;
   void apply(const Reconnection& r);
   void handOverCellData(const Reconnection& r, const uint32_t* slots);
+  double takeMeans(const Reconnection& r);
+  const double* oldMeansAt(double place, uint32_t count) const;
   void tell(const Reconnection& r, const uint32_t* slots);
 
   Core<S>& core_;
@@ -95,7 +97,7 @@ class Reshaper {
   Tally& tally_;
   Reconnector<S> reconnector_;
   Array<uint8_t> marks_;       // per vertex of the patch
-  std::vector<double> means_;  // of float cell data
+  std::vector<double> means_, old_means_;  // of float cell data; rows of the cells that are gone
   int64_t least_cells_ = 0, most_cells_ = 0;
   double most_change_ = 0;  // of the fields: the mean, or where thin cells count the integral
   bool counts_thin_ = false;

@@ -1,8 +1,8 @@
 #include "regions.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "id_census.h"
 #include "status.h"
 #include "vector3.h"
 
@@ -32,16 +32,10 @@ Regions<S>::Regions(Core<S>& core) : core_(core) {
 
 template <class S>
 bool Regions<S>::looksLikeIds(int offset, int components) const {
-  std::vector<std::vector<int64_t>> rows;
   const uint32_t cells = core_.window.mesh.cellEnd();
-  const uint32_t step = cells / uint32_t{kRowsThatTell} + 1;
-  for (uint32_t c = 0; c < cells; c += step) {
-    const int64_t* row = core_.window.cellPicks(c) + offset;
-    rows.emplace_back(row, row + components);
-  }
-  std::sort(rows.begin(), rows.end());
-  const auto end = std::unique(rows.begin(), rows.end());
-  return areIds(static_cast<size_t>(end - rows.begin()), rows.size());
+  IdCensus census(cells);
+  for (uint32_t c = 0; c < cells; ++c) census.add(core_.window.cellPicks(c) + offset, components);
+  return census.areIds();
 }
 
 template <class S>
@@ -71,7 +65,7 @@ void Regions<S>::decide() {
     for (int i = 0; !is_id && i < c.components; ++i) core_.region_picks.push_back(offset + i);
   }
   core_.report.regions = taken.empty() ? "none" : "by " + taken;
-  if (!ids.empty()) core_.report.regions += " (" + ids + ": nearly all different, taken as ids)";
+  if (!ids.empty()) core_.report.regions += " (" + ids + ": few cells to a label, taken as ids)";
   if (!partitions_.empty())
     core_.report.regions += " (" + partitions_ + ": parts of a parallel run by name, not taken)";
 }

@@ -6,8 +6,8 @@
 namespace tetstream {
 
 // Decides once, on the first window's cells, which picks of a cell are its labels: "none": none; a
-// name: that array; "auto": every integer array, but for those whose values are nearly all
-// different, which are ids, and those that tell by their names how a mesh was divided for a run.
+// name: that array; "auto": every integer array, but for those whose labels have few cells each,
+// which are ids, and those that tell by their names how a mesh was divided for a run.
 // Says in the report what was taken. Throws kBadArgument for a name that is no integer cell array.
 template <class S>
 class Regions {

@@ -13,7 +13,8 @@ static std::string namesOf(const std::vector<Column>& columns) {
   return names.empty() ? "none" : names;
 }
 
-// The weight of each field; 0 where it is carried.
+// The weight of each field; 0 where it is carried. They tell fields from each other alone: the largest
+// becomes 1, so that errors, and what the boundary counts, are in units of that field's range.
 static std::vector<double> fieldWeights(const Schema& schema, const SimplifyOptions& options) {
   std::vector<double> weights(schema.fields.size(), options.fields.empty() ? 1.0 : 0.0);
   for (const auto& [name, weight] : options.fields) {
@@ -24,10 +25,13 @@ static std::vector<double> fieldWeights(const Schema& schema, const SimplifyOpti
     if (!isFloat(schema.fields[static_cast<size_t>(i)].type))
       fail(Status::kBadArgument, "field \"%s\" holds integers, which are picked, not measured",
            name.c_str());
-    if (!(weight >= 0))
-      fail(Status::kBadArgument, "field \"%s\": a weight is not negative", name.c_str());
+    if (!(weight >= 0 && std::isfinite(weight)))
+      fail(Status::kBadArgument, "field \"%s\": a weight is finite and not negative", name.c_str());
     weights[static_cast<size_t>(i)] = weight;
   }
+  const double largest = weights.empty() ? 0 : *std::max_element(weights.begin(), weights.end());
+  for (double& weight : weights)
+    if (largest > 0) weight /= largest;
   return weights;
 }
 

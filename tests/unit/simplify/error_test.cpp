@@ -160,6 +160,29 @@ TEST(SimplifierErrorBound, HoldsForMeasuredFieldsOnly) {
   EXPECT_EQ(result.report.cells_out, simplified(wavyMesh(k64), toError(coarse())).report.cells_out);
 }
 
+// Weights tell fields from each other: that of a single one changes nothing, and the heaviest has
+// the error that is asked for.
+TEST(SimplifierErrorBound, IsInUnitsOfTheHeaviestField) {
+  TestMesh mesh = wavyMesh(k64);
+  SimplifyOptions options = toError(coarse());
+  const Result plain = simplified(mesh, options);
+  for (double weight : {1e-30, 0.25, 1e30}) {
+    options.fields = {{"f", weight}};
+    const Result result = simplified(mesh, options);
+    EXPECT_EQ(result.out.mesh.cells, plain.out.mesh.cells) << weight;
+    EXPECT_EQ(result.report.estimated_error, plain.report.estimated_error) << weight;
+  }
+  addPositionField(mesh, {"g", 1, k64}, [](double x, double y, double z) {
+    return std::cos(3 * x - y) * std::sin(9 * z);
+  });
+  options.fields = {{"f", 100}, {"g", 1}};
+  const Result result = simplified(mesh, options);
+  EXPECT_LE(100 * fieldErrors(mesh, result.out.mesh)[0] / rangeOf(mesh, 0), coarse());
+  EXPECT_LE(100 * fieldErrors(mesh, result.out.mesh)[1] / rangeOf(mesh, 1), 10 * coarse());
+  options.fields = {{"f", 1}, {"g", 0.01}};
+  EXPECT_EQ(simplified(mesh, options).out.mesh.cells, result.out.mesh.cells);
+}
+
 TEST(SimplifierErrorBound, IsSpentOnFewerCellsTheLargerItIs) {
   const TestMesh mesh = wavyMesh(k32);
   for (int64_t window : {int64_t{0}, fourFrontsOfBox()}) {

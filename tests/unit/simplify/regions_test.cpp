@@ -289,6 +289,21 @@ TEST(SimplifierRegions, AreNotToldOfWhereTheirVolumesStay) {
   }
 }
 
+// Bricks of 48 cells, most of them met once or twice by a sample of all cells.
+TEST(SimplifierRegions, MayBeThousands) {
+  const int n = slowRun() ? 8 : 30;
+  TestMesh mesh = gridWithWaves(n);
+  mesh.addIntegerCellData("brick", [&](size_t c) {
+    const Place at = centreOf(mesh, c);
+    int64_t brick = 0;
+    for (double x : at) brick = brick * n + static_cast<int64_t>(x / 2);
+    return brick;
+  });
+  const Result result = simplified(mesh, toRatio(0.6));
+  expectReached(result);
+  EXPECT_EQ(result.report.regions, "by brick");
+}
+
 TEST(SimplifierRegions, AreNotTakenFromIds) {
   const TestMesh mesh = twoMaterials(4);
   const Result result = withRegions(mesh, "auto", 0);

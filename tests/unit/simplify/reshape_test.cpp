@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "mix.h"
 #include "vector3.h"
 #include "window_testing.h"
 
@@ -62,6 +63,12 @@ struct Squeezed : WholePatch<double> {
       count += patch.isLive(c) && look.thinnessOfCell(c) > core.poor;
     return count;
   }
+  // Calls use(number, means) with each cell's.
+  template <class Use>
+  void forMeans(const Use& use) {
+    for (uint32_t c = 0; c < patch.cellEnd(); ++c)
+      if (patch.isLive(c)) use(c, patch.cellMeans(c));
+  }
   // Float cell data times volume, by region.
   std::map<int64_t, double> amounts() {
     std::map<int64_t, double> all;
@@ -113,6 +120,28 @@ TEST(Reshape, KeepsTheDomainItsTopologyAndWhatCellsStandFor) {
   EXPECT_EQ(topologyChange(before, after), "");
   EXPECT_EQ(after.boundary_faces, before.boundary_faces);
   EXPECT_NEAR(after.volume, before.volume, 1e-9 * before.volume);
+}
+
+// Values that are not finite have no mean, and those that are as large as can be no sum.
+TEST(Reshape, LetsValuesThatAreNotFiniteNeitherGrowNorVanish) {
+  Squeezed s;
+  s.forMeans([](uint64_t c, double* means) {
+    means[1] = mix(c + 1) % 4 == 0 ? std::nan("") : 1e308;
+  });
+  const auto unknown = [&] {
+    double share = 0, all = 0;
+    s.forMeans([&](uint64_t, const double* means) {
+      EXPECT_FALSE(std::isinf(means[1]));
+      all += means[0];
+      share += std::isnan(means[1]) ? means[0] : 0;
+    });
+    return share / all;
+  };
+  const double before = unknown();
+  ASSERT_NEAR(before, 0.25, 0.05);
+  ASSERT_TRUE(s.reshape(0, 1 << 30));
+  ASSERT_GT(s.core.tally.flips, 100);
+  EXPECT_NEAR(unknown(), before, 0.02);
 }
 
 TEST(Reshape, LeavesTheStarsOnTheBoundaryKnown) {
