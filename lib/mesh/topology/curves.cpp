@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "mix.h"
 
@@ -60,7 +61,7 @@ void Curves::add(uint32_t u, uint32_t v) {
 
 void Curves::put(uint32_t u, uint32_t v) {
   if (holds(u, v)) return;
-  if (2 * (used_ + 2) > places_.size()) rebuild(count_ + 2, nullptr);
+  if (2 * (used_ + 2) > places_.size()) rebuild(2, nullptr);
   insert(entryOf(u, v));
   insert(entryOf(v, u));
 }
@@ -77,26 +78,47 @@ void Curves::merge(uint32_t u, uint32_t v) {
   any_ = count_ > 0;
 }
 
-void Curves::rebuild(size_t entries, const uint32_t* keep) {
-  size_t size = kLeastPlaces;
-  while (size < 3 * entries) size *= 2;
-  Array<uint64_t> before(*account_, size);
-  std::fill_n(before.data(), size, kEmpty);
-  before.swap(places_);
-  count_ = used_ = 0;
-  for (size_t i = 0; i < before.size(); ++i) {
-    if (before[i] >= kRemoved) continue;
-    const auto u = static_cast<uint32_t>(before[i] >> 32), v = static_cast<uint32_t>(before[i]);
-    if (!keep)
-      insert(before[i]);
-    else if (keep[u] != ~0u && keep[v] != ~0u)
-      insert(entryOf(keep[u], keep[v]));
+// In place: where memory is short a copy would be as large as what it is made of. Entries wait where
+// they are until it is their turn; one that another finds at its place goes next.
+void Curves::rebuild(size_t more, const uint32_t* keep) {
+  const size_t before = places_.size();
+  size_t left = more, size = kLeastPlaces;
+  for (size_t i = 0; i < before; ++i) left += renamed(places_[i], keep) != kEmpty;
+  while (size < 3 * left) size *= 2;
+  if (more == 0) size = std::min(size, before);
+  if (size > before) {
+    places_.resize(size);
+    std::fill(places_.data() + before, places_.data() + size, kEmpty);
+  }
+  for (size_t i = 0; i < before; ++i) places_[i] = renamed(places_[i], keep);
+  count_ = 0;
+  for (size_t i = 0; i < before; ++i)
+    if (waits(places_[i])) place(std::exchange(places_[i], kEmpty), size - 1);
+  used_ = count_;
+  if (size < before) places_.resize(size);
+}
+
+// Of one that waits, or is empty.
+uint64_t Curves::renamed(uint64_t entry, const uint32_t* keep) {
+  if (entry >= kRemoved) return kEmpty;
+  if (!keep) return entry | kWaits;
+  const uint32_t u = keep[entry >> 32], v = keep[static_cast<uint32_t>(entry)];
+  return u == ~0u || v == ~0u ? kEmpty : entryOf(u, v) | kWaits;
+}
+
+void Curves::place(uint64_t entry, size_t mask) {
+  while (entry != kEmpty) {
+    entry &= ~kWaits;
+    size_t i = static_cast<size_t>(mix(entry >> 32)) & mask;
+    while (places_[i] != kEmpty && !waits(places_[i])) i = (i + 1) & mask;
+    std::swap(entry, places_[i]);
+    ++count_;
   }
 }
 
 void Curves::remap(const uint32_t* keep) {
   const std::unique_lock lock(mutex_);
-  if (count_ > 0) rebuild(count_, keep);
+  if (count_ > 0) rebuild(0, keep);
   any_ = count_ > 0;
 }
 

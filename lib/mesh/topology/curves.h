@@ -34,6 +34,9 @@ class Curves {
  private:
   // Vertices are below 2^31: neither is an entry.
   static constexpr uint64_t kEmpty = ~uint64_t{0}, kRemoved = kEmpty - 1;
+  // Of an entry that is not at its place yet.
+  static constexpr uint64_t kWaits = uint64_t{1} << 63;
+  static bool waits(uint64_t entry) { return entry != kEmpty && entry >= kWaits; }
   static uint64_t entryOf(uint32_t u, uint32_t v) { return uint64_t{u} << 32 | v; }
 
   size_t placeOf(uint32_t v) const;
@@ -43,7 +46,10 @@ class Curves {
   void put(uint32_t u, uint32_t v);
   void insert(uint64_t entry);
   void remove(uint64_t entry);
-  void rebuild(size_t entries, const uint32_t* keep);
+  // With room for so many more; for none it does not grow.
+  void rebuild(size_t more, const uint32_t* keep);
+  static uint64_t renamed(uint64_t entry, const uint32_t* keep);
+  void place(uint64_t entry, size_t mask);
 
   Account* account_;
   Array<uint64_t> places_;       // a power of two of them, at most half in use

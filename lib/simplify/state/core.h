@@ -62,13 +62,20 @@ inline RowBytes rowBytes(const SimplifyOptions& options) {
   return row;
 }
 
+inline bool mayHaveRegions(const Schema& schema, const SimplifyOptions& options) {
+  return options.regions != "none" &&
+         std::any_of(schema.cell_data.begin(), schema.cell_data.end(),
+                     [](const Column& c) { return !isFloat(c.type) && !namesPartition(c.name); });
+}
+
 // Curves and labelled faces lie in hashes of up to four places for each entry, and six while they
 // grow. An edge of a curve is there twice, at 8 bytes; one to six cells of the window is allowed
 // for, more than real meshes with ridges have. A labelled face waits for its cell, at 24 bytes,
 // then has its place, at 16; there are as many to a cell as the stream says.
 constexpr size_t kCurveBytes = 16, kFaceBytes = 4 * 24 + 6 * 16;
-inline size_t embeddedBytes(const Schema& schema, double feature_angle) {
-  if (schema.face_count <= 0) return feature_angle > 0 ? kCurveBytes : 0;
+inline size_t embeddedBytes(const Schema& schema, const SimplifyOptions& options) {
+  const bool may_have_curves = options.feature_angle > 0 || mayHaveRegions(schema, options);
+  if (schema.face_count <= 0) return may_have_curves ? kCurveBytes : 0;
   const auto faces = static_cast<double>(schema.face_count);
   const auto cells = static_cast<double>(std::max<int64_t>(schema.cell_count, 1));
   return kCurveBytes + static_cast<size_t>(kFaceBytes * std::min(faces / cells, 4.0));
@@ -138,7 +145,7 @@ struct Core {
   // merged, and those of the cells that stay. The cache does not hold them.
   static size_t budgetPerCell(const Plan& plan, const SimplifyOptions& options) {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
-    size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options.feature_angle);
+    size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options);
     bytes += 1;  // what is tiled is marked: a byte of a vertex, rounded up
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
