@@ -50,8 +50,17 @@ static std::string rangeText(const tetstream_option_info& info) {
   return "";
 }
 
+// The command takes no target of 0, which elsewhere is none.
+static bool isTarget(const tetstream_option_info& info) {
+  return info.id == TETSTREAM_OPTION_RATIO || info.id == TETSTREAM_OPTION_CELLS ||
+         info.id == TETSTREAM_OPTION_ERROR;
+}
+
 std::string helpText(const tetstream_option_info& info) {
   std::string text = info.text, range = rangeText(info);
+  if (isTarget(info))
+    return text.substr(0, text.find(';')) + " (above 0" +
+           (info.maximum < 1000 ? ", at most " + boundText(info.maximum) : "") + ")";
   std::string set = info.default_text ? info.default_text : "";
   if (!set.empty()) set = "default " + set;
   if (!range.empty() && !set.empty()) range += "; ";

@@ -109,9 +109,13 @@ bool isSame(ValueType a, ScalarType b) {
 void convertValues(const unsigned char* in, const StoredValues& stored, unsigned char* out,
                    ScalarType type, size_t count) {
   const size_t good = convertSome(in, stored.type, out, type, count);
-  if (good < count)
-    fail(Status::kUnsupported, "%s: value %llu does not fit into a signed 64-bit integer",
-         stored.what.c_str(), static_cast<unsigned long long>(stored.first + good));
+  if (good == count) return;
+  uint64_t value;
+  std::memcpy(&value, in + good * sizeof value, sizeof value);  // no other type has such values
+  fail(Status::kUnsupported,
+       "%s: value number %llu, %llu, does not fit into a signed 64-bit integer",
+       stored.what.c_str(), static_cast<unsigned long long>(stored.first + good),
+       static_cast<unsigned long long>(value));
 }
 
 namespace {

@@ -29,6 +29,7 @@ for flag in ratio cells boundary-weight balance field-range regions feature-angl
   contains "$out" "  --$flag"
 done
 contains "$out" "determinant, garland-zhou; default determinant"
+contains "$out" "cells out / cells in (above 0, at most 1)"
 
 expect_error 1 "no command" help nonsense
 expect_error 1 "which command" 

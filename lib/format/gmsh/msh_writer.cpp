@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "grouped_rows.h"
 #include "label_names.h"
@@ -37,6 +39,7 @@ class MshWriter final : public MeshCollector {
     groupFaces();
     MshElements elements(mesh, labels, options());
     elements_ = &elements;
+    nameArrays();
     noteLosses();
     writeHead();
     writeNames();
@@ -99,17 +102,32 @@ class MshWriter final : public MeshCollector {
            std::to_string(labels_->faces() + 1));
     for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data})
       for (const Column& c : *columns) {
-        noteName(c.name);
+        noteName(c.name, names_.at(&c));
         if (c.components != 1 && c.components != 3 && c.components != 9)
           note("Gmsh itself shows data of 1, 3 or 9 components; \"" + c.name + "\" has " +
                std::to_string(c.components));
       }
-    for (const LabelName& name : mesh_->schema().label_names) noteName(name.name);
+    for (const LabelName& name : mesh_->schema().label_names) noteName(name.name, plain(name.name));
   }
 
-  void noteName(const std::string& name) {
-    if (plain(name) != name)
-      note("the name of \"" + name + "\" has characters that the format cannot hold");
+  void noteName(const std::string& name, const std::string& written) {
+    if (written != name)
+      note("the name of \"" + name + "\" has characters that the format cannot hold: it is \"" +
+           written + "\"");
+  }
+
+  // No two arrays get one name: those that stay as they are first.
+  void nameArrays() {
+    for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data}) {
+      std::set<std::string> taken;
+      for (const bool is_plain : {true, false})
+        for (const Column& c : *columns) {
+          std::string name = plain(c.name);
+          if ((name == c.name) != is_plain) continue;
+          while (!taken.insert(name).second) name += '_';
+          names_[&c] = name;
+        }
+    }
   }
 
   // --------------------------------------------------------------------------------- the head
@@ -136,13 +154,13 @@ class MshWriter final : public MeshCollector {
     const Schema& schema = mesh_->schema();
     std::string text = "$Comments\ntetstream position ";
     text += std::string(mshTypeName(schema.position_type)) + "\n";
-    const auto hint = [&text](const char* what, const Column& c) {
-      text += std::string("tetstream ") + what + " " + mshTypeName(c.type) + " " + plain(c.name);
+    const auto hint = [&](const char* what, const Column& c) {
+      text += std::string("tetstream ") + what + " " + mshTypeName(c.type) + " " + names_.at(&c);
       text += '\n';
     };
     const auto label = [&](const char* what, const std::optional<size_t>& column) {
       text += std::string("tetstream ") + what;
-      if (column) text += std::string(" ") + plain(schema.cell_data[*column].name);
+      if (column) text += " " + names_.at(&schema.cell_data[*column]);
       text += '\n';
     };
     label("physical", labels_->groups());
@@ -376,7 +394,7 @@ class MshWriter final : public MeshCollector {
   template <class ForEach>
   void writeData(const char* name, const Column& column, uint64_t rows, ForEach forEach) {
     section(name);
-    out_->text("1\n\"" + plain(column.name) + "\"\n1\n0\n3\n0\n" +
+    out_->text("1\n\"" + names_.at(&column) + "\"\n1\n0\n3\n0\n" +
                std::to_string(column.components) + "\n" + std::to_string(rows) + "\n");
     bool exact = true;
     forEach([&](uint64_t tag, const unsigned char* values) {
@@ -422,6 +440,7 @@ class MshWriter final : public MeshCollector {
   }
 
   MeshSpool* mesh_ = nullptr;
+  std::map<const Column*, std::string> names_;  // that arrays have in the file
   MshLabels* labels_ = nullptr;
   MshElements* elements_ = nullptr;
   std::unique_ptr<GroupedRows<Face>> faces_;

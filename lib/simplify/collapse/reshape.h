@@ -96,7 +96,7 @@ class Reshaper {
   Patch<S>& patch_;
   Tally& tally_;
   Reconnector<S> reconnector_;
-  Array<uint8_t> marks_;       // per vertex of the patch
+  Array<uint8_t> marks_;                   // per vertex of the patch
   std::vector<double> means_, old_means_;  // of float cell data; rows of the cells that are gone
   int64_t least_cells_ = 0, most_cells_ = 0;
   double most_change_ = 0;  // of the fields: the mean, or where thin cells count the integral

@@ -184,6 +184,25 @@ TEST(Msh, GivesBackWhatItHasWrittenInAllFourWays) {
     }
 }
 
+// Two names that the format cannot tell apart: the one that it can hold keeps it.
+TEST(Msh, GivesEachArrayANameOfItsOwn) {
+  Schema schema;
+  for (const char* name : {"T \"old\"", "T _old_", "T \nold\r", "p"})
+    schema.fields.push_back({name, 1, ScalarType::kFloat64});
+  const SvMesh m = indexedMesh(schema, 20);
+  for (const bool newest : {false, true}) {
+    std::vector<std::string> notes;
+    const SvMesh r = readBytes(openMsh, write(m, true, newest, &notes));
+    ASSERT_EQ(r.schema.fields.size(), 4u);
+    EXPECT_EQ(r.schema.fields[0].name, "T _old__");
+    EXPECT_EQ(r.schema.fields[1].name, "T _old_");
+    EXPECT_EQ(r.schema.fields[2].name, "T _old___");
+    EXPECT_EQ(r.fields, m.fields);
+    EXPECT_TRUE(anyNote(notes, "cannot hold: it is \"T _old___\""));
+    EXPECT_EQ(notes.size(), 2u);
+  }
+}
+
 // Forty cells of three materials, in turns, with the column asked for beside them.
 SvMesh materials(const std::vector<Column>& beside = {}) {
   Schema schema;

@@ -48,6 +48,19 @@ TEST(VtuErrors, NamesACellWithAWrongOffsetOrPoint) {
   }
 }
 
+TEST(VtuErrors, NamesAnIntegerThatIsTooLarge) {
+  VtuTestPiece piece = twoCellPiece();
+  piece.cell_data.push_back({"UInt64", "hash", 1, {}, {7, -3}});
+  for (const VtuStyle& style : kErrorStyles) {
+    if (style.coding == VtuCoding::kAscii) continue;  // where it would be -3
+    const std::string text = vtuFailure(makeVtu({piece}, style));
+    EXPECT_TRUE(has(text,
+                    "TETSTREAM_UNSUPPORTED: test.vtu: array \"hash\": value number 1, "
+                    "18446744073709551613, does not fit into a signed 64-bit integer"))
+        << text;
+  }
+}
+
 TEST(VtuErrors, RefusesCountsThatTheFileCannotHold) {
   for (const char* count :
        {"2000", "2305843009213693952", "72057594037927936", "99999999999999999999", "-1", "", "5x"})
