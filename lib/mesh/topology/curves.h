@@ -19,7 +19,7 @@ namespace tetstream {
 // curves: collapses that would make two edges one are not legal.
 class Curves {
  public:
-  explicit Curves(Account& account) : account_(&account), places_(account) {}
+  explicit Curves(Account& account) : places_(account) {}
 
   bool empty() const { return !any_.load(std::memory_order_relaxed); }
   void add(uint32_t u, uint32_t v);  // no effect if it is there
@@ -51,7 +51,6 @@ class Curves {
   static uint64_t renamed(uint64_t entry, const uint32_t* keep);
   void place(uint64_t entry, size_t mask);
 
-  Account* account_;
   Array<uint64_t> places_;       // a power of two of them, at most half in use
   size_t count_ = 0, used_ = 0;  // entries; places that are in use or were
   std::atomic<bool> any_ = false;
