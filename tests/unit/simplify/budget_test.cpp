@@ -1,6 +1,7 @@
 // How many cells come out, what stops a run short, what memory it takes, how it is cancelled.
 #include <cmath>
 
+#include "mix.h"
 #include "simplify_testing.h"
 
 namespace tetstream::test {
@@ -230,6 +231,22 @@ TEST(SimplifierMemory, SufficesIfLessDid) {
   const TestMesh mesh = gridWith(slowRun() ? 6 : 14,
                                  [](double x, double y, double z) { return std::sin(x) + y * z; });
   for (Mode mode : kModes) expectMoreSuffices(mesh, mode);
+}
+
+// A sponge of two materials, nearly all of whose vertices are on curves.
+TEST(SimplifierMemory, SufficesIfLessDidWhereCurvesAreMany) {
+  const int n = slowRun() ? 6 : 14;
+  const TestMesh grid = gridWith(n, [](double x, double y, double z) { return x + 2 * y + 3 * z; });
+  std::vector<int64_t> cells;
+  for (size_t c = 0; c < grid.cellCount(); ++c)
+    if (mix(c + 1) % 10) cells.insert(cells.end(), &grid.cells[4 * c], &grid.cells[4 * c] + 4);
+  TestMesh sponge = grid;
+  sponge.cells = cells;
+  sponge.addIntegerCellData("material", [&](size_t c) {
+    const double x = grid.position(static_cast<size_t>(cells[4 * c]), 0);
+    return x + static_cast<double>(mix(c) % 3) > n / 2.0;
+  });
+  expectMoreSuffices(inStreamOrder(sponge), Mode::kSweep);
 }
 
 // As thin as a wall, with three cells to a vertex: a window has its vertices before its cells.
