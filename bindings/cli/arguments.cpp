@@ -444,6 +444,7 @@ Arguments Parser::parse(int argc, const char* const* argv) {
   for (const auto& [app, id] : commands_)
     if (app->parsed()) {
       arguments_.command = id;
+      arguments_.options.weighs_fields = id == Arguments::Command::kSimplify;
       if (id == Arguments::Command::kText) arguments_.text = textOfCommand();
       settleFormats();
       return arguments_;

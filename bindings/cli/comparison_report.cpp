@@ -112,15 +112,26 @@ std::vector<std::string> linesIn(std::string_view text) {
   return lines;
 }
 
-std::string leftOutText(const char* mesh, const char* only) {
+std::string leftOutText(const char* why, const std::vector<std::string>& names) {
   constexpr size_t kNamed = 6;
-  const std::vector<std::string> names = linesIn(only);
   if (names.empty()) return "";
-  std::string text = textOf("  left out, only in the %s: ", mesh);
+  std::string text = textOf("  left out, %s: ", why);
   for (size_t i = 0; i < std::min(kNamed, names.size()); ++i)
     text += (i > 0 ? ", " : "") + oneLine(names[i]);
   if (names.size() > kNamed) text += textOf(" and %zu more", names.size() - kNamed);
   return text + "\n";
+}
+
+// What both meshes have, and is left out, differs in its components.
+std::string leftOutText(const tetstream_comparison_info& info) {
+  std::vector<std::string> lists[2] = {linesIn(info.only_original), linesIn(info.only_simplified)};
+  std::vector<std::string> both;
+  for (const std::string& name : lists[0])
+    if (std::erase(lists[1], name) > 0) both.push_back(name);
+  for (const std::string& name : both) std::erase(lists[0], name);
+  return leftOutText("only in the original", lists[0]) +
+         leftOutText("only in the simplified mesh", lists[1]) +
+         leftOutText("with other components in the simplified mesh", both);
 }
 
 std::string fieldLine(const tetstream_field_comparison& f, size_t width) {
@@ -147,8 +158,7 @@ std::string partText(const ComparisonFigures& f) {
 std::string fieldsText(const ComparisonFigures& f) {
   const std::string how =
       f.info.is_exact ? "exact" : "by " + shortCount(static_cast<double>(f.info.samples));
-  const std::string left_out = leftOutText("original", f.info.only_original) +
-                               leftOutText("simplified mesh", f.info.only_simplified);
+  const std::string left_out = leftOutText(f.info);
   if (f.fields.empty()) return "fields\n  none that both meshes have\n" + left_out;
   size_t width = 14;
   for (const auto& field : f.fields) width = std::max(width, oneLine(field.name).size() + 2);

@@ -92,7 +92,7 @@ Options makeOptions(const OptionWords& words) {
   for (const auto& [name, value] : words.values)
     check(tetstream_options_parse(handle, name.c_str(), value.c_str()), handle);
   for (const std::string& word : words.fields) {
-    const auto [name, weight] = splitField(word);
+    const auto [name, weight] = words.weighs_fields ? splitField(word) : std::pair{word, 1.0};
     check(tetstream_options_add_field(handle, name.c_str(), weight), handle);
   }
   return options;

@@ -15,10 +15,12 @@ std::string metavariable(const tetstream_option_info& info);
 // The option's line, its range and its default.
 std::string helpText(const tetstream_option_info& info);
 
-// All options that were given, as name and word, and fields as NAME or NAME:WEIGHT.
+// All options that were given, as name and word, and fields as NAME or, where they are weighed,
+// NAME:WEIGHT.
 struct OptionWords {
   std::vector<std::pair<std::string, std::string>> values;
   std::vector<std::string> fields;
+  bool weighs_fields = true;
   bool has(const char* name) const;
 };
 

@@ -873,8 +873,9 @@ typedef struct tetstream_comparison_info {
   int64_t compared_cells;      /* of the original: all, or those in the option `box` */
   double compared_volume;      /* of these */
   int64_t boundary_samples;    /* about so many points of each boundary, beside its vertices */
-  const char *only_original;   /* fields that the simplified mesh does not have, a name a line, */
-  const char *only_simplified; /* and that only it has; "" for none, and where fields were added */
+  const char *only_original;   /* fields that the simplified mesh does not have, or not with as many */
+  const char *only_simplified; /* components, a name a line, and its own; "" for none, and where */
+                               /* fields were added */
 } tetstream_comparison_info;
 
 /* The figures of one mesh. Members may be added at the end. */

@@ -26,12 +26,16 @@ std::string groupedMean(double number) {
 void drawTitle(Canvas& canvas, const Frame& page, double baseline, const std::string& title) {
   const double room = 0.75 * page.width;
   std::string shown = title;
-  for (size_t cut = 0; cut < title.size();) {
+  const auto startOfLetter = [&](size_t at) {
+    while (at < title.size() && (title[at] & 0xc0) == 0x80) ++at;
+    return std::min(at, title.size());
+  };
+  for (size_t cut = 0; cut < title.size();) {  // out of its middle
     const double width = canvas.textWidth(shown, kTitleStyle);
     if (width <= room) break;
     cut += 1 + static_cast<size_t>((1 - room / width) * static_cast<double>(title.size() - cut));
-    while (cut < title.size() && (title[cut] & 0xc0) == 0x80) ++cut;  // not inside a letter
-    shown = kEllipsis + title.substr(std::min(cut, title.size()));
+    const size_t from = startOfLetter((title.size() - std::min(cut, title.size())) / 2);
+    shown = title.substr(0, from) + kEllipsis + title.substr(startOfLetter(from + cut));
   }
   canvas.text({page.left, baseline}, shown, kTitleStyle);
 }

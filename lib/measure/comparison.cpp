@@ -57,6 +57,7 @@ void Comparison::matchFields(const Schema& original, const Schema& simplified, S
     const int other = findColumn(simplified.fields, column.name);
     if (other < 0 || !isWanted(plan_, column.name)) continue;
     const int components = simplified.fields[static_cast<size_t>(other)].components;
+    if (components != column.components && plan_.fields.empty()) continue;
     if (components != column.components)
       fail(Status::kBadArgument, "field \"%s\" has %d components in the original, %d after",
            column.name.c_str(), column.components, components);
@@ -75,7 +76,10 @@ void Comparison::findLeftOut() {
   if (!plan_.fields.empty()) return;
   for (int i = 0; i < 2; ++i)
     for (const Column& column : schemas_[i].fields) {
-      if (findColumn(schemas_[1 - i].fields, column.name) >= 0) continue;
+      const std::vector<Column>& others = schemas_[1 - i].fields;
+      const int other = findColumn(others, column.name);
+      if (other >= 0 && others[static_cast<size_t>(other)].components == column.components)
+        continue;
       if (!only_[i].empty()) only_[i] += '\n';
       only_[i] += column.name;
     }

@@ -85,25 +85,28 @@ tetstream convert in.tets - | tetstream compare - out.vtu --quiet --report json 
 {
   printf '%s\n' '# vtk DataFile Version 3.0' one ASCII 'DATASET UNSTRUCTURED_GRID' \
     'POINTS 4 double' '0 0 0 1 0 0 0 1 0 0 0 1' 'CELLS 1 5' '4 0 1 2 3' 'CELL_TYPES 1' 10
-  printf '%s\n' 'POINT_DATA 4' 'FIELD f 3' 'same 1 4 double' '1 2 3 4' 'flat 1 4 double' '3 3 3 3'
+  printf '%s\n' 'POINT_DATA 4' 'FIELD f 4' 'same 1 4 double' '1 2 3 4' 'flat 1 4 double' '3 3 3 3'
 } >one.vtk
 cp one.vtk two.vtk
-printf '%s\n' 'u 3 4 double' '1 2 3 4 5 6 7 8 9 1 2 3' >>one.vtk
+printf '%s\n' 'u 3 4 double' '1 2 3 4 5 6 7 8 9 1 2 3' 't:1 1 4 double' '1 2 3 4' >>one.vtk
+printf '%s\n' 't:1 2 4 double' '1 2 3 4 5 6 7 8' >>two.vtk
 printf '%s\n' 'v 1 4 double' '1 2 3 4' >>two.vtk
-sed -i -e 's/^FIELD f 3/FIELD f 9/' -e 's/^3 3 3 3/3 3 3 4/' two.vtk
+sed -i -e 's/^FIELD f 4/FIELD f 10/' -e 's/^3 3 3 3/3 3 3 4/' two.vtk
 for i in 1 2 3 4 5 6; do printf '%s\n' "w$i 1 4 double" '1 2 3 4' >>two.vtk; done
 expect 0 compare one.vtk two.vtk
 contains "$out" $'\n  left out, only in the original: u\n'
 contains "$out" $'\n  left out, only in the simplified mesh: v, w1, w2, w3, w4, w5 and 1 more\n'
+contains "$out" $'\n  left out, with other components in the simplified mesh: t:1\n'
 # Nor has a field of no range a ratio of it to its error, or the volume changed.
 [[ $out =~ flat\ +[0-9.]+\ +[0-9.]+\ +none\  ]] || fail "a constant field has a CPSNR: $out"
 [[ $out =~ volume\ +[0-9.]+\ +[0-9.]+\ +0\ % ]] || fail "the volume has changed: $out"
 expect 0 compare one.vtk two.vtk --report json
 contains "$(tr -d ' \n' <<<"$out")" \
-  '"only_original":["u"],"only_simplified":["v","w1","w2","w3","w4","w5","w6"]'
+  '"only_original":["u","t:1"],"only_simplified":["t:1","v","w1","w2","w3","w4","w5","w6"]'
 [[ $(member "${out#*'"name": "flat"'}" cpsnr) == null ]] || fail "a constant field has a CPSNR: $out"
 expect 0 compare one.vtk two.vtk --field same
 contains_not "$out" "left out"
+expect_error 1 'field "t:1" has 1 components in the original, 2 after' compare one.vtk two.vtk --field t:1
 
 # What cannot be.
 rm -f large.json small.json one.vtk two.vtk

@@ -36,6 +36,17 @@ contains "$err" "nothing is missing"
 expect 0 convert --recover - out.tets <half.tets
 [[ $(cells_in out.tets) == "$cells" ]] || fail "a pipe gives other cells"
 
+# Within a wrapping, up to where that ends.
+gzip -k whole.tets
+head -c $(($(stat -c %s whole.tets.gz) / 2)) whole.tets.gz >half.tets.gz
+rm whole.tets.gz
+expect_error 2 "the file ends within its compressed data" convert half.tets.gz out.tets
+expect 0 convert --recover half.tets.gz out.tets
+contains "$err" "the file ends within its compressed data"
+contains "$err" "the end is missing"
+(($(cells_in out.tets) > 20000)) || fail "little was recovered of a file that was wrapped"
+rm half.tets.gz
+
 # Where there is nothing to be recovered there is no output.
 rm out.tets out.vtu
 head -c 1000000 /dev/zero >zeros.tets

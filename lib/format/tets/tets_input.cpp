@@ -210,6 +210,7 @@ bool SectionReader::resume() {
       return false;
   }
   offset_ = found;
+  chunks_ += head.rank - sections_;  // as most of the sections that are passed over are
   sections_ = head.rank - 1;
   return true;
 }

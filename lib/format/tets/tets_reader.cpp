@@ -475,7 +475,7 @@ Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
          bytes->name().c_str());
   Input input;
   if (options.recover)
-    input.stream = tets::recover(makeSeekable(std::move(bytes), options.temp_dir), options.note);
+    input.stream = tets::recover(std::move(bytes), options.temp_dir, options.note);
   else
     input.stream = std::make_unique<tets::Reader>(std::move(bytes));
   return input;

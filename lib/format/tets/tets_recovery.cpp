@@ -239,11 +239,41 @@ void RecoveredStream::tell() {
   note_(text);
 }
 
+// What comes out of a wrapping before it fails.
+class UpToDamage final : public ByteSource {
+ public:
+  UpToDamage(std::unique_ptr<ByteSource> bytes, std::function<void(const std::string&)> note)
+      : ByteSource(bytes->name()), bytes_(std::move(bytes)), note_(std::move(note)) {}
+  size_t read(void* out, size_t size) override {
+    if (is_over_) return 0;
+    try {
+      return bytes_->read(out, std::min(size, kAtOnce));
+    } catch (const Error& error) {
+      if (error.status() != Status::kBadData) throw;
+      is_over_ = true;
+      if (note_) note_(error.text());
+      return 0;
+    }
+  }
+  size_t readAt(uint64_t, void*, size_t) override { return 0; }
+  bool seekable() const override { return false; }
+  uint64_t size() const override { return 0; }
+  std::shared_ptr<Waiting> waiting() const override { return bytes_->waiting(); }
+
+ private:
+  static constexpr size_t kAtOnce = size_t{1} << 16;  // what is lost of the last read
+  std::unique_ptr<ByteSource> bytes_;
+  std::function<void(const std::string&)> note_;
+  bool is_over_ = false;
+};
+
 }  // namespace
 
-std::unique_ptr<Source> recover(std::unique_ptr<ByteSource> bytes,
+std::unique_ptr<Source> recover(std::unique_ptr<ByteSource> bytes, const std::string& temp_dir,
                                 std::function<void(const std::string&)> note) {
-  return std::make_unique<RecoveredStream>(std::move(bytes), std::move(note));
+  if (!bytes->seekable()) bytes = std::make_unique<UpToDamage>(std::move(bytes), note);
+  return std::make_unique<RecoveredStream>(makeSeekable(std::move(bytes), temp_dir),
+                                           std::move(note));
 }
 
 }  // namespace tetstream::tets

@@ -28,8 +28,9 @@ struct Losses {
 std::unique_ptr<Source> openTolerant(std::unique_ptr<ByteSource> bytes, Losses& losses);
 
 // The same as a valid stream: without the cells that use missing vertices, the rest numbered anew.
-// When it ends, `note` is told what is missing.
-std::unique_ptr<Source> recover(std::unique_ptr<ByteSource> bytes,
+// Of any bytes; what lies within a wrapping that is damaged, up to there. When it ends, `note` is
+// told what is missing.
+std::unique_ptr<Source> recover(std::unique_ptr<ByteSource> bytes, const std::string& temp_dir,
                                 std::function<void(const std::string&)> note);
 
 }  // namespace tetstream::tets

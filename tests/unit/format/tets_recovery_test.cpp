@@ -157,6 +157,19 @@ TEST_P(TetsRecovery, AWholeFileIsReadAsItIs) {
   EXPECT_TRUE(isTold(r, "nothing is missing"));
 }
 
+// Chunks are told by their numbers in the file, those that are missing counted.
+TEST_P(TetsRecovery, EveryChunkIsToldByItsNumber) {
+  Stream s = wideStream(true, 3);
+  Bytes file = write(s, GetParam());
+  const std::vector<Place> places = placesOf(file);
+  ASSERT_GT(places.size(), 6u);
+  for (size_t chunk : {0, 1, 3}) file[places[1 + chunk].end - 1] ^= 1;
+  const Recovered r = recovered(file);
+  for (size_t chunk : {0, 1, 3})
+    EXPECT_TRUE(isTold(r, textOf("chunk %zu at byte %zu", chunk, places[1 + chunk].begin)))
+        << chunk;
+}
+
 TEST_P(TetsRecovery, WhateverIsCutOffTheChunksBeforeAreThere) {
   Stream s = wideStream(true, 3);
   const Bytes file = write(s, GetParam());
