@@ -78,8 +78,8 @@ void Curves::merge(uint32_t u, uint32_t v) {
   any_ = count_ > 0;
 }
 
-// In place: where memory is short a copy would be as large as what it is made of. Entries wait where
-// they are until it is their turn; one that another finds at its place goes next.
+// In place: where memory is short a copy would be as large as what it is made of. Entries wait
+// where they are until it is their turn; one that another finds at its place goes next.
 void Curves::rebuild(size_t more, const uint32_t* keep) {
   const size_t before = places_.size();
   size_t left = more, size = kLeastPlaces;

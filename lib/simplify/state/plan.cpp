@@ -13,8 +13,9 @@ static std::string namesOf(const std::vector<Column>& columns) {
   return names.empty() ? "none" : names;
 }
 
-// The weight of each field; 0 where it is carried. They tell fields from each other alone: the largest
-// becomes 1, so that errors, and what the boundary counts, are in units of that field's range.
+// The weight of each field; 0 where it is carried. They tell fields from each other alone: the
+// largest becomes 1, so that errors, and what the boundary counts, are in units of that field's
+// range.
 static std::vector<double> fieldWeights(const Schema& schema, const SimplifyOptions& options) {
   std::vector<double> weights(schema.fields.size(), options.fields.empty() ? 1.0 : 0.0);
   for (const auto& [name, weight] : options.fields) {

@@ -163,9 +163,9 @@ TEST_P(TetsRecovery, EveryChunkIsToldByItsNumber) {
   Bytes file = write(s, GetParam());
   const std::vector<Place> places = placesOf(file);
   ASSERT_GT(places.size(), 6u);
-  for (size_t chunk : {0, 1, 3}) file[places[1 + chunk].end - 1] ^= 1;
+  for (size_t chunk : {0, 1, 2}) file[places[1 + chunk].end - 1] ^= 1;
   const Recovered r = recovered(file);
-  for (size_t chunk : {0, 1, 3})
+  for (size_t chunk : {0, 1, 2})
     EXPECT_TRUE(isTold(r, textOf("chunk %zu at byte %zu", chunk, places[1 + chunk].begin)))
         << chunk;
 }

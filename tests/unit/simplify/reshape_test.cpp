@@ -125,9 +125,8 @@ TEST(Reshape, KeepsTheDomainItsTopologyAndWhatCellsStandFor) {
 // Values that are not finite have no mean, and those that are as large as can be no sum.
 TEST(Reshape, LetsValuesThatAreNotFiniteNeitherGrowNorVanish) {
   Squeezed s;
-  s.forMeans([](uint64_t c, double* means) {
-    means[1] = mix(c + 1) % 4 == 0 ? std::nan("") : 1e308;
-  });
+  s.forMeans(
+      [](uint64_t c, double* means) { means[1] = mix(c + 1) % 4 == 0 ? std::nan("") : 1e308; });
   const auto unknown = [&] {
     double share = 0, all = 0;
     s.forMeans([&](uint64_t, const double* means) {
