@@ -271,6 +271,7 @@ void ComparisonPage::drawHistogram(const Frame& f) {
   }
   const auto mark = [&](double error, const char* name) {
     if (!(error > 0 && std::isfinite(error))) return;
+    if (error < ErrorHistogram::lowerEnd(first) * (range_ > 0 ? range_ : 1)) return;  // not shown
     const double x = across(error / (range_ > 0 ? range_ : 1));
     canvas_.line({{x, f.top - 2}, {x, f.bottom()}}, 1, kAccent, true);
     TextStyle words = kTextStyle;

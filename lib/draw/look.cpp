@@ -72,7 +72,12 @@ std::vector<Tick> ticksBetween(double low, double high, int wanted) {
     return {{low, textOf("%.4g", low)}};
   std::vector<Tick> ticks;
   const double step = roundStep((high - low) / wanted);
-  const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(largest / step))) + 1, 1, 15);
+  // As many as tell ticks apart, and no power of ten for what is as short in full.
+  const auto digitsOf = [](double number) {
+    return static_cast<int>(std::ceil(std::log10(number))) + 1;
+  };
+  const int whole = largest >= 1 && largest < 1e5 ? digitsOf(largest) : 1;
+  const int digits = std::clamp(digitsOf(largest / step), whole, 15);
   for (double n = std::ceil(low / step); n * step <= high + 1e-9 * step; ++n)
     ticks.push_back({n * step, textOf("%.*g", digits, n == 0 ? 0.0 : n * step)});
   return ticks;

@@ -42,6 +42,11 @@ TEST(Ticks, EndBetweenAnyTwoNumbers) {
       EXPECT_GE(ticks.size(), 1u) << low << " " << high;
       EXPECT_LE(ticks.size(), 10u) << low << " " << high;
     }
+  const auto last = [](double high) { return ticksBetween(0, high, 4).back().label; };
+  EXPECT_EQ(last(108), "100");
+  EXPECT_EQ(last(21000), "20000");
+  EXPECT_EQ(last(210000), "2e+05");
+  EXPECT_EQ(last(0.0021), "0.002");
   EXPECT_EQ(ticksBetween(101325, std::nextafter(101325, 2e5), 4)[0].label, "1.013e+05");
 }
 
