@@ -1,5 +1,6 @@
 #include "memory.h"
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
@@ -27,15 +28,25 @@ size_t checkedAdd(size_t a, size_t b) {
   return sum;
 }
 
+// Sizes of a whole budget are not rounded.
+static size_t scaled(size_t bytes, double factor) {
+  return factor == 1 ? bytes : static_cast<size_t>(std::ceil(factor * static_cast<double>(bytes)));
+}
+
+Account::Account(size_t budget_bytes, double share)
+    : budget_(budget_bytes), share_(share), limit_(scaled(budget_bytes, share)) {}
+
+void Account::refuse(size_t bytes) {
+  refused_.store(true, std::memory_order_relaxed);
+  fail(Status::kNoMemory, "the memory budget of %zu bytes is too small: at least %zu are needed",
+       budget_, scaled(bytes, 1 / share_));
+}
+
 void Account::charge(size_t bytes) {
   size_t before = used(), after;
   do {
     after = checkedAdd(before, bytes);
-    if (limit_ != 0 && after > limit_) {
-      refused_.store(true, std::memory_order_relaxed);
-      fail(Status::kNoMemory,
-           "the memory budget of %zu bytes is too small: at least %zu are needed", limit_, after);
-    }
+    if (limit_ != 0 && after > limit_) refuse(after);
   } while (!used_.compare_exchange_weak(before, after, std::memory_order_relaxed));
   size_t peak = this->peak();
   while (after > peak && !peak_.compare_exchange_weak(peak, after, std::memory_order_relaxed)) {

@@ -21,7 +21,8 @@ size_t checkedAdd(size_t a, size_t b);
 
 class Account {
  public:
-  explicit Account(size_t limit_bytes = 0) : limit_(limit_bytes) {}
+  // Of a budget of so many bytes it has that share; messages speak of the budget.
+  explicit Account(size_t budget_bytes = 0, double share = 1);
   Account(const Account&) = delete;
   Account& operator=(const Account&) = delete;
 
@@ -35,6 +36,10 @@ class Account {
   void failedOtherwise() noexcept { refused_.store(false, std::memory_order_relaxed); }
 
  private:
+  [[noreturn]] void refuse(size_t bytes);
+
+  const size_t budget_;
+  const double share_;
   const size_t limit_;
   std::atomic<size_t> used_ = 0, peak_ = 0;
   std::atomic<bool> refused_ = false;

@@ -113,7 +113,7 @@ Comparison::Comparison(const Schema& original, const Schema& simplified, const C
     : plan_(plan),
       part_(partBoxOf(plan.options.box)),
       memory_(plan.memory_bytes > 0 ? plan.memory_bytes : kDefaultCompareMemory),
-      account_(std::max<size_t>(memory_ / 4 * 3, 1)),
+      account_(memory_, 0.75),
       schemas_{original, simplified} {
   if (plan.options.cut != "none") checkCut(plan.options.cut);
   ScanPlan plans[2];

@@ -53,6 +53,21 @@ TEST(Account, HoldsItsLimitToTheByte) {
   EXPECT_EQ(statusOf([&] { account.charge(kMost); }), Status::kNoMemory);
 }
 
+TEST(Account, OfAShareSpeaksOfTheBudget) {
+  Account account(1000, 0.75);
+  EXPECT_EQ(account.limit(), 750u);
+  account.charge(700);
+  try {
+    account.charge(800);
+    FAIL() << "twice the budget";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.text(),
+              "the memory budget of 1000 bytes is too small: at least 2000 are needed");
+  }
+  EXPECT_TRUE(account.refused());
+  EXPECT_EQ(Account(0, 0.75).limit(), 0u);
+}
+
 TEST(Account, WithoutALimitTakesAnything) {
   Account account;
   account.charge(kMost);
