@@ -6,16 +6,18 @@
 
 namespace tetstream {
 
-// Some labels tell; looked at again whenever there are twice as many. Of cells in any order the
-// first ones have many labels that are not theirs alone: ids are what hardly ever comes twice.
-constexpr size_t kLabelsThatTell = 1024;
+// Some labels tell; looked at again whenever there are twice as many. Where cells come in any order
+// the first ones of thousands of labels are nearly all different, too, but for some; of so many
+// that memory counts half of them will do.
+constexpr size_t kLabelsThatTell = 1024, kManyLabels = 1 << 16;
 // Of a label: its node in the map, and its row in the comparison, which has room to grow.
 constexpr size_t kLabelBytes = 192;
 
 bool RegionParts::looksLikeIds() const {
   const size_t labels = regions_.size();
+  const int64_t ids = labels < kManyLabels ? cells_seen_ / 16 * 15 : cells_seen_ / 2;
   return labels >= kLabelsThatTell && std::has_single_bit(labels) &&
-         static_cast<int64_t>(labels) > cells_seen_ / 16 * 15;
+         static_cast<int64_t>(labels) > ids;
 }
 
 void RegionParts::drop() {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "mix.h"
 #include "status.h"
 
 namespace tetstream::test {
@@ -44,6 +45,19 @@ TEST(RegionParts, LeaveIdsOutUnlessTheyAreAskedFor) {
   EXPECT_TRUE(ids.regions().empty());
   EXPECT_FALSE(wished.dropped());
   EXPECT_EQ(wished.regions().size(), 5000u);
+}
+
+// Thousands of labels, of which the first thousand cells have nearly as many.
+TEST(RegionParts, AreNoIdsInWhateverOrderCellsCome) {
+  Account account;
+  RegionParts shuffled(account, true);
+  for (int64_t c = 0; c < 60000; ++c) {
+    const auto number = static_cast<uint32_t>(c % 2);
+    if (c > 1) shuffled.remove(number);
+    shuffled.add(number, static_cast<int64_t>(mix(static_cast<uint64_t>(c) + 1) % 3000), 1);
+  }
+  EXPECT_FALSE(shuffled.dropped());
+  EXPECT_EQ(shuffled.regions().size(), 3000u);
 }
 
 TEST(RegionParts, StayWithinTheirAccount) {
