@@ -112,8 +112,7 @@ void convertValues(const unsigned char* in, const StoredValues& stored, unsigned
   if (good == count) return;
   uint64_t value;
   std::memcpy(&value, in + good * sizeof value, sizeof value);  // no other type has such values
-  fail(Status::kUnsupported,
-       "%s: value number %llu, %llu, does not fit into a signed 64-bit integer",
+  fail(Status::kUnsupported, "%s: value %llu does not fit into a signed 64-bit integer: it is %llu",
        stored.what.c_str(), static_cast<unsigned long long>(stored.first + good),
        static_cast<unsigned long long>(value));
 }

@@ -55,8 +55,8 @@ TEST(VtuErrors, NamesAnIntegerThatIsTooLarge) {
     if (style.coding == VtuCoding::kAscii) continue;  // where it would be -3
     const std::string text = vtuFailure(makeVtu({piece}, style));
     EXPECT_TRUE(has(text,
-                    "TETSTREAM_UNSUPPORTED: test.vtu: array \"hash\": value number 1, "
-                    "18446744073709551613, does not fit into a signed 64-bit integer"))
+                    "TETSTREAM_UNSUPPORTED: test.vtu: array \"hash\": value 1 does not fit "
+                    "into a signed 64-bit integer: it is 18446744073709551613"))
         << text;
   }
 }
