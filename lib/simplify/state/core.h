@@ -69,10 +69,11 @@ inline bool mayHaveRegions(const Schema& schema, const SimplifyOptions& options)
 }
 
 // Curves and labelled faces lie in hashes of up to four places for each entry, and six while they
-// grow. An edge of a curve is there twice, at 8 bytes; one to six cells of the window is allowed
-// for, more than real meshes with ridges have. A labelled face waits for its cell, at 24 bytes,
-// then has its place, at 16; there are as many to a cell as the stream says.
-constexpr size_t kCurveBytes = 16, kFaceBytes = 4 * 24 + 6 * 16;
+// grow. An edge of a curve is there twice, at 8 bytes; one to four cells of the window is allowed
+// for, more than real meshes with ridges have: with less a sponge had too large windows. A labelled
+// face waits for its cell, at 24 bytes, then has its place, at 16; there are as many to a cell as
+// the stream says.
+constexpr size_t kCurveBytes = 24, kFaceBytes = 4 * 24 + 6 * 16;
 inline size_t embeddedBytes(const Schema& schema, const SimplifyOptions& options) {
   const bool may_have_curves = options.feature_angle > 0 || mayHaveRegions(schema, options);
   if (schema.face_count <= 0) return may_have_curves ? kCurveBytes : 0;
