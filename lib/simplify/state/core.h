@@ -62,6 +62,7 @@ inline RowBytes rowBytes(const SimplifyOptions& options) {
   return row;
 }
 
+// By what is known before the first cell.
 inline bool mayHaveRegions(const Schema& schema, const SimplifyOptions& options) {
   return options.regions != "none" &&
          std::any_of(schema.cell_data.begin(), schema.cell_data.end(),
