@@ -235,7 +235,8 @@ void ComparisonPage::drawHistogram(const Frame& f) {
   int first = 0, last = kSteps - 1;
   double below = 0;
   while (first < last && (below += volume[first]) < kSeen * all) ++first;
-  const double largest = field_->largest / (range_ > 0 ? range_ : 1);
+  const double unit = range_ > 0 ? range_ : 1;
+  const double largest = field_->largest / unit;
   while (last > first && largest < ErrorHistogram::lowerEnd(last)) --last;
   first -= first % kPerDecade;
   last += kPerDecade - last % kPerDecade;
@@ -271,8 +272,8 @@ void ComparisonPage::drawHistogram(const Frame& f) {
   }
   const auto mark = [&](double error, const char* name) {
     if (!(error > 0 && std::isfinite(error))) return;
-    if (error < ErrorHistogram::lowerEnd(first) * (range_ > 0 ? range_ : 1)) return;  // not shown
-    const double x = across(error / (range_ > 0 ? range_ : 1));
+    if (error < ErrorHistogram::lowerEnd(first) * unit) return;  // not shown
+    const double x = across(error / unit);
     canvas_.line({{x, f.top - 2}, {x, f.bottom()}}, 1, kAccent, true);
     TextStyle words = kTextStyle;
     words.size = 10;

@@ -21,8 +21,8 @@ class WrappedSource : public ByteSource {
   WrappedSource(std::unique_ptr<ByteSource> bytes, size_t buffer_bytes)
       : ByteSource(bytes->name()), bytes_(std::move(bytes)), buffer_(buffer_bytes) {}
 
-  bool fill() {  // once all of it is taken; false at the end
-    at_ = 0;
+  bool fill() {         // once all of it is taken; false at the end
+    at_ = filled_ = 0;  // also if that fails
     filled_ = bytes_->read(buffer_.data(), buffer_.size());
     return filled_ > 0;
   }

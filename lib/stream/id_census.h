@@ -1,4 +1,4 @@
-// stream: whether integers are ids and no labels. Depends on nothing.
+// stream: whether integers are ids and no labels. Depends on base.
 #pragma once
 
 #include <cstddef>

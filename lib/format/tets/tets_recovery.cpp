@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "status.h"
+#include "wrapping_parts.h"
 
 namespace tetstream::tets {
 
@@ -240,29 +241,33 @@ void RecoveredStream::tell() {
 }
 
 // What comes out of a wrapping before it fails.
-class UpToDamage final : public ByteSource {
+class UpToDamage final : public WrappedSource {
  public:
   UpToDamage(std::unique_ptr<ByteSource> bytes, std::function<void(const std::string&)> note)
-      : ByteSource(bytes->name()), bytes_(std::move(bytes)), note_(std::move(note)) {}
+      : WrappedSource(std::move(bytes), kAtOnce), note_(std::move(note)) {}
+
   size_t read(void* out, size_t size) override {
-    if (is_over_) return 0;
+    if (!hasInput() && !goOn()) return 0;
+    const size_t n = std::min(size, inputSize());
+    std::copy_n(input(), n, static_cast<unsigned char*>(out));
+    take(n);
+    return n;
+  }
+
+ private:
+  static constexpr size_t kAtOnce = size_t{1} << 16;  // what is lost of the last read
+  bool goOn() {
+    if (is_over_) return false;
     try {
-      return bytes_->read(out, std::min(size, kAtOnce));
+      return fill();
     } catch (const Error& error) {
       if (error.status() != Status::kBadData) throw;
       is_over_ = true;
       if (note_) note_(error.text());
-      return 0;
+      return false;
     }
   }
-  size_t readAt(uint64_t, void*, size_t) override { return 0; }
-  bool seekable() const override { return false; }
-  uint64_t size() const override { return 0; }
-  std::shared_ptr<Waiting> waiting() const override { return bytes_->waiting(); }
 
- private:
-  static constexpr size_t kAtOnce = size_t{1} << 16;  // what is lost of the last read
-  std::unique_ptr<ByteSource> bytes_;
   std::function<void(const std::string&)> note_;
   bool is_over_ = false;
 };

@@ -17,8 +17,9 @@ struct RegionFigures {
 // Of one array.
 class RegionParts {
  public:
-  // With `drops_ids` an array of ids, of which hardly any comes twice, is dropped.
-  // Otherwise there are as many labels as the account allows.
+  // With `drops_ids` an array of ids is dropped: of which hardly any comes twice or, where there
+  // are very many, more than one comes for two cells. Otherwise there are as many labels as the
+  // account allows.
   RegionParts(Account& account, bool drops_ids)
       : account_(account), drops_ids_(drops_ids), sets_(account), cells_(account) {}
   ~RegionParts() { account_.release(charged_); }

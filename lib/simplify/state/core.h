@@ -64,8 +64,8 @@ inline RowBytes rowBytes(const SimplifyOptions& options) {
 
 // By what is known before the first cell.
 inline bool mayHaveRegions(const Schema& schema, const SimplifyOptions& options) {
-  return options.regions != "none" &&
-         std::any_of(schema.cell_data.begin(), schema.cell_data.end(),
+  if (options.regions != "auto") return options.regions != "none";
+  return std::any_of(schema.cell_data.begin(), schema.cell_data.end(),
                      [](const Column& c) { return !isFloat(c.type) && !namesPartition(c.name); });
 }
 

@@ -27,7 +27,7 @@ SimplifyOptions with(Effort effort, double ratio, int64_t window = 0) {
 TEST(Effort, LowersTheErrorAndLeavesFewerThinCells) {
   const TestMesh mesh = withALayer(slowRun() ? 14 : 20);
   for (const int64_t window : {int64_t{0}, static_cast<int64_t>(mesh.cellCount()) / 3}) {
-    if (slowRun() && window > 0) continue;
+    if (slowRun() && window == 0) continue;
     const Result normal = simplified(mesh, with(Effort::kNormal, 0.05, window));
     const Result high = simplified(mesh, with(Effort::kHigh, 0.05, window));
     expectSound(mesh, high);

@@ -104,7 +104,7 @@ class CellSearch {
   static constexpr size_t kSlabs = 64;
   size_t slabOf(double z) const {
     const double slab = (z - low_) / height_;
-    return slab > 0 ? std::min(static_cast<size_t>(slab), kSlabs - 1) : 0;
+    return slab > 0 ? static_cast<size_t>(std::min(slab, kSlabs - 1.0)) : 0;
   }
 
   double low_ = std::numeric_limits<double>::infinity(), height_ = 0;

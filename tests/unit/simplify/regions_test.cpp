@@ -279,7 +279,7 @@ TEST(SimplifierRegions, AreNotToldOfWhereTheirVolumesStay) {
   std::set<int64_t> labels;
   for (size_t c = 0; c < mesh.cellCount(); ++c) labels.insert(mesh.cellInteger(0, c));
   for (int64_t window : {0, 2000}) {
-    if (slowRun() && window > 0) continue;
+    if (slowRun() && window == 0) continue;
     const Result result = simplified(mesh, toRatio(0.1, window));
     for (int64_t label : labels) {
       const double volume = volumeOfLabel(mesh, label);

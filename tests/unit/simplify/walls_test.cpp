@@ -83,7 +83,7 @@ TEST(Walls, AreReducedAsFarAsTheirThinCellsAllow) {
 TEST(Walls, AreReducedInTheSameWayHoweverTheyCome) {
   const TestMesh mesh = columns();
   for (const int64_t window : {int64_t{0}, static_cast<int64_t>(mesh.cellCount()) / 2}) {
-    if (slowRun() && window > 0) continue;
+    if (slowRun() && window == 0) continue;
     SimplifyOptions options = toRatio(0.1, window);
     const Result one = simplified(mesh, options);
     EXPECT_GT(one.report.flips, 0);
