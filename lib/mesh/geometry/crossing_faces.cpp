@@ -9,13 +9,17 @@ namespace tetstream {
 
 constexpr double kOnPlane = 1e-4;  // of the longest edge
 
-void PlacedFace::setPlane() {
+void PlacedFace::setNormal() {
   double a[3], b[3], c[3];
   subtract(at[1], at[0], a);
   subtract(at[2], at[0], b);
   subtract(at[2], at[1], c);
   cross(a, b, normal);
   longest = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
+}
+
+void PlacedFace::setPlane() {
+  setNormal();
   offset = dot(normal, at[0]);
   near = kOnPlane * longest * std::sqrt(dot(normal, normal));
   for (int i = 0; i < 3; ++i) {

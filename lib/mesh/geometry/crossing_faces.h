@@ -18,7 +18,8 @@ struct PlacedFace {
   double low[3], high[3];  // its box
 
   bool has(uint32_t v) const { return corner[0] == v || corner[1] == v || corner[2] == v; }
-  void setPlane();  // from `at`
+  void setNormal();  // and the longest edge, from `at`
+  void setPlane();   // and all else
 };
 
 // Whether an edge of one passes through the other. One that ends on the other's plane, as at a

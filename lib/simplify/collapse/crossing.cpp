@@ -12,8 +12,8 @@ namespace tetstream {
 constexpr double kInFront = 0.1;
 // And one that is this far stays out where not all faces beside are known.
 constexpr double kFarInFront = 1;
-// Round one vertex. What has more cells, or faces, is left alone: all pairs of faces are looked at
-// for each edge that is collapsed.
+// Round one vertex. What has more cells, or faces, or neighbours on the boundary than a link takes,
+// is left alone: all pairs of faces are looked at for each edge that is collapsed.
 constexpr size_t kMostCells = 200, kMostFaces = 100;
 
 // The faces of the boundary round a centre, which sees them from inside: edges of its link that one
@@ -21,17 +21,21 @@ constexpr size_t kMostCells = 200, kMostFaces = 100;
 template <class Mesh>
 void BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const Star* more,
                                        Faces& faces) {
-  link_.start(3 * (star.size() + (more ? more->size() : 0)));
+  link_.start();
   const uint8_t* const flags = mesh_.allFlags();
+  constexpr uint32_t kNoNumber = LinkEdges::kNoNumber;
   for (const Star* part : {&star, more}) {
     if (!part) break;
     for (const StarCell& s : *part) {
-      const unsigned a = flags[s.t[0]], b = flags[s.t[1]], c = flags[s.t[2]];
-      if (a & b & kBoundary) link_.add(s.t[0], s.t[1]);
-      if (b & c & kBoundary) link_.add(s.t[1], s.t[2]);
-      if (c & a & kBoundary) link_.add(s.t[2], s.t[0]);
+      uint32_t n[3];
+      for (int k = 0; k < 3; ++k)
+        n[k] = flags[s.t[k]] & kBoundary ? link_.numberOf(s.t[k]) : kNoNumber;
+      if ((n[0] | n[1]) != kNoNumber) link_.add(n[0], n[1]);
+      if ((n[1] | n[2]) != kNoNumber) link_.add(n[1], n[2]);
+      if ((n[2] | n[0]) != kNoNumber) link_.add(n[2], n[0]);
     }
   }
+  if (!link_.isWhole()) return;
   link_.forSingle([&](uint32_t from, uint32_t to) {
     PlacedFace& face = faces.emplace_back(centre, from, to);
     for (int k = 0; k < 3; ++k) {
@@ -52,7 +56,7 @@ double BoundaryCrossing<Mesh>::listGone(uint32_t u, uint32_t v, const Stars& sta
   if (mesh_.isBoundary(u)) listFaces(u, stars.u, &stars.ring, gone_);
   double most = 0;
   for (PlacedFace& face : gone_) {
-    face.setPlane();
+    face.setNormal();
     const double height = dot(face.normal, face.at[0]);
     most = std::max(most, height * face.longest / dot(face.normal, face.normal));
   }
@@ -136,6 +140,7 @@ bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, co
   for (int i = 0; i < 3; ++i) origin_[i] = static_cast<double>(place[i]);
   const double in_front = listGone(u, v, stars);
   if (in_front <= kInFront) return false;
+  for (PlacedFace& face : gone_) face.setPlane();
   listMade(u, v);
   if (made_.size() > kMostFaces) return false;
   listRim(u, v);

@@ -20,7 +20,8 @@ class BoundaryCrossing {
  public:
   using S = typename Mesh::Scalar;
 
-  BoundaryCrossing(Mesh& mesh, Account& account) : mesh_(mesh), star_(account, 32) {}
+  BoundaryCrossing(Mesh& mesh, Account& account)
+      : mesh_(mesh), star_(account, 32), link_(account) {}
 
   // Whether more pairs of faces would cross than do, of an edge with its stars, whole, whose ends
   // are merged at `place`. `scale` brings edges near 1.

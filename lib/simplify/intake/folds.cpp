@@ -14,18 +14,35 @@ static void difference(const Window<S>& window, uint32_t to, uint32_t from, doub
         static_cast<double>(window.values(to)[i]) - static_cast<double>(window.values(from)[i]);
 }
 
+// From the edge va into the faces vab and vac, normal to it.
+struct IntoFaces {
+  double b[3], c[3];
+};
+
+template <class S>
+static IntoFaces intoFaces(const Window<S>& window, uint32_t v, uint32_t a, uint32_t b,
+                           uint32_t c) {
+  double along[3];
+  IntoFaces into;
+  difference(window, a, v, along);
+  const auto setNormal = [&](uint32_t to, double out[3]) {
+    difference(window, to, v, out);
+    const double share = dot(out, along) / dot(along, along);
+    for (int i = 0; i < 3; ++i) out[i] -= share * along[i];
+  };
+  setNormal(b, into.b);
+  setNormal(c, into.c);
+  return into;
+}
+
+// note: of lengths of any unit; the squares' product could be 0.
+static double bendOf(const IntoFaces& into) {
+  return dot(into.b, into.c) / std::sqrt(dot(into.b, into.b)) / std::sqrt(dot(into.c, into.c));
+}
+
 template <class S>
 double bendAt(const Window<S>& window, uint32_t v, uint32_t a, uint32_t b, uint32_t c) {
-  double along[3], into[2][3];
-  difference(window, a, v, along);
-  for (int k = 0; k < 2; ++k) {
-    difference(window, k == 0 ? b : c, v, into[k]);
-    const double share = dot(into[k], along) / dot(along, along);
-    for (int i = 0; i < 3; ++i) into[k][i] -= share * along[i];
-  }
-  // note: of lengths of any unit; the squares' product could be 0.
-  return dot(into[0], into[1]) / std::sqrt(dot(into[0], into[0])) /
-         std::sqrt(dot(into[1], into[1]));
+  return bendOf(intoFaces(window, v, a, b, c));
 }
 
 template <class S>
@@ -40,7 +57,9 @@ bool hasFold(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& f
       const bool from_a = a == c || a == d;
       if (!from_a && b != c && b != d) continue;
       const uint32_t shared = from_a ? a : b;
-      if (isFold(bendAt(window, v, shared, from_a ? b : a, shared == c ? d : c))) return true;
+      const IntoFaces into = intoFaces(window, v, shared, from_a ? b : a, shared == c ? d : c);
+      const bool is_less_than_square = dot(into.b, into.c) > 0;  // as of few
+      if (is_less_than_square && isFold(bendOf(into))) return true;
     }
   return false;
 }

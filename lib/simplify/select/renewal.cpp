@@ -1,6 +1,7 @@
 #include "renewal.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "settled.h"
 
@@ -40,7 +41,9 @@ void Renewal<S>::takeFaces(uint32_t c) {
       stale = stale || isStale(v[k]);
     }
     if (!on_sheet || !stale) continue;
-    std::sort(v, v + 3);
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
+    if (v[1] > v[2]) std::swap(v[1], v[2]);
+    if (v[0] > v[1]) std::swap(v[0], v[1]);
     if (face_count_ == faces_.size()) faces_.resize(2 * face_count_);
     faces_[face_count_++] = uint64_t{v[0]} << 48 | uint64_t{v[1]} << 32 | v[2] << 16 | c;
   }

@@ -19,45 +19,65 @@ Ends singleOf(const LinkEdges& edges) {
 }
 
 // A fan of triangles (hub, i, i + 1), which leaves its rim and the sides of a gap.
-void addFan(LinkEdges& edges, uint32_t hub, uint32_t first, uint32_t count) {
-  for (uint32_t i = first; i < first + count; ++i) {
-    edges.add(hub, i);
-    edges.add(i, i + 1);
-    edges.add(i + 1, hub);
+void addFan(LinkEdges& edges, uint32_t hub, uint32_t first, uint32_t count, uint32_t step = 1) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t h = edges.numberOf(hub), a = edges.numberOf(first + i * step),
+                   b = edges.numberOf(first + (i + 1) * step);
+    if (!edges.isWhole()) return;
+    edges.add(h, a);
+    edges.add(a, b);
+    edges.add(b, h);
   }
 }
 
 TEST(LinkEdges, AreThoseOfOneTriangleInItsDirection) {
-  LinkEdges edges;
-  edges.start(9);
+  Account account;
+  LinkEdges edges(account);
+  edges.start();
   addFan(edges, 7, 20, 3);
   EXPECT_EQ(singleOf(edges), (Ends{{7, 20}, {20, 21}, {21, 22}, {22, 23}, {23, 7}}));
 }
 
 TEST(LinkEdges, ForgetThoseOfTheStarBefore) {
-  LinkEdges edges;
-  edges.start(300);
+  Account account;
+  LinkEdges edges(account);
+  edges.start();
   addFan(edges, 1000, 0, 100);
   EXPECT_EQ(singleOf(edges).size(), 102u);
-  edges.start(3);
+  edges.start();
   addFan(edges, 5, 1, 1);
   EXPECT_EQ(singleOf(edges), (Ends{{5, 1}, {1, 2}, {2, 5}}));
-  edges.start(0);
+  edges.start();
   EXPECT_TRUE(singleOf(edges).empty());
 }
 
-// Numbers that differ in high bits alone, and as many edges as there may be.
-TEST(LinkEdges, AreFoundWhateverTheNumbers) {
-  constexpr uint32_t kCount = 500, kStep = 1u << 22;
-  LinkEdges edges;
-  edges.start(3 * kCount);
-  for (uint32_t i = 0; i < kCount; ++i) {
-    const uint32_t a = i * kStep, b = a + kStep;
-    edges.add(a, b);
-    edges.add(b, 3);
-    edges.add(3, a);
-  }
-  EXPECT_EQ(singleOf(edges).size(), kCount + 2);
+// As many vertices as there may be, far apart; with one more nothing is to be told.
+TEST(LinkEdges, AreOfSoManyVertices) {
+  constexpr uint32_t kFan = LinkEdges::kMostVertices - 2, kStep = 1u << 12;
+  Account account;
+  LinkEdges edges(account);
+  edges.start();
+  addFan(edges, 3, 0, kFan, kStep);
+  EXPECT_TRUE(edges.isWhole());
+  EXPECT_EQ(singleOf(edges).size(), kFan + 2u);
+  edges.start();
+  addFan(edges, 3, 0, kFan + 1, kStep);
+  EXPECT_FALSE(edges.isWhole());
+  EXPECT_EQ(edges.numberOf(4), LinkEdges::kNoNumber);
+  edges.start();
+  EXPECT_TRUE(edges.isWhole());
+}
+
+// So many stars that the marks of all vertices come to their end.
+TEST(LinkEdges, AreForgottenHoweverOften) {
+  constexpr uint64_t kStars = (uint64_t{1} << 32) / LinkEdges::kMostVertices + 10;
+  Account account;
+  LinkEdges edges(account);
+  edges.start();
+  addFan(edges, 5, 1, 4);
+  for (uint64_t i = 0; i < kStars; ++i) edges.start();
+  addFan(edges, 5, 1, 1);
+  EXPECT_EQ(singleOf(edges), (Ends{{5, 1}, {1, 2}, {2, 5}}));
 }
 
 }  // namespace
