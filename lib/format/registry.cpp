@@ -3,7 +3,16 @@
 #include <cstring>
 
 #include "compressed_bytes.h"
+#include "exodus_format.h"
+#include "gmsh_format.h"
+#include "medit_format.h"
 #include "status.h"
+#include "su2_format.h"
+#include "sv_format.h"
+#include "tetgen_format.h"
+#include "tets_format.h"
+#include "vtk_format.h"
+#include "xdmf_format.h"
 
 namespace tetstream {
 

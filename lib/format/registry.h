@@ -1,8 +1,8 @@
 // format: the table of file formats, one row per format, each in a room of its own. Depends on
-// format_rows.h.
+// file_format.h.
 #pragma once
 
-#include "format_rows.h"
+#include "file_format.h"
 
 namespace tetstream {
 

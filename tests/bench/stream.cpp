@@ -9,6 +9,7 @@
 #include "generate.h"
 #include "registry.h"
 #include "status.h"
+#include "tets_format.h"
 
 namespace tetstream {
 namespace {

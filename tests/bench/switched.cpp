@@ -11,6 +11,7 @@
 #include "registry.h"
 #include "simplifier.h"
 #include "status.h"
+#include "tets_format.h"
 
 namespace tetstream {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "exodus_blocks.h"
-#include "format_rows.h"
+#include "exodus_format.h"
 #include "made_values.h"
 #include "pieced_mesh.h"
 #include "rows_at_once.h"

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "exodus_blocks.h"
+#include "exodus_format.h"
 #include "exodus_sides.h"
 #include "label_column.h"
 #include "label_names.h"

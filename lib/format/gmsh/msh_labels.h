@@ -1,5 +1,5 @@
 // format/gmsh: how the labels of cells and faces become Gmsh's entities and physical groups.
-// Depends on mesh_spool.h, msh_hints.h, format_rows.h.
+// Depends on mesh_spool.h, msh_hints.h, file_format.h.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "format_rows.h"
+#include "file_format.h"
 #include "label_column.h"
 #include "mesh_spool.h"
 #include "msh_hints.h"

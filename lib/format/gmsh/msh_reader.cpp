@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "gmsh_format.h"
 #include "msh_mesh.h"
 #include "status.h"
 #include "text_number.h"

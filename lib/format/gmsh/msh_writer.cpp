@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "gmsh_format.h"
 #include "grouped_rows.h"
 #include "label_names.h"
 #include "mesh_collector.h"

@@ -3,6 +3,7 @@
 // numbered from 1; references are the labels of cells and faces.
 #include <algorithm>
 
+#include "medit_format.h"
 #include "medit_required.h"
 #include "medit_scan.h"
 #include "medit_sol.h"

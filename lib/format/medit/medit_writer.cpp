@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "label_column.h"
+#include "medit_format.h"
 #include "medit_keywords.h"
 #include "medit_sol.h"
 #include "mesh_collector.h"

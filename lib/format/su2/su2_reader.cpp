@@ -6,6 +6,7 @@
 #include "file_scan.h"
 #include "mesh_intake.h"
 #include "status.h"
+#include "su2_format.h"
 #include "text_number.h"
 #include "vtk_cells.h"
 

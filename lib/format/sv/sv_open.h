@@ -1,10 +1,10 @@
 // format/sv: what the readers of .sva and .svb share once the header is read: which form the file
-// has, and the stream that its elements make. Depends on sv_block.h, sv_bytes.h, format_rows.h.
+// has, and the stream that its elements make. Depends on sv_block.h, sv_bytes.h, file_format.h.
 #pragma once
 
 #include <memory>
 
-#include "format_rows.h"
+#include "file_format.h"
 #include "sv_block.h"
 #include "sv_bytes.h"
 

@@ -1,11 +1,11 @@
 // format/sv: turns a stream's events into the elements of a streaming mesh file, in either order.
-// Depends on sv_block.h, format_rows.h.
+// Depends on sv_block.h, file_format.h.
 #pragma once
 
 #include <memory>
 
 #include "dropped_marks.h"
-#include "format_rows.h"
+#include "file_format.h"
 #include "sv_block.h"
 
 namespace tetstream {

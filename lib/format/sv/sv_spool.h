@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "format_rows.h"
+#include "file_format.h"
 #include "sv_open.h"
 
 namespace tetstream {

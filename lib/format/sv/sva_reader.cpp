@@ -5,8 +5,8 @@
 // (zeros at the end not counted), else float32.
 #include <cstring>
 
-#include "format_rows.h"
 #include "status.h"
+#include "sv_format.h"
 #include "sv_open.h"
 #include "sv_spool.h"
 #include "sva_header.h"

@@ -1,7 +1,7 @@
 // format/sv: writes .sva. Numbers are the shortest that read back the same.
 #include <algorithm>
 
-#include "format_rows.h"
+#include "sv_format.h"
 #include "sv_sink.h"
 #include "sva_header.h"
 #include "text_number.h"

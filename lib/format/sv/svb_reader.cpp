@@ -2,8 +2,8 @@
 // byte orders.
 #include <algorithm>
 
-#include "format_rows.h"
 #include "status.h"
+#include "sv_format.h"
 #include "sv_open.h"
 #include "svb_indexed.h"
 #include "svb_layout.h"

@@ -1,7 +1,7 @@
 // format/sv: writes .svb, little endian. Four words per vertex: x y z and one number more; no cell
 // data, no names, no explicit finalization. What does not fit is left out, and noted.
-#include "format_rows.h"
 #include "status.h"
+#include "sv_format.h"
 #include "sv_open.h"
 #include "sv_sink.h"
 #include "svb_layout.h"

@@ -5,6 +5,7 @@
 #include "medit_sol.h"
 #include "mesh_intake.h"
 #include "status.h"
+#include "tetgen_format.h"
 
 namespace tetstream {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "format_rows.h"
 #include "status.h"
 #include "tets_codec.h"
+#include "tets_format.h"
 #include "tets_input.h"
 #include "tets_places.h"
 #include "tets_recovery.h"

@@ -5,10 +5,10 @@
 // that cell, whatever the batch. Only labelled faces keep the batch they came in.
 #include <algorithm>
 
-#include "format_rows.h"
 #include "front_meter.h"
 #include "status.h"
 #include "tets_chunk.h"
+#include "tets_format.h"
 
 namespace tetstream {
 namespace tets {

@@ -5,10 +5,10 @@
 #include <cstring>
 
 #include "file_pool.h"
-#include "format_rows.h"
 #include "pieced_mesh.h"
 #include "status.h"
 #include "time_steps.h"
+#include "vtk_format.h"
 #include "vtu_pieces.h"
 #include "xml_feed.h"
 

@@ -1,10 +1,10 @@
 // Reads legacy VTK files (versions 1 to 5, text and binary) of unstructured grids by range.
 #include <memory>
 
-#include "format_rows.h"
 #include "pieced_mesh.h"
 #include "status.h"
 #include "vtk_file.h"
+#include "vtk_format.h"
 
 namespace tetstream {
 

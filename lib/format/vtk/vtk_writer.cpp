@@ -12,6 +12,7 @@
 #include "dropped_marks.h"
 #include "status.h"
 #include "vtk_cells.h"
+#include "vtk_format.h"
 
 namespace tetstream {
 

@@ -1,7 +1,7 @@
-// format/vtk: writes legacy VTK files. Depends on format_rows.h.
+// format/vtk: writes legacy VTK files. Depends on file_format.h.
 #pragma once
 
-#include "format_rows.h"
+#include "file_format.h"
 
 namespace tetstream {
 

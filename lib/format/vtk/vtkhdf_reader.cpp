@@ -3,11 +3,11 @@
 #ifdef TETSTREAM_WITH_HDF5
 #include <algorithm>
 
-#include "format_rows.h"
 #include "hdf5_file.h"
 #include "pieced_mesh.h"
 #include "status.h"
 #include "time_steps.h"
+#include "vtk_format.h"
 
 namespace tetstream {
 

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "dropped_marks.h"
-#include "format_rows.h"
 #include "hdf5_column.h"
 #include "io_error.h"
 #include "status.h"
 #include "vtk_cells.h"
+#include "vtk_format.h"
 #include "write_signals.h"
 
 namespace tetstream {

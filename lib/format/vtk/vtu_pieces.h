@@ -1,11 +1,11 @@
 // format/vtk: the pieces of .vtu files as those of a mesh. Depends on file_pool.h,
-// format_rows.h, mesh_pieces.h, vtu_file.h.
+// file_format.h, mesh_pieces.h, vtu_file.h.
 #pragma once
 
 #include <memory>
 
 #include "file_pool.h"
-#include "format_rows.h"
+#include "file_format.h"
 #include "mesh_pieces.h"
 #include "vtu_file.h"
 

@@ -2,8 +2,8 @@
 // to end.
 #include <memory>
 
-#include "format_rows.h"
 #include "pieced_mesh.h"
+#include "vtk_format.h"
 #include "vtu_file.h"
 #include "vtu_pieces.h"
 

@@ -9,10 +9,10 @@
 
 #include "dropped_marks.h"
 #include "face_label_column.h"
-#include "format_rows.h"
 #include "row_spool.h"
 #include "status.h"
 #include "vtk_cells.h"
+#include "vtk_format.h"
 #include "vtu_spool.h"
 
 namespace tetstream {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "format_rows.h"
+#include "file_format.h"
 #include "xdmf_fields.h"
 #include "xdmf_subset.h"
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "format_rows.h"
 #include "made_values.h"
 #include "pieced_mesh.h"
 #include "status.h"
@@ -12,6 +11,7 @@
 #include "vtk_cells.h"
 #include "xdmf_beside.h"
 #include "xdmf_cells.h"
+#include "xdmf_format.h"
 #include "xdmf_references.h"
 
 namespace tetstream {

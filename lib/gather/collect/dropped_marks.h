@@ -1,8 +1,8 @@
 // gather/collect: what a format of points and cells cannot hold of a stream, told once each.
-// Depends on format_rows.h.
+// Depends on file_format.h.
 #pragma once
 
-#include "format_rows.h"
+#include "file_format.h"
 
 namespace tetstream {
 

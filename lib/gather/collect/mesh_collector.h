@@ -1,6 +1,6 @@
 // gather/collect: what the writers of files share that cannot be written as a stream: all is
 // collected in temporary files, then written. Depends on mesh_spool.h, dropped_marks.h,
-// format_rows.h.
+// file_format.h.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "dropped_marks.h"
-#include "format_rows.h"
+#include "file_format.h"
 #include "mesh_spool.h"
 #include "rows_at_once.h"
 

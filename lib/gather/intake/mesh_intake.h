@@ -1,6 +1,6 @@
 // gather/intake: what the readers of indexed files share: points, cells of any shape, labelled
 // faces and data come in the file's order, and an indexed mesh comes out. Depends on cell_kinds.h,
-// file_scan.h, mesh_spool.h, format_rows.h, placed_cells.h, placed_numbers.h, scattered_rows.h.
+// file_scan.h, mesh_spool.h, file_format.h, placed_cells.h, placed_numbers.h, scattered_rows.h.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 #include "cell_kinds.h"
 #include "file_scan.h"
-#include "format_rows.h"
+#include "file_format.h"
 #include "joined_points.h"
 #include "mesh_spool.h"
 #include "placed_cells.h"

@@ -1,10 +1,10 @@
-// gather/pieces: which of the time steps of a file is read. Depends on format_rows.h,
+// gather/pieces: which of the time steps of a file is read. Depends on file_format.h,
 // mesh_pieces.h.
 #pragma once
 
 #include <functional>
 
-#include "format_rows.h"
+#include "file_format.h"
 #include "mesh_pieces.h"
 
 namespace tetstream {

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "text_threads_testing.h"
+#include "vtk_format.h"
+#include "xdmf_format.h"
 
 namespace tetstream {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "exodus_format.h"
 #include "indexed_testing.h"
 #include "meshes.h"
 #include "netcdf_file.h"

@@ -8,7 +8,9 @@
 #include <map>
 #include <set>
 
+#include "gmsh_format.h"
 #include "indexed_testing.h"
+#include "medit_format.h"
 #include "meshes.h"
 #include "vtu_encode.h"
 #include "vtu_mesh_testing.h"

@@ -2,7 +2,10 @@
 // which array labels the cells of formats that have one label to a cell.
 #include <algorithm>
 
+#include "gmsh_format.h"
 #include "indexed_testing.h"
+#include "medit_format.h"
+#include "tets_format.h"
 #include "tets_streams.h"
 
 namespace tetstream::test {

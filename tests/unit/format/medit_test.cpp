@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "indexed_testing.h"
+#include "medit_format.h"
 #include "pipes.h"
 
 namespace tetstream {

@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "gmsh_format.h"
 #include "indexed_testing.h"
 
 namespace tetstream {

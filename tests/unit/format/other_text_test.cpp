@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "indexed_testing.h"
+#include "su2_format.h"
+#include "tetgen_format.h"
 
 namespace tetstream {
 namespace {

@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "gmsh_format.h"
+#include "medit_format.h"
 #include "placed_files.h"
 
 namespace tetstream {

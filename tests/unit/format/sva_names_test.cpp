@@ -1,3 +1,4 @@
+#include "sv_format.h"
 #include "sv_testing.h"
 
 namespace tetstream::test {

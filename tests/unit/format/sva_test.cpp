@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "sv_format.h"
 #include "sv_testing.h"
 
 namespace tetstream::test {

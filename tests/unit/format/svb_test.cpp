@@ -1,6 +1,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "sv_format.h"
 #include "sv_testing.h"
 
 namespace tetstream::test {

@@ -2,6 +2,7 @@
 #include <array>
 #include <set>
 
+#include "tets_format.h"
 #include "tets_streams.h"
 
 namespace tetstream::test {

@@ -2,6 +2,7 @@
 #include "tets_places.h"
 #include "slow_run.h"
 #include "source.h"
+#include "tets_format.h"
 #include "tets_streams.h"
 
 namespace tetstream::test {

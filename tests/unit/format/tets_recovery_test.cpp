@@ -2,6 +2,7 @@
 #include <set>
 
 #include "slow_run.h"
+#include "tets_format.h"
 #include "tets_streams.h"
 
 namespace tetstream::test {

@@ -11,6 +11,7 @@
 #include "pipes.h"
 #include "registry.h"
 #include "status.h"
+#include "tets_format.h"
 #include "tets_layout.h"
 
 namespace tetstream::test {

@@ -3,6 +3,7 @@
 
 #include "slow_run.h"
 #include "source.h"
+#include "tets_format.h"
 #include "tets_streams.h"
 
 namespace tetstream::test {

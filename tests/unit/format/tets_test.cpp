@@ -6,6 +6,7 @@
 
 #include "slow_run.h"
 #include "tets_chunk.h"
+#include "tets_format.h"
 #include "tets_streams.h"
 
 namespace tetstream::test {

@@ -7,6 +7,10 @@
 #include <fstream>
 
 #include "file_scan.h"
+#include "gmsh_format.h"
+#include "medit_format.h"
+#include "su2_format.h"
+#include "tetgen_format.h"
 #include "text_threads_testing.h"
 
 namespace tetstream {

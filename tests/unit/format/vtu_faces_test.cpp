@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "status.h"
+#include "vtk_format.h"
 #include "vtu_encode.h"
 #include "vtu_mesh_testing.h"
 

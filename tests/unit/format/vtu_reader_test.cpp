@@ -10,6 +10,7 @@
 #include "pipes.h"
 #include "slow_run.h"
 #include "status.h"
+#include "vtk_format.h"
 #include "vtu_encode.h"
 #include "vtu_read.h"
 

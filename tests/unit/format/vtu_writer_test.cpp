@@ -7,6 +7,7 @@
 #include "meshes.h"
 #include "pipes.h"
 #include "status.h"
+#include "vtk_format.h"
 #include "vtu_read.h"
 
 namespace tetstream {

@@ -72,30 +72,4 @@ struct Format {
                                   const WriteOptions& options) = nullptr;
 };
 
-// The rows, each defined in its own file.
-Input openVtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openVtkHdf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openSva(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openSvb(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openExodus(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openXdmf(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openTetgen(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openSu2(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openMedit(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-Input openTets(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
-std::unique_ptr<Sink> createVtu(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createVtk(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createVtkHdf(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createSva(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createSvb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createExodus(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createMesh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createMeshb(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-std::unique_ptr<Sink> createTets(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
-
 }  // namespace tetstream

@@ -1,0 +1,13 @@
+// format/gmsh: Gmsh's files, as rows of the table of formats. Depends on file_format.h.
+#pragma once
+
+#include <memory>
+
+#include "file_format.h"
+
+namespace tetstream {
+
+Input openMsh(std::unique_ptr<ByteSource> bytes, const ReadOptions& options);
+std::unique_ptr<Sink> createMsh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options);
+
+}  // namespace tetstream
