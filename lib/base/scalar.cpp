@@ -25,6 +25,13 @@ static void convertFrom(const void* in, void* out, ScalarType out_type, size_t c
   }
 }
 
+bool isExactAsDouble(const void* value, ScalarType type) {
+  constexpr int64_t kMost = int64_t{1} << 53;
+  int64_t number = 0;
+  if (type == ScalarType::kInt64) std::memcpy(&number, value, sizeof number);
+  return number >= -kMost && number <= kMost;
+}
+
 void convertScalars(const void* in, ScalarType in_type, void* out, ScalarType out_type,
                     size_t count) {
   if (count == 0) return;

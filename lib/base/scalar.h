@@ -24,6 +24,9 @@ inline size_t sizeOf(ScalarType t) {
 void convertScalars(const void* in, ScalarType in_type, void* out, ScalarType out_type,
                     size_t count);
 
+// Whether a float64 holds the value, as it does all but large int64.
+bool isExactAsDouble(const void* value, ScalarType type);
+
 double valueAt(const void* values, ScalarType type, size_t index);
 
 // Row `row` of positions, which are floats.

@@ -13,7 +13,8 @@ namespace {
 constexpr int kVtkLower = 7, kVtkPolyhedron = 42;  // what has no kind here
 
 // By how the names of elements begin; the number of nodes tells the rest. The corners have the
-// order of VTK's.
+// order of VTK's, but wedges of six nodes that of VTK's larger ones: their first triangle is turned
+// inwards, as sides tell (exodusSide).
 struct Element {
   const char* begin;
   uint64_t corners;
@@ -21,7 +22,7 @@ struct Element {
 };
 
 constexpr Element kElements[] = {
-    {"TET", 4, 10, 71},       {"HEX", 8, 12, 72},       {"WED", 6, 13, 73},
+    {"TET", 4, 10, 71},       {"HEX", 8, 12, 72},       {"WED", 6, 73, 73},
     {"PYR", 5, 14, 74},       {"TRI", 3, 5, 69},        {"SHELL", 4, 9, 70},
     {"SHELL", 3, 5, 69},      {"QUA", 4, 9, 70},        {"BAR", 2, 3, 68},
     {"BEA", 2, 3, 68},        {"TRU", 2, 3, 68},        {"EDG", 2, 3, 68},

@@ -86,8 +86,7 @@ class ExodusWriter final : public MeshCollector {
     addNodal();
     addElemental();
     file.write();
-    for (const std::string& name : rounded_)
-      note("\"" + name + "\" has integers that a float64 does not hold: they are rounded");
+    for (const std::string& name : rounded_) noteRounded(name);
   }
 
  private:

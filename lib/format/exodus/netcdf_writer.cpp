@@ -50,9 +50,7 @@ void NetcdfValues::put(const void* values, ScalarType type, size_t count) {
       convertScalars(from, type, &wide, ScalarType::kFloat64, 1);
       const auto narrow = static_cast<float>(wide);
       type_ == NetcdfType::kDouble ? store(&wide, sizeof wide) : store(&narrow, sizeof narrow);
-      int64_t number = 0;
-      if (type == ScalarType::kInt64) std::memcpy(&number, from, sizeof number);
-      exact_ = exact_ && number >= -(int64_t{1} << 53) && number <= int64_t{1} << 53;
+      exact_ = exact_ && isExactAsDouble(from, type);
     } else {
       int32_t number;
       convertScalars(from, type, &number, ScalarType::kInt32, 1);

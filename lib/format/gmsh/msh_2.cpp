@@ -78,27 +78,50 @@ void readBlocks(MshMesh& mesh, uint64_t count) {
 
 }  // namespace
 
-void readNodes2(MshMesh& mesh) {
+static void beginNodes2(MshMesh& mesh) {
   mesh.beginNodes();
-  const uint64_t count =
-      static_cast<uint64_t>(mesh.file.integer("the number of nodes", 0, INT64_MAX));
-  mesh.file.checkClaim(count, mesh.numbers.binary() ? kMshInt + 3 * kMshDouble : 8, "nodes");
+  mesh.node_rows = static_cast<uint64_t>(mesh.file.integer("the number of nodes", 0, INT64_MAX));
+  mesh.file.checkClaim(mesh.node_rows, mesh.numbers.binary() ? kMshInt + 3 * kMshDouble : 8,
+                       "nodes");
   if (mesh.numbers.binary()) mesh.file.line();
-  if (mesh.placeNodes2(count)) return mesh.endNodes();
-  mesh.numbers.expectRows(count, {{{false, 1}, {true, 3}}});
-  for (uint64_t i = 0; i < count; ++i) {
-    double position[3];
-    const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");
-    mesh.checkTag(tag);
-    mesh.numbers.reals(position, 3, kMshDouble, "the position of a node");
-    mesh.points->add(tag, static_cast<int64_t>(i));
-    mesh.intake->addPoint(position);
+}
+
+static void readNode2(MshMesh& mesh, uint64_t rank) {
+  double position[3];
+  const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");
+  mesh.checkTag(tag);
+  mesh.numbers.reals(position, 3, kMshDouble, "the position of a node");
+  mesh.points->add(tag, static_cast<int64_t>(rank));
+  mesh.intake->addPoint(position);
+}
+
+void readNodes2(MshMesh& mesh) {
+  beginNodes2(mesh);
+  if (mesh.placeNodes2(mesh.node_rows)) return mesh.endNodes();
+  mesh.numbers.expectRows(mesh.node_rows, {{{false, 1}, {true, 3}}});
+  for (uint64_t i = 0; i < mesh.node_rows; ++i) readNode2(mesh, i);
+  mesh.endNodes();
+}
+
+// Behind each node its entity's dimension and number, and a parameter on a curve, two on a surface.
+void readParametricNodes2(MshMesh& mesh) {
+  beginNodes2(mesh);
+  for (uint64_t i = 0; i < mesh.node_rows; ++i) {
+    int64_t entity[2];
+    double parameters[2];
+    readNode2(mesh, i);
+    mesh.numbers.integers(entity, 2, kMshInt, "the entity of a node");
+    if (entity[0] < 0 || entity[0] > 3)
+      mesh.file.failBad(textOf("an entity of dimension %lld", static_cast<long long>(entity[0])));
+    if (entity[0] == 1 || entity[0] == 2)
+      mesh.numbers.reals(parameters, static_cast<size_t>(entity[0]), kMshDouble,
+                         "a parameter of a node");
   }
   mesh.endNodes();
 }
 
 void readElements2(MshMesh& mesh) {
-  const uint64_t count =
+  const uint64_t count = mesh.element_rows =
       static_cast<uint64_t>(mesh.file.integer("the number of elements", 0, INT64_MAX));
   mesh.file.checkClaim(count, mesh.numbers.binary() ? 2 * kMshInt : 8, "elements");
   if (!mesh.numbers.binary()) return readTextElements(mesh, count);

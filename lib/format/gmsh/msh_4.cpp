@@ -115,10 +115,14 @@ void readEntities4(MshMesh& mesh, bool partitioned) {
     for (uint64_t i = 0; i < counts[dimension]; ++i) readEntity(mesh, dimension, partitioned);
 }
 
+uint64_t readRowCount4(MshMesh& mesh) {
+  return readCounts(mesh, 4, "the number of blocks", "rows").rows;
+}
+
 void readNodes4(MshMesh& mesh) {
   mesh.beginNodes();
   const BlockCounts counts = readCounts(mesh, 8, "the number of blocks of nodes", "nodes");
-  uint64_t left = counts.rows;
+  uint64_t left = mesh.node_rows = counts.rows;
   for (uint64_t block = 0; block < counts.blocks; ++block) {
     int64_t head[3];  // dimension, entity, whether there are parameters
     mesh.numbers.integers(head, 3, kMshInt, "a block of nodes");
@@ -135,7 +139,7 @@ void readNodes4(MshMesh& mesh) {
 
 void readElements4(MshMesh& mesh) {
   const BlockCounts counts = readCounts(mesh, 4, "the number of blocks of elements", "elements");
-  uint64_t left = counts.rows;
+  uint64_t left = mesh.element_rows = counts.rows;
   std::vector<int64_t> elements;
   for (uint64_t block = 0; block < counts.blocks; ++block) {
     int64_t head[3];  // dimension, entity, type

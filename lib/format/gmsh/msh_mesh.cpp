@@ -12,7 +12,7 @@ std::string notThere(int64_t element, int64_t node) {
 }
 
 void MshMesh::beginNodes() {
-  if (intake) file.failBad("a second section of nodes");
+  if (intake) file.failBad("a second section of nodes");  // of another kind
   intake = std::make_unique<MeshIntake>(file, options, hints.position_type);
   const auto addLabels = [this](const std::string& name) {
     if (name.empty()) return;

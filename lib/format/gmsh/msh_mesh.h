@@ -37,6 +37,7 @@ struct MshMesh {
   TagTable cells;                                        // the same; see finishCells
   std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
   std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
+  uint64_t node_rows = 0, element_rows = 0;              // of the sections
   uint64_t further_groups = 0;                           // that entities are in beside their first
   // What labels faces: physical groups, if there is a face of one; others have no label then.
   enum class FaceLabels { kEntities, kGroups } face_labels = FaceLabels::kEntities;
@@ -96,12 +97,15 @@ struct MshMesh {
 
 std::string notThere(int64_t element, int64_t node);
 
-// msh_2.cpp, msh_4.cpp: the bodies of sections, up to their $End.
+// msh_2.cpp, msh_4.cpp: the bodies of sections, up to their $End; how many rows nodes or elements
+// have, with which these begin.
 void readNodes2(MshMesh& mesh);
+void readParametricNodes2(MshMesh& mesh);
 void readElements2(MshMesh& mesh);
 void readEntities4(MshMesh& mesh, bool partitioned);
 void readNodes4(MshMesh& mesh);
 void readElements4(MshMesh& mesh);
+uint64_t readRowCount4(MshMesh& mesh);
 
 // msh_data.cpp: $NodeData, $ElementData. Blocks of one name and time step are one column.
 class MshData {

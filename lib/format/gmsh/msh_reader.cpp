@@ -72,6 +72,12 @@ class MshReader {
     } else if (v4 && (name == "Entities" || name == "PartitionedEntities")) {
       endLine();
       readEntities4(mesh_, name[0] == 'P');
+    } else if ((name == "Nodes" && mesh_.intake) ||
+               (name == "Elements" && mesh_.element_rows > 0)) {
+      return passAgain(name);
+    } else if (name == "ParametricNodes" && !v4) {
+      endLine();
+      readParametricNodes2(mesh_);
     } else if (name == "Nodes") {
       endLine();
       v4 ? readNodes4(mesh_) : readNodes2(mesh_);
@@ -86,6 +92,23 @@ class MshReader {
       return file_.skipPast(end);
     }
     file_.expect(end.c_str());
+  }
+
+  // Gmsh writes the mesh again with each view that it adds to a file.
+  void passAgain(const std::string& name) {
+    endLine();
+    const bool of_nodes = name == "Nodes";
+    const uint64_t before = of_nodes ? mesh_.node_rows : mesh_.element_rows;
+    const uint64_t again = mesh_.version_4
+                               ? readRowCount4(mesh_)
+                               : static_cast<uint64_t>(file_.integer("a number of rows"));
+    if (again != before)
+      file_.failBad(textOf("a second section of %s, of %llu: the first has %llu",
+                           of_nodes ? "nodes" : "elements", static_cast<unsigned long long>(again),
+                           static_cast<unsigned long long>(before)));
+    if (options().note)
+      options().note(file_.name() + ": the section $" + name + " is there again: it is left out");
+    file_.skipPast("$End" + name);
   }
 
   // Of binary sections, the numbers begin on the next line.

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 
 #include "gmsh_format.h"
 #include "grouped_rows.h"
+#include "held_names.h"
 #include "label_names.h"
 #include "mesh_collector.h"
 #include "msh_elements.h"
@@ -102,32 +102,19 @@ class MshWriter final : public MeshCollector {
       note("cells stand in blocks: cell N of the map is the element with the tag N + " +
            std::to_string(labels_->faces() + 1));
     for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data})
-      for (const Column& c : *columns) {
-        noteName(c.name, names_.at(&c));
+      for (const Column& c : *columns)
         if (c.components != 1 && c.components != 3 && c.components != 9)
           note("Gmsh itself shows data of 1, 3 or 9 components; \"" + c.name + "\" has " +
                std::to_string(c.components));
-      }
-    for (const LabelName& name : mesh_->schema().label_names) noteName(name.name, plain(name.name));
+    for (const LabelName& name : mesh_->schema().label_names)
+      tellOfName(name.name, plain(name.name), [this](const std::string& text) { note(text); });
   }
 
-  void noteName(const std::string& name, const std::string& written) {
-    if (written != name)
-      note("the name of \"" + name + "\" has characters that the format cannot hold: it is \"" +
-           written + "\"");
-  }
-
-  // No two arrays get one name: those that stay as they are first.
   void nameArrays() {
     for (const auto* columns : {&mesh_->schema().fields, &mesh_->schema().cell_data}) {
-      std::set<std::string> taken;
-      for (const bool is_plain : {true, false})
-        for (const Column& c : *columns) {
-          std::string name = plain(c.name);
-          if ((name == c.name) != is_plain) continue;
-          while (!taken.insert(name).second) name += '_';
-          names_[&c] = name;
-        }
+      const std::vector<std::string> held =
+          heldNames(*columns, plain, [this](const std::string& text) { note(text); });
+      for (size_t i = 0; i < held.size(); ++i) names_[&(*columns)[i]] = held[i];
     }
   }
 
@@ -402,20 +389,12 @@ class MshWriter final : public MeshCollector {
       out_->integer<int32_t>(static_cast<int64_t>(tag));
       for (int k = 0; k < column.components; ++k, values += sizeOf(column.type)) {
         out_->real(values, column.type);
-        exact = exact && isExact(values, column.type);
+        exact = exact && isExactAsDouble(values, column.type);
       }
       out_->endRow();
     });
     end(name);
-    if (!exact && out_->binary())
-      note("\"" + column.name + "\" has integers that a float64 does not hold: they are rounded");
-  }
-
-  static bool isExact(const unsigned char* value, ScalarType type) {
-    if (type != ScalarType::kInt64) return true;
-    int64_t number;
-    std::memcpy(&number, value, sizeof number);
-    return number >= -(int64_t{1} << 53) && number <= int64_t{1} << 53;
+    if (!exact && out_->binary()) noteRounded(column.name);
   }
 
   template <class Visit>

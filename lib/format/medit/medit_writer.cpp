@@ -122,8 +122,17 @@ class MeditWriter final : public MeshCollector {
     return found ? static_cast<int>(*found) : -1;
   }
 
+  static bool anyWideFaceLabel(MeshSpool& mesh) {
+    int64_t corners[3], label;
+    for (uint64_t i = 0; i < mesh.faceCount(); ++i) {
+      mesh.readFaces(i, 1, corners, &label);
+      if (label != static_cast<int32_t>(label)) return true;
+    }
+    return false;
+  }
+
   // Text has no sizes: its version says float64. Binary has the smallest that holds everything.
-  int versionOf(const MeshSpool& mesh) const {
+  int versionOf(MeshSpool& mesh) const {
     const Schema& schema = mesh.schema();
     bool wide = mesh.pointCount() > INT32_MAX || mesh.cellCount() > INT32_MAX ||
                 mesh.faceCount() > INT32_MAX;
@@ -131,7 +140,7 @@ class MeditWriter final : public MeshCollector {
       return column >= 0 && columns[static_cast<size_t>(column)].type == ScalarType::kInt64;
     };
     wide = wide || isWide(schema.cell_data, cell_reference_) ||
-           isWide(schema.fields, point_reference_);
+           isWide(schema.fields, point_reference_) || anyWideFaceLabel(mesh);
     if (wide) return 4;
     if (!binary_) return 2;
     const uint64_t most = 28 * (mesh.pointCount() + mesh.cellCount() + mesh.faceCount());
@@ -214,11 +223,6 @@ class MeditWriter final : public MeshCollector {
     for (uint64_t i = 0; i < mesh_->faceCount(); ++i) {
       int64_t corners[3], face_label;
       mesh_->readFaces(i, 1, corners, &face_label);
-      if (version_ != 4 && face_label != static_cast<int32_t>(face_label))
-        fail(Status::kUnsupported,
-             "%s: face %llu has the label %lld, which takes more than 32 bits",
-             bytes().name().c_str(), static_cast<unsigned long long>(i),
-             static_cast<long long>(face_label));
       for (int64_t corner : corners) out.integer(corner + 1);
       out.integer(face_label);
       out.endRow();
@@ -303,15 +307,22 @@ class MeditWriter final : public MeshCollector {
     for (const Solution& s : solutions) out.small(s.type);
     out.endRow();
     unsigned char values[8 * kMaxComponents];
+    std::vector<bool> rounded(columns.size());
     for (uint64_t row = 0; row < rows; ++row) {
       for (const Solution& s : solutions) {
         const ScalarType type = columns[s.column].type;
         if (s.first == 0) read(s.column, row, values);
-        for (int k = 0; k < s.components; ++k)
-          out.real(values + static_cast<size_t>(s.first + k) * sizeOf(type), type);
+        for (int k = 0; k < s.components; ++k) {
+          const unsigned char* const value =
+              values + static_cast<size_t>(s.first + k) * sizeOf(type);
+          out.real(value, type);
+          if (!isExactAsDouble(value, type)) rounded[s.column] = true;
+        }
       }
       out.endRow();
     }
+    for (size_t c = 0; c < columns.size(); ++c)
+      if (rounded[c] && binary_) noteRounded(columns[c].name);
   }
 
   bool binary_;

@@ -2,6 +2,7 @@
 // pieces. Points that pieces share are one each.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 
 #include "file_pool.h"
@@ -53,7 +54,8 @@ class StepFiles final : XmlFeed {
     if (timestep) {
       const char* end = timestep + std::strlen(timestep);
       const std::from_chars_result r = std::from_chars(timestep, end, row.time);
-      if (r.ec != std::errc() || r.ptr != end) failHere("a timestep is no number");
+      if (r.ec != std::errc() || r.ptr != end || std::isnan(row.time))
+        failHere("a timestep is no number");
     }
     files_.push_back(std::move(row));
   }

@@ -9,6 +9,7 @@
 
 #include "dropped_marks.h"
 #include "hdf5_column.h"
+#include "held_names.h"
 #include "io_error.h"
 #include "status.h"
 #include "vtk_cells.h"
@@ -127,21 +128,19 @@ class VtkHdfWriter final : public Sink {
   void makeColumns(const std::string& group, const std::vector<Column>& columns,
                    std::vector<Place>& out) {
     file_->createGroup("VTKHDF/" + group);
-    std::vector<std::string> names;
-    for (const Column& column : columns) {
-      names.push_back(linkName(column.name, names));
+    const std::vector<std::string> names =
+        heldNames(columns, linkName, [this](const std::string& text) {
+          if (options_.note) options_.note(bytes_->name() + ": " + text);
+        });
+    for (size_t i = 0; i < columns.size(); ++i)
       out.push_back(
-          makeColumn(group + "/" + names.back(), valueType(column.type), column.components));
-    }
+          makeColumn(group + "/" + names[i], valueType(columns[i].type), columns[i].components));
   }
 
   // In HDF5, a '/' parts the names of groups, and "." is the group itself.
-  std::string linkName(const std::string& name, const std::vector<std::string>& others) const {
+  static std::string linkName(const std::string& name) {
     std::string link = name == "." ? "_" : name;
     std::replace(link.begin(), link.end(), '/', '_');
-    while (std::find(others.begin(), others.end(), link) != others.end()) link += '_';
-    if (link != name && options_.note)
-      options_.note(bytes_->name() + ": array \"" + name + "\" is called \"" + link + "\"");
     return link;
   }
 

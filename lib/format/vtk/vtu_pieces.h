@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "file_pool.h"
 #include "file_format.h"
+#include "file_pool.h"
 #include "mesh_pieces.h"
 #include "vtu_file.h"
 

@@ -9,6 +9,7 @@
 
 #include "dropped_marks.h"
 #include "face_label_column.h"
+#include "held_names.h"
 #include "row_spool.h"
 #include "status.h"
 #include "vtk_cells.h"
@@ -54,28 +55,38 @@ size_t characterBytes(const std::string& text, size_t at) {
   return size;
 }
 
-// As the value of an XML attribute; what XML cannot hold becomes '_'.
-std::string escaped(const std::string& text) {
+// What XML cannot hold becomes '_'.
+std::string plain(const std::string& text) {
   std::string out;
   for (size_t at = 0; at < text.size();) {
     const char c = text[at];
     const size_t size = characterBytes(text, at);
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else if (c == '\t' || c == '\n' || c == '\r') {
-      out += "&#" + std::to_string(static_cast<int>(c)) + ";";
-    } else if (size == 0 || (static_cast<unsigned char>(c) < 0x20)) {
+    const bool is_control = static_cast<unsigned char>(c) < 0x20;
+    if (size == 0 || (is_control && c != '\t' && c != '\n' && c != '\r'))
       out += '_';
-    } else {
+    else
       out.append(text, at, size);
-    }
-    at += size ? size : 1;
+    at += std::max<size_t>(size, 1);
+  }
+  return out;
+}
+
+// As the value of an XML attribute.
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else if (c == '\t' || c == '\n' || c == '\r')
+      out += "&#" + std::to_string(static_cast<int>(c)) + ";";
+    else
+      out += c;
   }
   return out;
 }
@@ -88,6 +99,11 @@ class VtuWriter final : public Sink {
   void begin(const Schema& schema) override {
     checkSchema(schema);
     schema_ = schema;
+    for (std::vector<Column>* columns : {&schema_.fields, &schema_.cell_data}) {
+      const std::vector<std::string> held =
+          heldNames(*columns, plain, [this](const std::string& text) { note(text); });
+      for (size_t i = 0; i < held.size(); ++i) (*columns)[i].name = held[i];
+    }
     if (options_.compress) compressor_ = std::make_unique<BlockCompressor>();
     points_ = makeSpool();
     connectivity_ = makeSpool();

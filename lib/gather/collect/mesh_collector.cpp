@@ -8,6 +8,10 @@ void MeshCollector::note(const std::string& text) const {
   if (options_.note) options_.note(bytes_->name() + ": " + text);
 }
 
+void MeshCollector::noteRounded(const std::string& array) const {
+  note("\"" + array + "\" has integers that a float64 does not hold: they are rounded");
+}
+
 void MeshCollector::begin(const Schema& schema) {
   checkSchema(schema);
   mesh_ = std::make_unique<MeshSpool>(schema, options_.temp_dir);

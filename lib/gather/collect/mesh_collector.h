@@ -30,6 +30,7 @@ class MeshCollector : public Sink {
   virtual bool holdsLocks() const { return false; }  // of points
 
   void note(const std::string& text) const;
+  void noteRounded(const std::string& array) const;  // to float64
   ByteSink& bytes() { return *bytes_; }
   const WriteOptions& options() const { return options_; }
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "cell_kinds.h"
-#include "file_scan.h"
 #include "file_format.h"
+#include "file_scan.h"
 #include "joined_points.h"
 #include "mesh_spool.h"
 #include "placed_cells.h"

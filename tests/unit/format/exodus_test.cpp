@@ -3,6 +3,7 @@
 
 #include "netcdf_testing.h"
 #include "status.h"
+#include "vector3.h"
 #include "vtu_mesh_testing.h"
 
 namespace tetstream {
@@ -98,6 +99,35 @@ TEST(Exodus, OldFilesHaveCoordinatesAndVariablesInOneEach) {
             (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
   ASSERT_EQ(mesh.fields.size(), 2u);
   EXPECT_EQ(valuesAs<double>(mesh.fields[1]), (std::vector<double>{25, 26, 27, 28, 29}));
+}
+
+// Of six nodes and of more the first triangle is turned inwards, as in hexahedra the first square.
+TEST(Exodus, PrismsBecomeTetrahedraOfPositiveVolume) {
+  NetcdfMaker m = twoBlocks();
+  m.dimensions["six"] = 6;
+  variable(m, "connect2") = {"connect2", 4, {"one", "six"}, {1, 2, 3, 4, 5, 6}, "", "WEDGE"};
+  m.dimensions["nodes"] = 6;
+  const char* const axes[] = {"coordx", "coordy", "coordz"};
+  const std::vector<double> places[] = {{0, 1, 0, 0, 1, 0}, {0, 0, 1, 0, 0, 1}, {0, 0, 0, 2, 2, 2}};
+  for (size_t k = 0; k < 3; ++k) variable(m, axes[k]).values = places[k];
+  ReadOptions options;
+  options.split = true;
+  const VtuMesh mesh = readAs("exodus", m.make(), 1, options);
+  EXPECT_FALSE(hasNote(mesh, "higher order"));
+  const std::vector<double> x = valuesAs<double>(mesh.positions);
+  double whole = 0;
+  for (size_t c = 0; 4 * c < mesh.cells.size(); ++c) {
+    if (valuesAs<int32_t>(mesh.cell_data[0])[c] != 20) continue;
+    double e[3][3];
+    for (size_t k = 0; k < 3; ++k)
+      for (size_t i = 0; i < 3; ++i)
+        e[k][i] = x[3 * static_cast<size_t>(mesh.cells[4 * c + k + 1]) + i] -
+                  x[3 * static_cast<size_t>(mesh.cells[4 * c]) + i];
+    const double volume = determinant(e[0], e[1], e[2]) / 6;
+    EXPECT_GT(volume, 0) << c;
+    whole += volume;
+  }
+  EXPECT_NEAR(whole, 1, 1e-12);
 }
 
 // A prism on a tetrahedron, and a block of triangles.

@@ -151,6 +151,65 @@ TEST(Medit, GivesBackWhatItHasWritten) {
     }
 }
 
+// A stream of one cell with a labelled face and a field of integers, in memory and beside it.
+struct OneCell {
+  int64_t label = 1;
+  int64_t numbers[4] = {1, 2, 3, 4};
+
+  std::vector<std::string> writeTo(const std::string& path, bool binary) const {
+    const double places[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const int64_t cell[4] = {0, 1, 2, 3}, face[3] = {0, 1, 2};
+    const int32_t references[4] = {0, 0, 0, 0};
+    std::vector<std::string> notes;
+    WriteOptions options;
+    options.path = path;
+    options.note = [&](const std::string& note) { notes.push_back(note); };
+    const auto sink = (binary ? createMeshb : createMesh)(createFile(path), options);
+    Schema schema;
+    schema.position_type = ScalarType::kFloat64;
+    schema.fields = {{"medit:ref", 1, ScalarType::kInt32}, {"big", 1, ScalarType::kInt64}};
+    const void* const fields[] = {references, numbers};
+    BatchView batch;
+    batch.vertex_count = 4;
+    batch.positions = places;
+    batch.fields = fields;
+    batch.cell_count = 1;
+    batch.cells = cell;
+    batch.face_count = 1;
+    batch.faces = face;
+    batch.face_labels = &label;
+    sink->begin(schema);
+    sink->put(batch);
+    sink->finish();
+    return notes;
+  }
+};
+
+TEST(Medit, HoldsLabelsOfFacesOfAnySize) {
+  for (const bool binary : {false, true})
+    for (const int64_t label : {int64_t{7}, int64_t{-7000000000}}) {
+      const Folder folder;
+      const std::string path = folder.file(binary ? "a.meshb" : "a.mesh");
+      OneCell mesh;
+      mesh.label = label;
+      mesh.writeTo(path, binary);
+      Input input = openMedit(openFile(path), {});
+      EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, label}})) << binary;
+    }
+}
+
+TEST(Medit, TellsOfIntegersThatBinaryRounds) {
+  for (const bool binary : {false, true})
+    for (const int64_t number : {int64_t{1} << 53, (int64_t{1} << 60) + 1}) {
+      const Folder folder;
+      OneCell mesh;
+      mesh.numbers[2] = number;
+      const auto notes = mesh.writeTo(folder.file(binary ? "a.meshb" : "a.mesh"), binary);
+      EXPECT_EQ(anyNote(notes, "\"big\" has integers that a float64 does not hold"),
+                binary && number > int64_t{1} << 53);
+    }
+}
+
 // The same bytes in the other byte order.
 TEST(Medit, ReadsEitherByteOrder) {
   Bytes file;

@@ -133,6 +133,31 @@ TEST(VtuWriter, WritesNamesThatXmlWouldTakeForItsOwn) {
   EXPECT_EQ(read.schema.vertex_count, 0);
 }
 
+// Names that XML cannot hold become others, that no other array has, and each is told.
+TEST(VtuWriter, TellsOfNamesThatItChanges) {
+  const std::vector<std::string> names = {"p\xE9", "p\xE8", "p_", "q\x01"};
+  Schema schema;
+  for (const std::string& name : names) schema.fields.push_back({name, 1, ScalarType::kFloat32});
+  schema.cell_data = {{"p\xE9", 1, ScalarType::kInt32}};
+  std::vector<std::string> notes;
+  WriteOptions options;
+  options.note = [&](const std::string& text) { notes.push_back(text); };
+  std::vector<unsigned char> out;
+  const std::unique_ptr<Sink> sink = createVtu(createMemory(out), options);
+  sink->begin(schema);
+  sink->finish();
+  const VtuMesh read = readVtu(std::string(out.begin(), out.end()));
+  EXPECT_TRUE(read.notes.empty());
+  ASSERT_EQ(read.schema.fields.size(), names.size());
+  const std::vector<std::string> held = {"p__", "p___", "p_", "q_"};
+  for (size_t i = 0; i < names.size(); ++i) EXPECT_EQ(read.schema.fields[i].name, held[i]);
+  EXPECT_EQ(read.schema.cell_data[0].name, "p_");
+  ASSERT_EQ(notes.size(), 4u);
+  EXPECT_NE(notes[1].find("\"p\xE8\" has characters that the format cannot hold: it is \"p___\""),
+            std::string::npos)
+      << notes[1];
+}
+
 TEST(VtuWriter, SaysOnceWhatItDrops) {
   std::vector<std::string> notes;
   WriteOptions options;
