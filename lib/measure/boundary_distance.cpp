@@ -28,7 +28,7 @@ static void addPlaces(SimplexRows& from, const SurfaceSampling& s, Account& acco
     const double* corners = from.row(i);
     double centre[3];
     from.shape().centreOf(corners, centre);
-    if (!isWithin(s.part, centre)) continue;
+    if (!isFaceWithin(s.part, centre, from.shape().boxOf(corners))) continue;
     Random random(numberOf(corners, 9, s.seed));
     const double share = s.area > 0 ? triangleArea(corners) / s.area : 0;
     const double wanted = static_cast<double>(s.samples) * share + shareOf(random.next());

@@ -71,6 +71,36 @@ tetstream convert in.tets - --quiet |
 [[ $(field "$(<"$logs/piped")" rms_percent) == $(field "$inner" rms_percent) ]] ||
   fail "a pipe's part differs: $(<"$logs/piped")"
 
+# A box that is the mesh's own has all of its boundary: a face on any side of a box is in it.
+cat >cube.mesh <<'END'
+MeshVersionFormatted 2
+Dimension 3
+Vertices 8
+0 0 0 0
+1 0 0 0
+0 1 0 0
+1 1 0 0
+0 0 1 0
+1 0 1 0
+0 1 1 0
+1 1 1 0
+Tetrahedra 6
+1 2 4 8 1
+1 4 3 8 1
+1 3 7 8 1
+1 7 5 8 1
+1 5 6 8 1
+1 6 2 8 1
+End
+END
+sed 's/^\([01] [01]\) 1 0$/\1 1.1 0/' cube.mesh >taller.mesh
+for box in :,:,: 0:1,0:1,0:1 :,:,0.6:1; do
+  expect 0 compare cube.mesh taller.mesh --quiet --report json --box $box "${less_boundary[@]}"
+  awk -v there="$(member "$out" distance)" 'BEGIN { exit there < 0.0999 || there > 0.1001 }' ||
+    fail "the side at 1 is not in $box: $out"
+done
+rm cube.mesh taller.mesh
+
 # What cannot be.
 expect_error 1 'not "0:1"' compare in.tets out.tets --box 0:1
 expect_error 1 "it lies in -1:1,-1:1,-1:1" compare in.tets out.tets --box 5:6,:,:

@@ -226,7 +226,7 @@ void MeshScan::addBoundary(const uint32_t vertices[3]) {
   boundary_area_ += area;
   double centre[3];
   boundary_.shape().centreOf(row_.data(), centre);
-  if (isWithin(plan_.part, centre)) area_in_part_ += area;
+  if (isFaceWithin(plan_.part, centre, boundary_.shape().boxOf(row_.data()))) area_in_part_ += area;
 }
 
 void MeshScan::read(Source& source, const Done& done) {
