@@ -125,6 +125,11 @@ std::vector<uint32_t> BalanceSample<S>::partners() {
   return others_;
 }
 
+// Of the edges: what rounding leaves of a plane is less.
+constexpr double kLeastJitter = 0.01;
+// Cosine between the normals: across a rim nobody knows which side is the same.
+constexpr double kLeastAlong = 0.5;
+
 // Faces are turned to the same side as at the others.
 template <class S>
 void BalanceSample<S>::addPartner(uint32_t v, const std::vector<Face>& faces) {
@@ -132,12 +137,14 @@ void BalanceSample<S>::addPartner(uint32_t v, const std::vector<Face>& faces) {
   if (!bend.is_closed) return;
   for (const Pair& pair : pairs_) {
     if (pair.partner != v) continue;
-    const double turned = dot(bend.normal, pair.bend.normal) < 0 ? -1 : 1;
+    const double turn = dot(bend.normal, pair.bend.normal);
+    if (std::fabs(turn) < kLeastAlong) continue;
     RemovalCosts::Jitter& jitter = costs_.jitter;
+    const double square = (bend.height * bend.height + pair.bend.height * pair.bend.height) / 2;
     ++jitter.pairs;
-    jitter.square += (bend.height * bend.height + pair.bend.height * pair.bend.height) / 2;
-    jitter.product += turned * bend.height * pair.bend.height;
-    jitter.edges += (bend.edges + pair.bend.edges) / 2;
+    jitter.off += square > kLeastJitter * kLeastJitter * (bend.edges + pair.bend.edges) / 2;
+    jitter.square += square;
+    jitter.product += (turn < 0 ? -1 : 1) * bend.height * pair.bend.height;
   }
 }
 

@@ -145,15 +145,18 @@ static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
 // Of interfaces that are rough: a fortieth of what the boundary counts. From 1/512 to 1/32768 the
 // errors of fields at 0.1 are alike within a quarter; distances are a tenth of the edges left.
 constexpr double kRoughBalance = 1.0 / 2048;
-// Of the edges, what rounding leaves of a plane is less.
-constexpr double kLeastJitter = 0.01;
+// Of the pairs of what is rough, and of the squares: of plane sides with many rims beside them, as
+// of thin plates, fewer lie off, to either side.
+constexpr double kMostOff = 0.75, kLeastAgainst = 0.05;
 
 // What bends lies off its neighbours' mean to the same side as its neighbours do of theirs; of what
 // is off by chance they lie on the other side. Fields without errors would gain nothing.
 static bool areRough(const RemovalCosts& costs) {
   const RemovalCosts::Jitter& jitter = costs.jitter;
-  if (jitter.pairs < kLeastPairs || !(jitter.product < 0)) return false;
-  if (jitter.square < kLeastJitter * kLeastJitter * jitter.edges) return false;
+  const bool are_off =
+      static_cast<double>(jitter.off) >= kMostOff * static_cast<double>(jitter.pairs);
+  if (jitter.pairs < kLeastPairs || !are_off) return false;
+  if (!(jitter.product < -kLeastAgainst * jitter.square)) return false;
   double field = 0;
   for (const Removal& r : costs.interfaces.sample) field += r.field;
   const auto sampled = static_cast<double>(costs.interfaces.sample.size());

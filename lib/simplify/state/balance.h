@@ -56,10 +56,11 @@ struct RemovalCosts {
   };
   Group inside, outer, interfaces;
   // Of neighbours on the interface between two regions: how far each lies off the mean of those
-  // round it, along the normal. Sums of the squares, of the products, and of the squared edges.
+  // round it, along the normal; how many pairs lie off by more than rounding leaves of a plane, and
+  // sums of the squares and of the products.
   struct Jitter {
-    size_t pairs = 0;
-    double square = 0, product = 0, edges = 0;
+    size_t pairs = 0, off = 0;
+    double square = 0, product = 0;
   };
   Jitter jitter;
   double touching = 0;     // of the boundary's vertices, that with another one at its place

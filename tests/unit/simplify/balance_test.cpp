@@ -78,7 +78,7 @@ RemovalCosts bentCosts(size_t pairs, double part, double same_side, double field
   RemovalCosts costs;
   costs.interfaces = {std::vector<Removal>(pairs, {field, 1}), 100};
   const double square = part * part * static_cast<double>(pairs);
-  costs.jitter = {pairs, square, same_side * square, static_cast<double>(pairs)};
+  costs.jitter = {pairs, part > 0.01 ? pairs : 0, square, same_side * square};
   costs.least_field = 1e-3;
   return costs;
 }
@@ -99,6 +99,18 @@ TEST(Balance, LeavesInterfacesThatAreSmoothOrPlaneOrFewOrCostFieldsNothing) {
     EXPECT_EQ(chosen(costs, 0.1).interfaces, 1);
     EXPECT_FALSE(chosen(costs, 0.1).knows_interfaces);
   }
+}
+
+// Where most pairs lie in a plane, as on thin plates, those at rims are off to either side by
+// chance.
+TEST(Balance, LeavesPlanesWithRims) {
+  RemovalCosts costs = bentCosts(128, 0.05, -0.1, 1);
+  costs.jitter.off = 90;
+  EXPECT_EQ(chosen(costs, 0.1).interfaces, 1);
+  costs.jitter.off = 100;
+  EXPECT_LT(chosen(costs, 0.1).interfaces, 0.01);
+  costs.jitter.product = -0.02 * costs.jitter.square;
+  EXPECT_EQ(chosen(costs, 0.1).interfaces, 1);
 }
 
 // Rough interfaces do not keep the boundary from being lowered as far as it would be.
