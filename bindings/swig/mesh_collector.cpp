@@ -20,14 +20,16 @@ MeshCollector::MeshCollector(int32_t cell_type)
     failArgument("cells: int32 or int64 is wanted");
 }
 
-const StreamInfo& MeshCollector::info() const {
+void MeshCollector::needWhole() const {
   if (!info_) throw Failure(TETSTREAM_BAD_STATE, "no stream has been collected");
-  return *info_;
+  if (!is_whole_)
+    throw Failure(TETSTREAM_BAD_STATE,
+                  "the stream is not complete: its run is not over, or has failed");
 }
 
-OwnedArray& MeshCollector::positions() {
-  (void)info();  // which has their type
-  return positions_;
+const StreamInfo& MeshCollector::info() const {
+  needWhole();
+  return *info_;
 }
 
 static OwnedArray& arrayAt(std::vector<OwnedArray>& arrays, int32_t index) {
@@ -37,11 +39,11 @@ static OwnedArray& arrayAt(std::vector<OwnedArray>& arrays, int32_t index) {
 }
 
 OwnedArray& MeshCollector::field(int32_t index) {
-  return arrayAt(fields_, index);
+  return arrayAt(whole(fields_), index);
 }
 
 OwnedArray& MeshCollector::cellData(int32_t index) {
-  return arrayAt(cell_data_, index);
+  return arrayAt(whole(cell_data_), index);
 }
 
 void MeshCollector::open(const tetstream_stream_info& info) {
@@ -96,6 +98,10 @@ tetstream_writer_callbacks MeshCollector::callbacks() {
   };
   out.put = [](void* user, const tetstream_batch* batch) {
     return inCallback([&] { static_cast<MeshCollector*>(user)->put(*batch); });
+  };
+  out.finish = [](void* user) {
+    static_cast<MeshCollector*>(user)->is_whole_ = true;
+    return 0;
   };
   return out;
 }

@@ -9,22 +9,23 @@
 
 namespace tetstream::swig {
 
-// Takes what a writer is given. The arrays can be taken once, when the stream is complete.
+// Takes what a writer is given. The arrays can be taken once, when the stream is complete: before,
+// and where it never was, getters throw a TETSTREAM_BAD_STATE.
 class MeshCollector {
  public:
   // `cell_type`: of the cells' ids, int32 or int64.
   explicit MeshCollector(int32_t cell_type);
 
-  const StreamInfo& info() const;  // Throws Failure before the stream has begun
-  OwnedArray& positions();
+  const StreamInfo& info() const;
+  OwnedArray& positions() { return whole(positions_); }
   OwnedArray& field(int32_t index);
-  OwnedArray& cells() { return cells_; }
+  OwnedArray& cells() { return whole(cells_); }
   OwnedArray& cellData(int32_t index);
-  OwnedArray& locked() { return locked_; }  // empty if no vertex is
-  OwnedArray& faces() { return faces_; }
-  OwnedArray& faceLabels() { return face_labels_; }
-  OwnedArray& lockedFaces() { return locked_faces_; }  // empty if none is
-  OwnedArray& lockedEdges() { return locked_edges_; }
+  OwnedArray& locked() { return whole(locked_); }  // empty if no vertex is
+  OwnedArray& faces() { return whole(faces_); }
+  OwnedArray& faceLabels() { return whole(face_labels_); }
+  OwnedArray& lockedFaces() { return whole(locked_faces_); }  // empty if none is
+  OwnedArray& lockedEdges() { return whole(locked_edges_); }
 
   // Its user is this.
   tetstream_writer_callbacks callbacks();
@@ -33,8 +34,16 @@ class MeshCollector {
   void open(const tetstream_stream_info& info);
   void put(const tetstream_batch& batch);
   void putCells(const tetstream_batch& batch);
+  // The same, if the stream is complete.
+  template <class T>
+  T& whole(T& collected) const {
+    needWhole();
+    return collected;
+  }
+  void needWhole() const;
 
   int32_t cell_type_;
+  bool is_whole_ = false;
   std::unique_ptr<StreamInfo> info_;
   OwnedArray positions_, cells_, locked_, faces_, face_labels_, locked_faces_, locked_edges_;
   std::vector<OwnedArray> fields_, cell_data_;

@@ -187,6 +187,33 @@ class Generators(unittest.TestCase):
         tetstream.convert(reader(*self.mesh), writer)
         self.assertEqual(len(writer.getmesh().cells), len(self.mesh[1]))
         self.assertIs(writer.getmesh(), writer.getmesh())
+        with self.assertRaisesRegex(tetstream.BadState, "does not write to arrays"):
+            Writer.memory("tets").getmesh()
+        with self.assertRaisesRegex(tetstream.BadState, "does not write to memory"):
+            writer.getbytes()
+
+    def test_a_mesh_that_is_not_complete_is_not_given(self):
+        for fails in (False, True):
+            writer, asked = Writer.arrays(), []
+
+            def follow():
+                for batch in in_batches(self.mesh[0], self.mesh[1], {"f": self.mesh[2]}):
+                    yield batch
+                    with self.assertRaisesRegex(tetstream.BadState, "not complete|no stream"):
+                        writer.getmesh()
+                    asked.append(len(batch.cells))
+                    if fails and len(asked) == 5:
+                        1 / 0
+
+            try:
+                tetstream.convert(Reader.batches(follow(), fields={"f": "f8"}), writer)
+                self.assertFalse(fails)
+            except ZeroDivisionError:
+                with self.assertRaisesRegex(tetstream.BadState, "not complete"):
+                    writer.getmesh()
+                continue
+            self.assertGreater(len(asked), 5)
+            numpy.testing.assert_array_equal(writer.getmesh().cells, self.mesh[1])
 
     def test_a_reader_serves_one_run(self):
         source = reader(*self.mesh)

@@ -5,7 +5,7 @@ import numpy
 
 from . import _arrays, _labels, _mesh, _options, core
 from ._records import Record, StreamInfo
-from .errors import BadArgument, InputOutput, NoSuchFile
+from .errors import BadArgument, BadState, InputOutput, NoSuchFile
 
 
 class Batch:
@@ -339,7 +339,7 @@ class Writer:
     take a path in its place.
     """
 
-    def __init__(self, handle, *kept):
+    def __init__(self, handle, kept=None):
         self._handle, self._kept, self._mesh = handle, kept, None
 
     def _with(self, properties):
@@ -393,13 +393,16 @@ class Writer:
         return cls(core.Writer.create(begin, take, end))
 
     def getbytes(self):
-        """The bytes of a Writer.memory."""
+        """The bytes of a Writer.memory; BadState unless its run is over and did not fail."""
         return self._handle.get_memory().tobytes()
 
     def getmesh(self):
-        """The Mesh of a Writer.arrays; the same one each time."""
+        """The Mesh of a Writer.arrays, the same one each time; BadState unless its run is over and
+        did not fail."""
+        if not isinstance(self._kept, core.MeshCollector):
+            raise BadState("the writer does not write to arrays")
         if self._mesh is None:
-            self._mesh = _mesh.collected(self._kept[0])
+            self._mesh = _mesh.collected(self._kept)
         return self._mesh
 
     @property
