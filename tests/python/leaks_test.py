@@ -2,6 +2,7 @@
 fail."""
 import gc
 import unittest
+import weakref
 
 from meshes import box, halves
 
@@ -66,6 +67,42 @@ class Leaks(unittest.TestCase):
             tetstream.convert(tetstream.Reader.generate("ball", 40), memory)
             tetstream.info(tetstream.Reader.memory(memory.getbytes(), "tets"))
         self.flat(work)
+
+    def test_owners_of_readers_and_writers(self):
+        mesh = dict(zip(("points", "cells"), box(2)))
+
+        class Owner:
+            def __init__(self, fails):
+                self.fails = fails
+                self.reader = tetstream.Reader.batches(self.give(), indexed=True)
+                self.writer = tetstream.Writer.batches(self.put, self.open, self.finish)
+
+            def give(self):
+                yield mesh
+                1 / (not self.fails)
+
+            def put(self, batch):
+                pass
+
+            open = put
+
+            def finish(self):
+                pass
+
+        def seen(runs, fails):
+            owner = Owner(fails)
+            try:
+                if runs:
+                    tetstream.convert(owner.reader, owner.writer)
+                self.assertFalse(fails)
+            except ZeroDivisionError:
+                self.assertTrue(fails)
+            return weakref.ref(owner)
+
+        for runs, fails in ((True, False), (True, True), (False, False)):
+            owner = seen(runs, fails)
+            gc.collect()
+            self.assertIsNone(owner(), (runs, fails))
 
 
 if __name__ == "__main__":

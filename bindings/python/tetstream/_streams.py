@@ -1,5 +1,6 @@
 """Readers and writers: files, memory, arrays, generators and functions."""
 import os
+import weakref
 
 import numpy
 
@@ -180,6 +181,54 @@ def _notes(handle):
     return notes
 
 
+def _lent(method):
+    """The method as the library gets it, without its object, which a Reader or a Writer keeps:
+    Python's collector does not see what the library keeps, and whoever owns a Writer of a method of
+    his own would never end."""
+    method = weakref.WeakMethod(method)
+    return lambda argument: method()(argument)
+
+
+class _Giver:
+    """What a Reader of batches is asked."""
+
+    def __init__(self, schema, batches):
+        self._schema, self._batches, self._kept = schema, iter(batches), []
+
+    def give(self, target):
+        # note: an empty batch ends the library's stream; an iterable may give some.
+        for batch in self._batches:
+            self._kept = self._schema.fill(target, batch)
+            if self._kept and not self._is_empty(target):
+                return
+        self._kept = []
+
+    @staticmethod
+    def _is_empty(target):
+        return all(array is None for array in (
+            target.positions(), target.cells(), target.finalized(), target.faces(),
+            target.locked_edges()))
+
+
+class _Taker:
+    """What a Writer of batches calls."""
+
+    def __init__(self, put, open, finish):
+        self._put, self._open, self._finish, self._schema = put, open, finish, None
+
+    def begin(self, info):
+        self._schema = _Schema(core.StreamInfo(info))
+        if self._open is not None:
+            self._open(stream_info(info, notes=[]))
+
+    def take(self, batch):
+        self._put(self._schema.batch(batch))
+
+    def end(self, _):
+        if self._finish is not None:
+            self._finish()
+
+
 class Reader:
     """Where a mesh comes from. It serves one run.
 
@@ -188,7 +237,8 @@ class Reader:
     """
 
     def __init__(self, handle, *kept):
-        self._handle, self._kept = handle, kept  # arrays that the library reads where they lie
+        # What the library calls, or arrays that it reads where they lie.
+        self._handle, self._kept = handle, kept
 
     @classmethod
     def file(cls, path, format=None, **options):
@@ -277,23 +327,8 @@ class Reader:
             "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
             "front_width": front_width, "front_span": front_span,
             "front_cells": front_cells}, indexed)
-        iterator = iter(batches)
-        kept = []
-
-        def is_empty(target):
-            return all(array is None for array in (
-                target.positions(), target.cells(), target.finalized(), target.faces(),
-                target.locked_edges()))
-
-        def give(target):
-            # note: an empty batch ends the library's stream; an iterable may give some.
-            for batch in iterator:
-                kept[:] = schema.fill(target, batch)
-                if kept and not is_empty(target):
-                    return
-            kept.clear()
-
-        return cls(core.Reader.create(schema.info, give), batches)
+        giver = _Giver(schema, batches)
+        return cls(core.Reader.create(schema.info, _lent(giver.give)), giver)
 
     def info(self):
         """What is known without reading: a StreamInfo."""
@@ -376,21 +411,9 @@ class Writer:
             put, finish = _sending(put), _closing(put, finish)
         elif not callable(put):
             raise TypeError(f"a function or a generator is wanted, not {type(put).__name__}")
-        schema = []
-
-        def begin(info):
-            schema[:] = [_Schema(core.StreamInfo(info))]
-            if open is not None:
-                open(stream_info(info, notes=[]))
-
-        def take(batch):
-            put(schema[0].batch(batch))
-
-        def end(_):
-            if finish is not None:
-                finish()
-
-        return cls(core.Writer.create(begin, take, end))
+        taker = _Taker(put, open, finish)
+        functions = (_lent(method) for method in (taker.begin, taker.take, taker.end))
+        return cls(core.Writer.create(*functions), taker)
 
     def getbytes(self):
         """The bytes of a Writer.memory; BadState unless its run is over and did not fail."""
