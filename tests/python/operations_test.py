@@ -1,5 +1,6 @@
 """info, compare, diagram, formats, options: figures and pictures."""
 import copy
+import json
 import os
 import pickle
 import tempfile
@@ -96,6 +97,22 @@ class Operations(unittest.TestCase):
                     self.assertGreater(os.path.getsize(path), 1000)
             with self.assertRaises(tetstream.Unsupported):
                 drawn.write(os.path.join(folder, "layout.gif"))
+
+    def test_figures_can_be_copied_and_pickled(self):
+        drawn = tetstream.diagram(self.mesh, columns=100, rows=50)
+        compared = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2), cut="auto")
+        self.assertEqual([name for record in (drawn, compared) for name in vars(record)
+                          if name.startswith("_")], [])
+        shown = json.loads(json.dumps(vars(compared), default=vars))
+        self.assertEqual(shown["fields"]["f"]["rms"], compared.fields["f"].rms)
+        for copied in (copy.copy, copy.deepcopy, lambda record: pickle.loads(pickle.dumps(record))):
+            again = copied(drawn)
+            self.assertIs(type(again), tetstream.Diagram)
+            numpy.testing.assert_array_equal(again.coverage, drawn.coverage)
+            self.assertEqual(copied(compared), compared)
+            for record in (again, copied(compared)):
+                with self.assertRaisesRegex(tetstream.BadState, "have the figures alone"):
+                    record.write("never.svg")
 
     def test_formats_are_those_of_the_library(self):
         found = {row.name: row for row in tetstream.formats()}

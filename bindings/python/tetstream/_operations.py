@@ -1,6 +1,9 @@
 """What is done with meshes besides simplifying them."""
+import functools
+
 from . import _mesh, _options, _progress, _streams, core
 from ._records import LayoutReport, Record
+from .errors import BadState
 
 
 @_options.documented(core.SCOPE_ORDER)
@@ -53,14 +56,25 @@ def info(source, *, progress=None, **options):
 # ----------------------------------------------------------------------------------- diagrams
 
 
+def _needs_pen(record):
+    """What draws a record's picture: of what was read, which stays with the library."""
+    try:
+        return record._pen
+    except AttributeError:
+        raise BadState("the picture is drawn by what diagram() or compare() gave: copies have the "
+                       "figures alone") from None
+
+
 class Diagram(Record):
     """The layout diagram of a stream: how good its order is.
 
     cells across, vertices down; coverage: [rows][columns] of float32, 0 to 1, how much of a place
     the vertices' lives cover; widths, lowest, newest: [columns] of int64: active vertices at most,
     the lowest active vertex, the newest one; front_width, mean_width and the other members of
-    tetstream_diagram_info in tetstream_diagram(3).
+    tetstream_diagram_info in tetstream_diagram(3). Copies, and what was pickled, do not write().
     """
+
+    __slots__ = ("_pen",)  # not among vars()
 
     def plot(self, ax=None, **look):
         """Draws it on an axis of matplotlib's, which is returned; a new one if `ax` is None. `look`
@@ -78,7 +92,7 @@ class Diagram(Record):
 
     def write(self, path, title=None):
         """Draws the whole page into an SVG or PNG file, by the path's ending."""
-        self._core.write(self._page, path, title)
+        _needs_pen(self)(path, title)
 
     def __repr__(self):
         return (f"<Diagram of {self.cell_count} cells; front of {self.front_width} vertices, "
@@ -103,9 +117,10 @@ def diagram(source, *, columns=1200, rows=800, sweep=False, progress=None, **opt
     with _progress.told(progress) as tell:
         reader = _streams.reader_of(source, made, tell)
         drawn.read(reader._handle, page, tell)
-    return Diagram.copied(drawn.get_info(), coverage=drawn.coverage(), widths=drawn.widths(),
-                          lowest=drawn.lowest(), newest=drawn.newest(), notes=reader.notes,
-                          _core=drawn, _page=page)
+    figures = Diagram.copied(drawn.get_info(), coverage=drawn.coverage(), widths=drawn.widths(),
+                             lowest=drawn.lowest(), newest=drawn.newest(), notes=reader.notes)
+    figures._pen = functools.partial(drawn.write, page)
+    return figures
 
 
 # -------------------------------------------------------------------------------- comparisons
@@ -120,12 +135,15 @@ class Comparison(Record):
     only_original, only_simplified: names of fields that the other mesh does not have.
     face_labels: dict of label to figures of the labelled faces.
     topology_kept, distance (between boundaries), outside_volume and the other members of
-    tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units.
+    tetstream_comparison_info in tetstream_comparison(3), lengths in the meshes' units. Copies, and
+    what was pickled, do not write().
     """
+
+    __slots__ = ("_pen",)  # not among vars()
 
     def write(self, path, title=None):
         """Draws a cut through both into an SVG or PNG file; needs the option `cut`."""
-        self._core.write(path, title)
+        _needs_pen(self)(path, title)
 
     def __repr__(self):
         errors = ", ".join(f"{name} {field.rms_percent:.3g} %" for name, field in
@@ -155,7 +173,7 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
     fields = [Record.copied(compared.get_field(i)) for i in range(figures.field_count)]
     regions = [Record.copied(compared.get_region(i)) for i in range(figures.region_count)]
     faces = [Record.copied(compared.get_face_label(i)) for i in range(figures.face_label_count)]
-    return Comparison.copied(
+    found = Comparison.copied(
         figures, original=Record.copied(compared.get_mesh(core.ORIGINAL)),
         simplified=Record.copied(compared.get_mesh(core.SIMPLIFIED)),
         fields={field.name: field for field in fields},
@@ -163,7 +181,9 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
         only_original=[name for name in figures.only_original.split("\n") if name],
         only_simplified=[name for name in figures.only_simplified.split("\n") if name],
         face_labels={label.label: label for label in faces},
-        notes=[note for reader in readers for note in reader.notes], _core=compared)
+        notes=[note for reader in readers for note in reader.notes])
+    found._pen = compared.write
+    return found
 
 
 def formats():
