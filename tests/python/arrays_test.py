@@ -156,6 +156,26 @@ class Arrays(unittest.TestCase):
         self.assertEqual(result.vertex_map.cells[-1], -1)
         self.assertTrue(numpy.isnan(result.vertex_map.prolong(result.points)[-1]).all())
 
+    def test_where_no_cell_is_left_no_point_has_a_place(self):
+        points, _, field = box(2)
+        result = tetstream.simplify(points, [], {"f": field}, ratio=0.5, vertex_map=True)
+        self.assertEqual(result.vertex_map.matrix().shape, (len(points), 0))
+        for there, shape in ((result.fields["f"], field.shape), (result.points, points.shape)):
+            back = result.vertex_map.prolong(there)
+            self.assertEqual(back.shape, shape)
+            self.assertTrue(numpy.isnan(back).all())
+
+    def test_no_labelled_faces_may_be_empty_lists(self):
+        points, cells, field = box(3)
+        plain = tetstream.simplify(points, cells, {"f": field}, ratio=0.5)
+        for more in (dict(faces=[]), dict(faces=[], face_labels=[]),
+                     dict(faces=[], face_labels=[], locked_faces=[], locked_edges=[])):
+            result = tetstream.simplify(points, cells, {"f": field}, ratio=0.5, **more)
+            self.assertIsNone(result.faces)
+            numpy.testing.assert_array_equal(result.cells, plain.cells)
+            mesh = tetstream.Mesh(points, cells, {"f": field}, **more)
+            self.assertEqual(tetstream.info(tetstream.Reader.stream(mesh)).face_count, 0)
+
     def test_a_missed_target_is_a_warning(self):
         points, cells, field = box(3)
         locked = numpy.ones(len(points), bool)
@@ -208,6 +228,7 @@ class Refused(unittest.TestCase):
         self.refused(tetstream.BadArgument, r"regions: the shape is \[\d+\]\[2\]", p, c,
                      regions=c[:, :2])
         self.refused(tetstream.BadArgument, "face_labels", p, c, face_labels=[1])
+        self.refused(tetstream.BadArgument, "face_labels: 1 rows", p, c, faces=[], face_labels=[1])
         self.refused(tetstream.BadArgument, "locked_faces", p, c, locked_faces=[True])
         self.refused(ValueError, "points", numpy.float64(3), c)
 

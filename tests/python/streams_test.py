@@ -165,6 +165,14 @@ class Generators(unittest.TestCase):
             "not int": (3, "float64", {}),
             "cells: .*4": (dict(points=points, cells=cells[:, :3]), "float64", {}),
             "last_uses: the shape": (dict(points=points, cells=cells, last_uses=[1]), "float64", {}),
+            r"last_uses: the shape is \[1\], \[0\]": (dict(last_uses=[1]), "float64", {}),
+            r"locked: the shape is \[1\], \[0\]": (dict(cells=cells, locked=[True]), "float64", {}),
+            '"f" has rows, and the batch has no points': (dict(fields={"f": [1]}), "float64",
+                                                         {"f": "f8"}),
+            '"d" has rows, and the batch has no cells': (dict(points=points, cell_data={"d": [1]}),
+                                                        "float64", {}),
+            "face_labels and locked_faces": (dict(face_labels=[1]), "float64", {}),
+            "locked_faces are of": (dict(points=points, locked_faces=[True]), "float64", {}),
             "from 0 to 15": (dict(points=points, cells=cells[:1], last_uses=[16]), "float64", {}),
         }
         for sentence, (batch, kind, fields) in cases.items():

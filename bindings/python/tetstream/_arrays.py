@@ -61,8 +61,8 @@ def points(values):
 def ids(name, values, columns):
     """[n][columns] of int64, or [n] for one column."""
     array = _array(name, values)
-    if array.size == 0 and array.ndim == 1 and columns > 1:
-        array = numpy.zeros((0, columns), numpy.int64)
+    if array.size == 0 and array.ndim == 1:  # as that of [], whose numbers have no type
+        array = numpy.zeros((0, columns) if columns > 1 else 0, numpy.int64)
     if array.dtype.kind == "f":
         raise TypeError(f"{name}: its numbers are {array.dtype}; integers are wanted")
     wanted = "[n]" if columns == 1 else f"[n][{columns}]"

@@ -77,6 +77,8 @@ class VertexMap:
         values = numpy.asarray(values)
         _arrays.needs_shape("values", values, f"[{self._points}] or [{self._points}][components]",
                             values.shape[:1] == (self._points,))
+        if len(self._corners) == 0:
+            return numpy.full((len(self.cells),) + values.shape[1:], numpy.nan)
         corners = self._corners[numpy.where(self.cells < 0, 0, self.cells)]
         out = numpy.einsum("ij,ij...->i...", self.weights, values[corners])
         out[self.cells < 0] = numpy.nan

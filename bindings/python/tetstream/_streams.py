@@ -80,30 +80,35 @@ class _Schema:
             kept.append(array)
             function(array)
 
-        points = 0 if batch.points is None else len(batch.points)
+        points, cells, faces = (_count(rows) for rows in (batch.points, batch.cells, batch.faces))
         if points:
             put(target.set_positions, _needs("points", batch.points, self.points, (points, 3)))
-            self._put_columns(put, target.add_field, batch.fields, self.fields, points)
-        if points and batch.locked is not None:
+        self._put_columns(put, target.add_field, batch.fields, self.fields, points, "points")
+        if _count(batch.locked) or (points and batch.locked is not None):
             put(target.set_locked, _arrays.flags("locked", batch.locked, points))
-        cells = 0 if batch.cells is None else len(batch.cells)
         if cells:
             put(target.set_cells, _arrays.wide_ids("cells", batch.cells, 4))
-            self._put_columns(put, target.add_cell_data, batch.cell_data, self.cell_data, cells)
-        if cells and batch.last_uses is not None:
+        self._put_columns(put, target.add_cell_data, batch.cell_data, self.cell_data, cells, "cells")
+        if _count(batch.last_uses) or (cells and batch.last_uses is not None):
             put(target.set_last_uses, _arrays.bits("last_uses", batch.last_uses, cells))
+        if not faces and (_count(batch.face_labels) or _count(batch.locked_faces)):
+            raise BadArgument(NO_FACES)
         for name, columns in (("finalized", 1), ("faces", 3), ("face_labels", 1),
                               ("locked_edges", 2)):
             value = getattr(batch, name)
-            if value is not None and len(value):
+            if _count(value):
                 put(getattr(target, "set_" + name), _arrays.wide_ids(name, value, columns))
-        if batch.faces is not None and batch.locked_faces is not None:
-            put(target.set_locked_faces,
-                _arrays.flags("locked_faces", batch.locked_faces, len(batch.faces)))
+        if faces and batch.locked_faces is not None:
+            put(target.set_locked_faces, _arrays.flags("locked_faces", batch.locked_faces, faces))
         return kept
 
     @staticmethod
-    def _put_columns(put, add, arrays, columns, rows):
+    def _put_columns(put, add, arrays, columns, rows, of):
+        if not rows:
+            filled = [name for name, values in arrays.items() if _count(values)]
+            if filled:
+                raise BadArgument(f'"{filled[0]}" has rows, and the batch has no {of}')
+            return
         unknown = set(arrays) - {name for name, _, _ in columns}
         if unknown:
             raise BadArgument(f'"{sorted(unknown)[0]}" was not announced')
@@ -123,17 +128,20 @@ class _Schema:
                                      ("locked_faces", source.locked_faces()))}
         return Batch(
             points=_rows(source.positions(), 3, self.points), cells=_rows(source.cells(), 4, "i8"),
-            fields={name: source.field(i) if len_of(source.positions()) else
+            fields={name: source.field(i) if _count(source.positions()) else
                     numpy.zeros((0, n)[:1 + (n > 1)], dtype)
                     for i, (name, dtype, n) in enumerate(self.fields)},
-            cell_data={name: source.cell_data(i) if len_of(source.cells()) else
+            cell_data={name: source.cell_data(i) if _count(source.cells()) else
                        numpy.zeros((0, n)[:1 + (n > 1)], dtype)
                        for i, (name, dtype, n) in enumerate(self.cell_data)},
             last_uses=source.last_uses(), finalized=source.finalized(), faces=source.faces(),
             face_labels=source.face_labels(), locked_edges=source.locked_edges(), **flags)
 
 
-def len_of(array):
+NO_FACES = "face_labels and locked_faces are of `faces`, which are not there"
+
+
+def _count(array):
     return 0 if array is None else len(array)
 
 
@@ -291,7 +299,7 @@ class Reader:
                 put(batch.set_locked_faces,
                     _arrays.flags("locked_faces", mesh.locked_faces, len(faces)))
         elif mesh.face_labels is not None or mesh.locked_faces is not None:
-            raise BadArgument("face_labels and locked_faces are of `faces`, which are not there")
+            raise BadArgument(NO_FACES)
         if mesh.locked_edges is not None:
             put(batch.set_locked_edges, _arrays.wide_ids("locked_edges", mesh.locked_edges, 2))
         return cls(core.Reader.open_mesh(info, batch, False), kept)
