@@ -120,6 +120,24 @@ refused ("\"error\", 0 is no target", "error", 0);
 refused ("option \"cells\": 1000.5 is no integer", "cells", 1000.5);
 refused ("option \"vertex_map\" is a cell", "cells", 9, "vertex_map", {1});
 refused ("face_labels: labels are integers", "cells", 9, "faces", bottom, "face_labels", bottom(:,1) / 2);
+left = points(cells(:,1),1) < 0.5;
+for far = {intmax("uint64"), 1e300, single(1e30), 2^63, -2^64, Inf, -Inf, NaN}
+  some = zeros (rows (cells), 1, class (far{1}));
+  some(left) = far{1};
+  refused ("regions: labels are integers of 64 bits, and one is ", "cells", 9, "regions", some);
+  some = repmat (far{1}, rows (bottom), 1);
+  refused ("face_labels: labels are integers of 64 bits", "cells", 9, "faces", bottom, "face_labels", some);
+endfor
+refused ("regions is sparse", "cells", 9, "regions", sparse (left));
+refused ("locked: NaN is neither", "cells", 9, "locked", NaN (rows (points), 1));
+fails ("tetstream:bad-argument", "cells is sparse", ...
+       @() tetstream_simplify (points, sparse (cells), field, "ratio", 0.5));
+for far = {uint64(2)^63 - 1, true, int8(-3), intmax("int64"), -2^63, single(2^40)}
+  some = zeros (rows (cells), 1, class (far{1}));
+  some(left) = far{1};
+  [P, T, F, S] = tetstream_simplify (points, cells, field, "ratio", 0.5, "regions", some);
+  assert (sort (unique (S.regions)), sort (int64 ([0; far{1}])));
+endfor
 
 ## Numbers in messages are the caller's, from 1 on; no function of C's is named.
 wrong = @(part, points, cells, field) fails ("tetstream:bad-data", part, ...

@@ -1,7 +1,7 @@
 ## ids = core_ids (caller, name, values, width, first, count): numbers of points from 1 on as the
 ## library's from `first` on, int64, or int32 if they are; 0 < each <= count, which may be Inf.
 function ids = core_ids (caller, name, values, width, first, count)
-  need_rows (caller, name, values);
+  need_dense (caller, name, values);
   if (! isnumeric (values) || columns (values) != width)
     error ("tetstream:bad-argument", "%s: %s: %d columns are wanted, the size is %s", caller, name,
            width, mat2str (size (values)));

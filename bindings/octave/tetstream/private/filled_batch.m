@@ -22,19 +22,18 @@ function [batch, kept] = filled_batch (caller, mesh, first, count)
                         @(array) batch.add_cell_data (array), kept);
   endif
   if (! isempty (mesh.last_uses))
-    need_rows (caller, "last_uses", mesh.last_uses);
+    uses = core_flags (caller, "last_uses", mesh.last_uses);
     if (columns (mesh.last_uses) != 4)
       error ("tetstream:bad-argument", "%s: last_uses: 4 columns are wanted, the size is %s", caller,
              mat2str (size (mesh.last_uses)));
     endif
-    kept{end+1} = core_rows (uint8 (logical (mesh.last_uses) * [1; 2; 4; 8]));
+    kept{end+1} = core_rows (uint8 (uses * [1; 2; 4; 8]));
     batch.set_last_uses (kept{end});
   endif
   for [set, name] = struct ("locked", @(array) batch.set_locked (array),
                             "locked_faces", @(array) batch.set_locked_faces (array))
     if (! isempty (mesh.(name)))
-      need_rows (caller, name, mesh.(name));
-      kept{end+1} = core_rows (logical (mesh.(name)(:)));
+      kept{end+1} = core_rows (core_flags (caller, name, mesh.(name))(:));
       set (kept{end});
     endif
   endfor
