@@ -446,6 +446,7 @@ contains
     batch%cells(1, 1) = 0
     call simplifier%push(batch, stat, errmsg)
     call check_equal(stat, TETSTREAM_BAD_DATA, "a point that has not come")
+    call check_says(errmsg, "vertex -1", "messages about streams count from 0")
   end subroutine
 
 end module
