@@ -277,7 +277,7 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   if (core_.plan.values > core_.plan.dimension) place_.interpolateCarried(stars_);
   if (core_.plan.picks > 0 && place_.isFartherFromU())
     std::copy_n(mesh_.picks(v), core_.plan.picks, mesh_.picks(u));
-  if (core_.plan.cell_means > 0) heirs_.handOver(mesh_, v, stars_, core_.plan.cell_means);
+  if (core_.plan.cell_means > 0) handOverCellData(u, v);
   if (core_.window.faces.anyPlaced()) edge_faces_.handOver(u, v, stars_);
   const double in_users_terms = static_cast<double>(error) * core_.error_unit;
   if (core_.tracer) trace(u, v, in_users_terms);
@@ -290,6 +290,14 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   for (int i = 0; i < last; ++i) a[i] += b[i];
   a[last] = error;
   tally_.largest_error = std::max(tally_.largest_error, in_users_terms);
+}
+
+template <class Mesh>
+void Collapser<Mesh>::handOverCellData(uint32_t u, uint32_t v) {
+  double place[3];
+  for (size_t i = 0; i < 3; ++i) place[i] = static_cast<double>(place_.values()[i]);
+  swept_data_.handOver(mesh_, u, v, stars_, place, static_cast<double>(core_.scale[0]),
+                       embedded().labels, core_.plan.cell_means);
 }
 
 // Before the mesh changes: the cells are those of the stars, with the merged vertex at their

@@ -6,7 +6,6 @@
 #include "crossing.h"
 #include "edge_faces.h"
 #include "edge_notes.h"
-#include "heirs.h"
 #include "link.h"
 #include "merged_place.h"
 #include "patch.h"
@@ -15,6 +14,7 @@
 #include "sound.h"
 #include "star_kernels.h"
 #include "strata.h"
+#include "swept_data.h"
 #include "thin_counts.h"
 
 namespace tetstream {
@@ -106,6 +106,7 @@ class Collapser {
   Outcome thins(uint32_t u, uint32_t v, float most_price, const StarShape& after);
   bool thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after);
   void mergeInto(uint32_t u, uint32_t v, S error);
+  void handOverCellData(uint32_t u, uint32_t v);
   void trace(uint32_t u, uint32_t v, double error);
 
   Core<S>& core_;
@@ -125,7 +126,7 @@ class Collapser {
   SheetSides sides_;
   Stars stars_;
   MergedPlace<Mesh> place_;
-  Heirs heirs_;
+  SweptData swept_data_;
   std::vector<uint32_t> traced_before_;  // in slots of the window
   std::vector<PlacedCell> traced_after_;
 };
