@@ -54,7 +54,7 @@ def main():
                 *(f"{cpu[kind]:.3f}" for kind in kinds),
                 f"{cpu['map'] / cpu['none']:.2f}", f"{cpu['log'] / cpu['none']:.2f}",
                 *(f"{peak[kind]:.1f}" for kind in kinds),
-                f"{window['none']:.1f}", f"{window['map']:.1f}"))
+                f"{window['none']:.2f}", f"{window['map']:.2f}"))
     return 0
 
 

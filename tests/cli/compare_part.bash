@@ -94,10 +94,10 @@ Tetrahedra 6
 End
 END
 sed 's/^\([01] [01]\) 1 0$/\1 1.1 0/' cube.mesh >taller.mesh
-for box in :,:,: 0:1,0:1,0:1 :,:,0.6:1; do
-  expect 0 compare cube.mesh taller.mesh --quiet --report json --box $box "${less_boundary[@]}"
+for own in :,:,: 0:1,0:1,0:1 :,:,0.6:1; do
+  expect 0 compare cube.mesh taller.mesh --quiet --report json --box $own "${less_boundary[@]}"
   awk -v there="$(member "$out" distance)" 'BEGIN { exit there < 0.0999 || there > 0.1001 }' ||
-    fail "the side at 1 is not in $box: $out"
+    fail "the side at 1 is not in $own: $out"
 done
 rm cube.mesh taller.mesh
 

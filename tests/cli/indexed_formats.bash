@@ -113,7 +113,7 @@ for way in 100:first 100:0 200:1 300:2 300:last; do
   [[ $step == $(cells_in "step${way%:*}.vtu") ]] || fail "--step ${way#*:} has $step cells"
 done
 sed 's/timestep="0"/timestep="nan"/' steps.pvd >step.nan.pvd
-expect_error 3 "step.nan.pvd: line 4: a timestep is no number" info step.nan.pvd
+expect_error 2 "step.nan.pvd: byte 148: a timestep is no number" info step.nan.pvd
 expect 0 info steps.pvd
 contains "$err" "of 3 time steps, 0 to 2, step 2 is read, at time 0.5"
 expect_error 1 "there is no time step 3 (option step, --step): there are 0 to 2" \

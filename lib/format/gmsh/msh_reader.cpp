@@ -72,8 +72,7 @@ class MshReader {
     } else if (v4 && (name == "Entities" || name == "PartitionedEntities")) {
       endLine();
       readEntities4(mesh_, name[0] == 'P');
-    } else if ((name == "Nodes" && mesh_.intake) ||
-               (name == "Elements" && mesh_.element_rows > 0)) {
+    } else if ((name == "Nodes" && mesh_.intake) || (name == "Elements" && is_again_)) {
       return passAgain(name);
     } else if (name == "ParametricNodes" && !v4) {
       endLine();
@@ -94,7 +93,7 @@ class MshReader {
     file_.expect(end.c_str());
   }
 
-  // Gmsh writes the mesh again with each view that it adds to a file.
+  // Gmsh writes the mesh again with each view that it adds to a file: the nodes, and then elements.
   void passAgain(const std::string& name) {
     endLine();
     const bool of_nodes = name == "Nodes";
@@ -108,6 +107,7 @@ class MshReader {
                            static_cast<unsigned long long>(before)));
     if (options().note)
       options().note(file_.name() + ": the section $" + name + " is there again: it is left out");
+    is_again_ = true;
     file_.skipPast("$End" + name);
   }
 
@@ -161,6 +161,7 @@ class MshReader {
   FileScan file_;
   MshMesh mesh_;
   MshData data_;
+  bool is_again_ = false;  // the mesh that is read
 };
 
 }  // namespace

@@ -48,7 +48,7 @@ TEST(MshSections, OfAnotherMeshAreErrors) {
             std::string::npos)
       << problemOf(openMsh, kHead2 + kNodes2 + kElements2 + more);
   const std::string two = "$Elements\n2\n1 4 2 7 1 1 2 3 4\n2 4 2 7 1 1 2 3 4\n$EndElements\n";
-  EXPECT_NE(problemOf(openMsh, kHead2 + kNodes2 + kElements2 + two)
+  EXPECT_NE(problemOf(openMsh, kHead2 + kNodes2 + kElements2 + kNodes2 + two)
                 .find("a second section of elements, of 2: the first has 1"),
             std::string::npos);
 }

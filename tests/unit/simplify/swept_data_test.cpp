@@ -108,6 +108,31 @@ TEST(SweptData, KeepSumsAndRanges) {
   EXPECT_GT(count.exact, 0.9 * count.inside);
 }
 
+// Of a run of the default mode, which keeps the body's volume.
+TEST(SweptData, KeepIntegralsOfARun) {
+  TestMesh mesh = fullGrid(slowRun() ? 8 : 16, 8, 8, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [](double x, double y, double) {
+    return std::sin(0.5 * x) * std::cos(0.4 * y);
+  });
+  mesh.addCellData({"rho", 1, ScalarType::kFloat64}, [&](size_t c, int) {
+    double square = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double x = mesh.position(static_cast<size_t>(mesh.cells[4 * c]), i) - 3;
+      square += x * x;
+    }
+    return std::exp(-0.3 * square);
+  });
+  const auto integral = [](const TestMesh& of) {
+    double sum = 0;
+    for (size_t c = 0; c < of.cellCount(); ++c)
+      sum += std::fabs(cellVolume(of, c)) * of.cellValue(0, c);
+    return sum;
+  };
+  const Result r = simplified(mesh, toRatio(0.1));
+  expectReached(r);
+  EXPECT_NEAR(integral(r.out.mesh), integral(mesh), 1e-3 * integral(mesh));
+}
+
 TEST(SweptData, StayWithTheirRegions) {
   int mixed = 0;
   const Collapses count = collapseMany(true, [&](const Sums&, const Sums& after) {
