@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "vector3.h"
 #include "vertex_pair.h"
@@ -53,12 +52,11 @@ void SweptData::listKept(const At& at, uint32_t centre, const Star& star, Kind k
     const double after = dot(normal[0], t[2]), sign = after < 0 ? -1 : 1;
     const double swept[3] = {sign * dot(c, normal[0]), sign * dot(c, normal[1]),
                              sign * dot(c, normal[2])};
-    const auto cell = static_cast<uint32_t>(cells_.size());
-    addSide(kind, cell, pairOf(s.t[0], s.t[1]), swept[0]);
-    addSide(kind, cell, pairOf(s.t[1], s.t[2]), swept[1]);
-    addSide(kind, cell, pairOf(s.t[2], s.t[0]), swept[2]);
-    const double volume = sign * after;
-    cells_.push_back({s.cell, false, row, volume - (swept[0] + swept[1] + swept[2]), volume});
+    const double volume = sign * after, before = volume - (swept[0] + swept[1] + swept[2]);
+    cells_.push_back({s.cell, false, row, before, volume, before, 0});
+    addSide(kind, pairOf(s.t[0], s.t[1]), swept[0]);
+    addSide(kind, pairOf(s.t[1], s.t[2]), swept[1]);
+    addSide(kind, pairOf(s.t[2], s.t[0]), swept[2]);
   }
 }
 
@@ -79,84 +77,86 @@ void SweptData::listDying(const At& at, uint32_t u, uint32_t v, const Star& ring
     const double of_u = dot(ends[0], normal), of_v = dot(ends[1], normal);
     const double with_a = dot(both, p[0]), with_b = dot(both, p[1]);
     const double whole = of_v - of_u + with_b - with_a, sign = whole < 0 ? -1 : 1;
-    const auto cell = static_cast<uint32_t>(cells_.size());
-    addSide(kOfU, cell, pairOf(a, b), sign * of_u);
-    addSide(kOfV, cell, pairOf(a, b), -sign * of_v);
-    addSide(kOfBoth, cell, a, sign * with_a);
-    addSide(kOfBoth, cell, b, -sign * with_b);
-    cells_.push_back({s.cell, true, at.mesh.cellMeans(s.cell), sign * whole, 0});
+    const double before = sign * whole;
+    cells_.push_back({s.cell, true, at.mesh.cellMeans(s.cell), before, 0, before, before});
+    addSide(kOfU, pairOf(a, b), sign * of_u);
+    addSide(kOfV, pairOf(a, b), -sign * of_v);
+    addSide(kOfBoth, a, sign * with_a);
+    addSide(kOfBoth, b, -sign * with_b);
   }
 }
 
-void SweptData::start(size_t sides) {
+void SweptData::start(size_t sides, const CellLabels& labels) {
+  labels_ = labels;
   cells_.clear();
-  sides_.clear();
-  pairs_.clear();
-  const size_t places = std::bit_ceil(2 * sides + 2);
-  place_of_.assign(places, 0);
-}
-
-void SweptData::addSide(Kind kind, uint32_t cell, uint64_t others, double gain) {
-  const auto number = static_cast<uint32_t>(sides_.size());
-  sides_.push_back({others, kind, cell, gain, false});
-  const size_t mask = place_of_.size() - 1;
-  for (size_t at = ((others + kind) * uint64_t{0x9e3779b97f4a7c15} >> 32) & mask;;
-       at = (at + 1) & mask) {
-    if (place_of_[at] == 0) {
-      place_of_[at] = number + 1;
-      return;
-    }
-    Side& other = sides_[place_of_[at] - 1];
-    if (other.is_met || other.others != others || other.kind != kind) continue;
-    other.is_met = sides_.back().is_met = true;
-    pairs_.insert(pairs_.end(), {place_of_[at] - 1, number});
-    return;
-  }
-}
-
-void SweptData::addFlow(uint32_t from, uint32_t to, double volume) {
-  if (volume < 0) {
-    std::swap(from, to);
-    volume = -volume;
-  }
-  if (!(volume > 0)) return;
-  if (!isRegion(from)) cells_[from].out += volume;
-  if (!isRegion(to)) cells_[to].in += volume;
-  if (leavesAsItWas(from, to)) cells_[from].own -= volume;
-  (isRegion(to)      ? into_regions_
-   : cells_[to].dies ? into_dying_
-                     : into_kept_)
-      .push_back({from, to, volume});
-}
-
-uint32_t SweptData::regionOf(const Cell& cell, const CellLabels& labels) {
-  size_t r = 0;
-  while (r < regions_.size() && labels.count > 0 && labels.differ(regions_[r], cell.cell)) ++r;
-  if (r == regions_.size()) regions_.push_back(cell.cell);
-  return static_cast<uint32_t>(cells_.size() + r);
-}
-
-// Each face that two cells of one region share; the others of cells that stay are the region's, and
-// so is what is left of those that die.
-void SweptData::listFlows(const CellLabels& labels) {
+  opened_.clear();
   into_dying_.clear();
   into_regions_.clear();
   into_kept_.clear();
   regions_.clear();
-  for (Cell& cell : cells_) cell.own = cell.before;
-  for (size_t i = 0; i < pairs_.size(); i += 2) {
-    Side &a = sides_[pairs_[i]], &b = sides_[pairs_[i + 1]];
-    if (labels.count == 0 || !labels.differ(cells_[a.cell].cell, cells_[b.cell].cell))
-      addFlow(b.cell, a.cell, a.gain);
-    else
-      a.is_met = b.is_met = false;
+  const size_t places = std::bit_ceil(2 * sides + 2);
+  if (sides_.size() < places || ++round_ == 0) {
+    sides_.assign(std::max(places, sides_.size()), Side{});
+    round_ = 1;
   }
-  for (const Side& side : sides_)
-    if (!side.is_met && !cells_[side.cell].dies)
-      addFlow(regionOf(cells_[side.cell], labels), side.cell, side.gain);
+}
+
+constexpr uint64_t kMet = ~uint64_t{0};  // from both sides
+
+// note: a window has fewer than 2^30 cells, so that two vertices and a kind fit.
+void SweptData::addSide(Kind kind, uint64_t others, double gain) {
+  const uint64_t key = others << 2 | kind;
+  const auto cell = static_cast<uint32_t>(cells_.size() - 1);
+  const size_t mask = sides_.size() - 1;
+  for (size_t at = (key * uint64_t{0x9e3779b97f4a7c15} >> 32) & mask;; at = (at + 1) & mask) {
+    Side& side = sides_[at];
+    if (side.round != round_) {
+      side = {key, gain, cell, round_};
+      opened_.push_back(at);
+      return;
+    }
+    if (side.key != key) continue;
+    side.key = kMet;
+    return meet(side.cell, cell, gain);
+  }
+}
+
+// Through a face that two cells share; between regions it is as one of the boundary.
+void SweptData::meet(uint32_t from, uint32_t to, double volume) {
+  if (labels_.count == 0 || !labels_.differ(cells_[from].cell, cells_[to].cell))
+    return addFlow(from, to, volume);
+  leave(from, -volume);
+  leave(to, volume);
+}
+
+// Through another face. What is left of cells that die is told by all their faces.
+void SweptData::leave(uint32_t cell, double gain) {
+  if (!cells_[cell].dies) addFlow(regionOf(cells_[cell]), cell, gain);
+}
+
+void SweptData::leaveRest() {
+  for (size_t at : opened_)
+    if (sides_[at].key != kMet) leave(sides_[at].cell, sides_[at].gain);
   for (uint32_t c = 0; c < cells_.size(); ++c)
-    if (const Cell& cell = cells_[c]; cell.dies && cell.before + cell.in > cell.out)
-      addFlow(c, regionOf(cell, labels), cell.before + cell.in - cell.out);
+    if (cells_[c].dies && cells_[c].left > 0) addFlow(c, regionOf(cells_[c]), cells_[c].left);
+}
+
+void SweptData::addFlow(uint32_t from, uint32_t to, double volume) {
+  const bool is_back = volume < 0;
+  const Flow flow = {is_back ? to : from, is_back ? from : to, std::fabs(volume)};
+  if (!(flow.volume > 0)) return;
+  if (leavesAsItWas(flow.from, flow.to)) cells_[flow.from].own -= flow.volume;
+  if (isDying(flow.from)) cells_[flow.from].left -= flow.volume;
+  if (isRegion(flow.to)) return into_regions_.push_back(flow);
+  cells_[flow.to].left += flow.volume;
+  (cells_[flow.to].dies ? into_dying_ : into_kept_).push_back(flow);
+}
+
+uint32_t SweptData::regionOf(const Cell& cell) {
+  size_t r = 0;
+  while (r < regions_.size() && labels_.count > 0 && labels_.differ(regions_[r], cell.cell)) ++r;
+  if (r == regions_.size()) regions_.push_back(cell.cell);
+  return static_cast<uint32_t>(r) | kRegion;
 }
 
 void SweptData::copyMeans() {
@@ -173,19 +173,20 @@ void SweptData::copyMeans() {
 void SweptData::mix(const std::vector<Flow>& flows) {
   for (const Flow& flow : flows) {
     const bool as_it_was = leavesAsItWas(flow.from, flow.to);
-    if (!as_it_was && !(mixed_volume_[flow.from] > 0)) continue;  // nothing has come in
-    const double* const from = &(as_it_was ? old_ : mixed_)[flow.from * means_];
-    double* const to = &mixed_[flow.to * means_];
-    const double share = flow.volume / (mixed_volume_[flow.to] += flow.volume);
+    const size_t from_row = rowOf(flow.from), to_row = rowOf(flow.to);
+    if (!as_it_was && !(mixed_volume_[from_row] > 0)) continue;  // nothing has come in
+    const double* const from = &(as_it_was ? old_ : mixed_)[from_row * means_];
+    double* const to = &mixed_[to_row * means_];
+    const double share = flow.volume / (mixed_volume_[to_row] += flow.volume);
     for (size_t i = 0; i < means_; ++i) to[i] = meanOf(to[i], from[i], share);
   }
 }
 
 // A cell that loses more than it has gives what comes in besides, which is not followed: what the
 // region has too much then, or too little, is taken from all within the range of what was there.
-void SweptData::repair(size_t mean, uint32_t region, const CellLabels& labels) {
+void SweptData::repair(size_t mean, uint32_t region) {
   const auto isIn = [&](const Cell& cell) {
-    return labels.count == 0 || !labels.differ(cell.cell, region);
+    return labels_.count == 0 || !labels_.differ(cell.cell, region);
   };
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   double before = 0, after = 0, wanted = 0, there = 0, least = kInfinite, most = -kInfinite;
@@ -207,28 +208,28 @@ void SweptData::repair(size_t mean, uint32_t region, const CellLabels& labels) {
       value += std::min(share, 1.0) * (end - value);
 }
 
-void SweptData::repair(const CellLabels& labels) {
+void SweptData::repair() {
   if (std::none_of(cells_.begin(), cells_.end(), [](const Cell& c) { return c.own < 0; })) return;
-  for (const Cell& cell : cells_) regionOf(cell, labels);
+  for (const Cell& cell : cells_) regionOf(cell);
   for (uint32_t region : regions_)
-    for (size_t i = 0; i < means_; ++i) repair(i, region, labels);
+    for (size_t i = 0; i < means_; ++i) repair(i, region);
 }
 
 template <class Mesh>
 void SweptData::handOver(Mesh& mesh, uint32_t u, uint32_t v, const Stars& stars,
                          const double place[3], double scale, const CellLabels& labels, int means) {
   means_ = static_cast<size_t>(means);
-  start(3 * (stars.u.size() + stars.v.size()) + 4 * stars.ring.size());
+  start(3 * (stars.u.size() + stars.v.size()) + 4 * stars.ring.size(), labels);
   const Places<Mesh> at{mesh, place, scale};
   listKept(at, u, stars.u, kOfU);
   listKept(at, v, stars.v, kOfV);
   listDying(at, u, v, stars.ring);
-  listFlows(labels);
+  leaveRest();
   copyMeans();
   mix(into_dying_);
   mix(into_regions_);
   mix(into_kept_);
-  repair(labels);
+  repair();
   for (size_t c = 0; c < cells_.size(); ++c) {
     if (cells_[c].dies) continue;
     for (size_t i = 0; i < means_; ++i) cells_[c].row[i + 1] = mixed_[c * means_ + i];
