@@ -8,13 +8,14 @@
 Shapes are written [n][3]: n rows of 3. The manual is in tetstream-python(3) and tetstream(7).
 """
 from . import core as _core
+from ._batches import Batch
 from ._interchange import from_meshio, from_pyvista, to_meshio, to_pyvista
 from ._mesh import Mesh, Simplified, VertexMap
 from ._operations import Comparison, Diagram, compare, convert, diagram, formats, info, layout, read
 from ._options import Options
 from ._records import LayoutReport, Progress, Record, Report, StreamInfo
 from ._simplify import simplify, simplify_batches, simplify_file
-from ._streams import Batch, Reader, Writer
+from ._streams import Reader, Writer
 from .errors import (BadArgument, BadData, BadState, CallbackFailed, Cancelled, Error, InputOutput,
                      InternalError, NoMemory, NoSuchFile, TargetMissedWarning, Unsupported)
 

@@ -150,7 +150,8 @@ def _last_uses(cells, points):
 
 def batches_of(mesh):
     """Reader.stream of a Mesh."""
-    from ._streams import Batch, Reader
+    from ._batches import Batch
+    from ._streams import Reader
     points = _arrays.points(mesh.points)
     cells = _arrays.wide_ids("cells", mesh.cells, 4)
     if cells.size and not (0 <= cells.min() and cells.max() < len(points)):

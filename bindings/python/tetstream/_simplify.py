@@ -3,7 +3,7 @@ import warnings
 
 import numpy
 
-from . import _arrays, _mesh, _options, _progress, _streams, core
+from . import _arrays, _batches, _mesh, _options, _progress, _streams, core
 from ._records import Report
 from .errors import TargetMissedWarning
 
@@ -181,7 +181,7 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
     Returns:
         A Report, as the generator's value.
     """
-    schema = _streams._Schema.announced(points, fields, cell_data, label_names, {
+    schema = _batches.Schema.announced(points, fields, cell_data, label_names, {
         "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
         "front_width": front_width, "front_span": front_span, "front_cells": front_cells})
     ready = []
