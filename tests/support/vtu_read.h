@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "registry.h"
+#include "vector3.h"
 
 namespace tetstream::test {
 
@@ -42,6 +43,13 @@ std::vector<T> valuesAs(const std::string& bytes) {
   std::vector<T> values(bytes.size() / sizeof(T));
   bytes.copy(reinterpret_cast<char*>(values.data()), values.size() * sizeof(T));
   return values;
+}
+
+// With its sign: of a cell of four numbers of `places`, three to each.
+inline double signedVolume(const std::vector<double>& places, const int64_t* cell) {
+  const double* p[4];
+  for (size_t k = 0; k < 4; ++k) p[k] = &places[3 * static_cast<size_t>(cell[k])];
+  return sixVolume(p[0], p[1], p[2], p[3]) / 6;
 }
 
 }  // namespace tetstream::test

@@ -148,8 +148,9 @@ void SweptData::addFlow(uint32_t from, uint32_t to, double volume) {
   if (leavesAsItWas(flow.from, flow.to)) cells_[flow.from].own -= flow.volume;
   if (isDying(flow.from)) cells_[flow.from].left -= flow.volume;
   if (isRegion(flow.to)) return into_regions_.push_back(flow);
+  if (!cells_[flow.to].dies) return into_kept_.push_back(flow);
   cells_[flow.to].left += flow.volume;
-  (cells_[flow.to].dies ? into_dying_ : into_kept_).push_back(flow);
+  into_dying_.push_back(flow);
 }
 
 uint32_t SweptData::regionOf(const Cell& cell) {

@@ -3,7 +3,6 @@
 
 #include "netcdf_testing.h"
 #include "status.h"
-#include "vector3.h"
 #include "vtu_mesh_testing.h"
 
 namespace tetstream {
@@ -118,12 +117,7 @@ TEST(Exodus, PrismsBecomeTetrahedraOfPositiveVolume) {
   double whole = 0;
   for (size_t c = 0; 4 * c < mesh.cells.size(); ++c) {
     if (valuesAs<int32_t>(mesh.cell_data[0])[c] != 20) continue;
-    double e[3][3];
-    for (size_t k = 0; k < 3; ++k)
-      for (size_t i = 0; i < 3; ++i)
-        e[k][i] = x[3 * static_cast<size_t>(mesh.cells[4 * c + k + 1]) + i] -
-                  x[3 * static_cast<size_t>(mesh.cells[4 * c]) + i];
-    const double volume = determinant(e[0], e[1], e[2]) / 6;
+    const double volume = signedVolume(x, &mesh.cells[4 * c]);
     EXPECT_GT(volume, 0) << c;
     whole += volume;
   }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "status.h"
-#include "vector3.h"
 #include "vtu_encode.h"
 #include "vtu_read.h"
 
@@ -120,12 +119,7 @@ TEST(MixedCells, OfAnyShapeBecomeTetrahedraOfPositiveVolume) {
   double volumes[2] = {0, 0};  // of the voxel and the wedge
   for (size_t c = 0; c < labels.size(); ++c) {
     if (labels[c] != 100 && labels[c] != 103) continue;
-    double e[3][3];
-    for (size_t k = 0; k < 3; ++k)
-      for (size_t i = 0; i < 3; ++i)
-        e[k][i] = places[3 * static_cast<size_t>(mesh.cells[4 * c + k + 1]) + i] -
-                  places[3 * static_cast<size_t>(mesh.cells[4 * c]) + i];
-    const double volume = determinant(e[0], e[1], e[2]) / 6;
+    const double volume = signedVolume(places, &mesh.cells[4 * c]);
     EXPECT_GT(volume, 0) << labels[c];
     volumes[labels[c] == 103] += volume;
   }
