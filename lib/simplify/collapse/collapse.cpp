@@ -178,7 +178,22 @@ bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Strata& strata
          strata_.holds(strata.u, strata.v, stars_, mesh_.allFlags(), strata.embedded, labelled_);
 }
 
-// Half of all edges fail, most of them by the cells of the end that moves most.
+// To the place that sheets and curves want, if that may be had.
+template <class Mesh>
+Outcome Collapser<Mesh>::moveOnSheets(uint32_t u, uint32_t v, const Strata& strata, S* error,
+                                      float most_price) {
+  if (core_.inner_sheets) listLabelled(u, v);
+  const Adjusted moved = adjust(u, v, strata);
+  if (!std::isfinite(moved.error)) return Outcome::kTooFar;
+  price_ = growthPrice(*error, moved.error * S(moved.cost));
+  if (price_ > most_price) return Outcome::kDear;
+  if (isTooLarge(moved.error)) return Outcome::kTooLarge;
+  *error = std::max(*error, moved.error);
+  return Outcome::kDone;
+}
+
+// Half of all edges fail, most of them by the cells of the end that moves most: at the place that
+// the errors want, and then also at one that sheets want, which is near.
 template <class Mesh>
 Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells,
                               float most_price) {
@@ -203,26 +218,22 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (mesh_.liveCells() - dying < least_cells) return Outcome::kTooMany;
   const Strata strata = strataOf(u, v);
   if (strata.any() && !mayKeepStrata(strata, u_first ? v : u, ring)) return Outcome::kTopology;
-  const bool on_sheet = (mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet;
-  if (on_sheet && (strata.any() || keepsBody(u, v))) {
-    gather(!u_first);
-    if (core_.inner_sheets) listLabelled(u, v);
-    const Adjusted moved = adjust(u, v, strata);
-    if (!std::isfinite(moved.error)) return Outcome::kTooFar;
-    price_ = growthPrice(*error, moved.error * S(moved.cost));
-    if (price_ > most_price) return Outcome::kDear;
-    if (isTooLarge(moved.error)) return Outcome::kTooLarge;
-    *error = std::max(*error, moved.error);
-  }
   if (isPriced(most_price)) {
     angle = core_.dear.front();
     angle.inner_cos2 = core_.thin.cos2;
     if (core_.isFlat()) angle.middle_cos2 = core_.dear.back().cos2;
   }
   const Star& farther = u_first ? stars_.u : stars_.v;
-  const StarShape a = shapeFrom(place_.values().data(), farther.begin(), farther.size(), angle);
+  StarShape a = shapeFrom(place_.values().data(), farther.begin(), farther.size(), angle);
   if (!a.positive) return refuseFor(u, v, farther[a.turned]);
   gather(!u_first);
+  const bool on_sheet = (mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet;
+  if (on_sheet && (strata.any() || keepsBody(u, v))) {
+    if (const Outcome o = moveOnSheets(u, v, strata, error, most_price); o != Outcome::kDone)
+      return o;
+    a = shapeFrom(place_.values().data(), farther.begin(), farther.size(), angle);
+    if (!a.positive) return refuseFor(u, v, farther[a.turned]);
+  }
   const Star& nearer = u_first ? stars_.v : stars_.u;
   const StarShape b = shapeFrom(place_.values().data(), nearer.begin(), nearer.size(), angle);
   if (!b.positive) return refuseFor(u, v, nearer[b.turned]);

@@ -84,6 +84,7 @@ class Collapser {
     float cost = 1;
   };
   Adjusted adjust(uint32_t u, uint32_t v, const Strata& strata);
+  Outcome moveOnSheets(uint32_t u, uint32_t v, const Strata& strata, S* error, float most_price);
   uint32_t nextOnCurve(uint32_t v, uint32_t before, const Star& star, const Star& ring,
                        const Embedded& embedded) const;
   bool keepCurveArea(uint32_t u, uint32_t v, const Embedded& embedded);
