@@ -19,8 +19,11 @@ constexpr double kReserve = 0.04;
 constexpr double kHeldBack = 10;
 // A window that had to pass its bound to make room shows where the next one will end, too.
 constexpr double kAgain = 0.8;
-// With a bound on the error the first window makes this share of what it allows.
-constexpr double kFirstError = 0.7, kBackOff = 0.6;
+// With a bound on the error the first window makes this share of what it allows. Where the stream
+// begins with little detail the bound rises by no more than this from window to window: what these
+// leave unused serves the others. By half of it some streams of a few windows end before they have
+// come near.
+constexpr double kFirstError = 0.5, kLargestRise = 2.5;
 // Share of a correction that is made at once, and the largest step.
 constexpr double kDamping = 0.7, kLargestChange = 4;
 
@@ -37,6 +40,11 @@ constexpr double kLongStep = 3;
 // fronts of 2,000 to 33,000 cells it would be 1 to 4 % more.
 constexpr int kWideApproaches = 1;
 constexpr double kWideStep = 8;
+// Up to an error every window approaches its bound, and stops where it has made what is allowed by
+// then: tiles that came first would otherwise use that up, and the others, and the windows after
+// them, stay as they were.
+constexpr int kApproachesToError = 4;
+constexpr double kStepToError = 3;
 // Such a window gives up this share of its cells at most for others: a stream is seldom as it
 // began.
 constexpr double kGivenUp = 0.1;
@@ -90,13 +98,13 @@ double CommonBound::boundForCells(const Ledger& ledger) const {
   return bound_ * std::clamp(change, 1 / kLargestChange, kLargestChange);
 }
 
-// The squared error rises with the bound b as b^(4/7), being proportional to n^(-4/3). A window
-// that met the limit was left half done: its bound was too high.
+// The squared error rises with the bound b as b^(4/7), being proportional to n^(-4/3). The bound of
+// a window that met the limit is the one that it came to.
 double CommonBound::nextBound(const Ledger& ledger) const {
   const double for_cells = boundForCells(ledger);
   if (!(target_.error > 0)) return for_cells;
-  const double change = limit_met_ ? kBackOff : std::pow(error_room_, kDamping * 7 / 4);
-  return std::min(for_cells, bound_ * std::min(change, kLargestChange));
+  const double change = std::pow(error_room_, 7.0 / 4);
+  return std::min(for_cells, bound_ * std::min(change, kLargestRise));
 }
 
 // So many that the target stays in reach even if all that is to come is written as it is; where
@@ -123,11 +131,16 @@ bool CommonBound::spreads(const Ledger& ledger) const {
 }
 
 void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
+  if (target_.error > 0) {
+    goal.approaches = kApproachesToError;
+    goal.step = kStepToError;
+    return;
+  }
   if (is_tight_) return;
   const double strong = effort_ == Effort::kHigh ? kStrongWithEffort : kStrong;
   const bool is_strong = total(ledger) > strong * wanted(ledger);
   const bool is_blind = !pilot_.known() && spreads(ledger);
-  if (!is_blind && (!target_.countsCells() || !is_strong)) return;
+  if (!is_blind && !is_strong) return;
   const bool is_long = !pilot_.known() && !ledger.flips;
   goal.approaches = kApproaches;
   if (!is_long) return;
@@ -190,7 +203,6 @@ void CommonBound::learn(double bound, const Ledger& before, const Ledger& after,
   forced_ = first_bound_ > 0 && bound > first_bound_;
   written_ = static_cast<double>(after.written + written);
   kept_ = static_cast<double>(after.live - after.front - written);
-  limit_met_ = after.error_met;
   error_room_ = after.error > 0 ? after.error_limit / after.error : 1;
   seen_ = static_cast<double>(before.read - before.front);
   written_at_1_ += static_cast<double>(written) * std::pow(bound, kDecay);

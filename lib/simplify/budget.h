@@ -20,7 +20,6 @@ struct Ledger {
   double rescaled = 1;    // times an error of the last window, normalised: that of this one
   double error_unit = 1;  // times an error in normalised units: the report's
   double error = 0, error_limit = 0;  // of all that was read, made and allowed
-  bool error_met = false;             // a collapse was refused for it
   bool flips = false;                 // after every pass cells are flipped
   int64_t window = 0;                 // cells that there is room for
 };
@@ -79,9 +78,9 @@ class UniformRatio final : public Budget {
 // that what is to come resembles what has been.
 class CommonBound final : public Budget {
  public:
-  // `is_tight`: memory is bounded. Then no bound is approached: patches of the few vertices that
-  // have an edge below a low one have more of a rim than a budget foresees; and one of few windows
-  // may keep more than its share.
+  // `is_tight`: memory is bounded. Then no bound is approached, but up to an error: patches of the
+  // few vertices that have an edge below a low one have more of a rim than a budget foresees; and
+  // one of few windows may keep more than its share.
   CommonBound(const Target& target, int64_t total, const Pilot& pilot, bool is_tight = false,
               Effort effort = Effort::kNormal)
       : Budget(target, total), pilot_(pilot), is_tight_(is_tight), effort_(effort) {}
@@ -107,7 +106,6 @@ class CommonBound final : public Budget {
   Effort effort_;
   double pilot_bound_ = 0;  // in normalised units
   double error_room_ = 1;   // error allowed / error made, after the last window
-  bool limit_met_ = false;  // by the last window
   double bound_ = 0, first_bound_ = 0;
   bool forced_ = false;      // the last window passed the bound that it was given
   double kept_ = 0;          // simplified cells in the window, at the bound

@@ -252,7 +252,6 @@ class WindowedEngine final : public Simplifier::Engine {
     l.error_unit = core_.error_unit;
     l.error = core_.tally.error;
     l.error_limit = core_.error_limit;
-    l.error_met = core_.tally.error_reached;
     l.front = front_cells_;
     l.window = capacity_;
     return l;

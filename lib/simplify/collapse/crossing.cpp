@@ -12,9 +12,17 @@ namespace tetstream {
 constexpr double kInFront = 0.1;
 // And one that is this far stays out where not all faces beside are known.
 constexpr double kFarInFront = 1;
+// Faces that share an edge lie on each other where their normals are farther apart than 178
+// degrees; only one that turns by more than 30 can come to that, unless it has folded already.
+constexpr double kOnEachOther = -0.9994, kTurnsMuch = 0.866;
 // Round one vertex. What has more cells, or faces, or neighbours on the boundary than a link takes,
 // is left alone: all pairs of faces are looked at for each edge that is collapsed.
 constexpr size_t kMostCells = 200, kMostFaces = 100;
+
+static double cosine(const PlacedFace& a, const PlacedFace& b) {
+  const double lengths = std::sqrt(dot(a.normal, a.normal) * dot(b.normal, b.normal));
+  return dot(a.normal, b.normal) / lengths;
+}
 
 // The faces of the boundary round a centre, which sees them from inside: edges of its link that one
 // cell has. Where the star is not whole they may be faces inside, which nothing may cross either.
@@ -86,17 +94,21 @@ bool BoundaryCrossing<Mesh>::knowsBeside() const {
   });
 }
 
-// The faces round the merged vertex, as u: those that go but for the ones of both ends.
+// The faces round the merged vertex, as u: those that go but for the ones of both ends. Returns
+// whether one of them turns by much.
 template <class Mesh>
-void BoundaryCrossing<Mesh>::listMade(uint32_t u, uint32_t v) {
+bool BoundaryCrossing<Mesh>::listMade(uint32_t u, uint32_t v) {
   made_.clear();
+  bool turns = false;
   for (const PlacedFace& face : gone_) {
     if (face.has(u) && face.has(v)) continue;
     PlacedFace& made = made_.emplace_back(face);
     made.corner[0] = u;
     std::fill_n(made.at[0], 3, 0.0);
-    made.setPlane();
+    made.setNormal();
+    turns |= !(cosine(made, face) > kTurnsMuch);
   }
+  return turns;
 }
 
 // Those round the rim that stay, each once.
@@ -132,6 +144,22 @@ size_t BoundaryCrossing<Mesh>::crossings(const Faces& faces) const {
   return count;
 }
 
+// Edges of these faces at which two of them lie on each other, or one on one beside.
+template <class Mesh>
+size_t BoundaryCrossing<Mesh>::folds(const Faces& faces) const {
+  const auto fold = [](const PlacedFace& a, const PlacedFace& b) {
+    const auto common =
+        std::count_if(a.corner, a.corner + 3, [&b](uint32_t x) { return b.has(x); });
+    return common == 2 && cosine(a, b) < kOnEachOther;
+  };
+  size_t count = 0;
+  for (size_t i = 0; i < faces.size(); ++i) {
+    for (size_t j = 0; j < i; ++j) count += fold(faces[i], faces[j]);
+    for (const PlacedFace& face : beside_) count += fold(faces[i], face);
+  }
+  return count;
+}
+
 template <class Mesh>
 bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, const S* place,
                                   double scale) {
@@ -139,13 +167,15 @@ bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, co
   scale_ = scale;
   for (int i = 0; i < 3; ++i) origin_[i] = static_cast<double>(place[i]);
   const double in_front = listGone(u, v, stars);
-  if (in_front <= kInFront) return false;
-  for (PlacedFace& face : gone_) face.setPlane();
-  listMade(u, v);
-  if (made_.size() > kMostFaces) return false;
+  const bool turns = listMade(u, v), is_in_front = in_front > kInFront;
+  if ((!turns && !is_in_front) || made_.size() > kMostFaces) return false;
   listRim(u, v);
   if (in_front > kFarInFront && !knowsBeside()) return true;
   listBeside(u, v);
+  if (turns && folds(made_) > folds(gone_)) return true;
+  if (!is_in_front) return false;
+  for (Faces* faces : {&gone_, &made_})
+    for (PlacedFace& face : *faces) face.setPlane();
   const size_t made = crossings(made_);
   return made > 0 && made > crossings(gone_);
 }

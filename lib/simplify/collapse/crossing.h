@@ -1,4 +1,5 @@
-// simplify/collapse: whether a collapse would push the boundary through itself. Depends on mesh.
+// simplify/collapse: whether a collapse would push the boundary through itself, or fold it. Depends
+// on mesh.
 #pragma once
 
 #include <vector>
@@ -15,6 +16,9 @@ namespace tetstream {
 // the vertices of their rim: of a patch against those that it has a cell of, and where it does not
 // have all, not if the place is far in front. Parts of the boundary that are farther apart along it
 // are not compared, nor are those round a vertex of many cells.
+//
+// Nor may it be laid on itself: two faces that share an edge would leave a crack of no width, or a
+// blade, that neither volumes nor quadrics of coplanar faces tell of.
 template <class Mesh>
 class BoundaryCrossing {
  public:
@@ -23,8 +27,8 @@ class BoundaryCrossing {
   BoundaryCrossing(Mesh& mesh, Account& account)
       : mesh_(mesh), star_(account, 32), link_(account) {}
 
-  // Whether more pairs of faces would cross than do, of an edge with its stars, whole, whose ends
-  // are merged at `place`. `scale` brings edges near 1.
+  // Whether more pairs of faces would cross than do, or lie on each other, of an edge with its
+  // stars, whole, whose ends are merged at `place`. `scale` brings edges near 1.
   bool find(uint32_t u, uint32_t v, const Stars& stars, const S* place, double scale);
 
  private:
@@ -32,11 +36,12 @@ class BoundaryCrossing {
 
   void listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
   double listGone(uint32_t u, uint32_t v, const Stars& stars);
-  void listMade(uint32_t u, uint32_t v);
+  bool listMade(uint32_t u, uint32_t v);
   void listRim(uint32_t u, uint32_t v);
   bool knowsBeside() const;
   void listBeside(uint32_t u, uint32_t v);
   size_t crossings(const Faces& faces) const;
+  size_t folds(const Faces& faces) const;
 
   Mesh& mesh_;
   Star star_;

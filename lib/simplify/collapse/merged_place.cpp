@@ -139,8 +139,7 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
   core_.kernels.spaceForm(mesh_.quadric(u_), mesh_.quadric(v_), core_.plan.dimension, cost);
   std::copy_n(cost, 6, form);
   const bool is_near = volumes_.step(form, step);
-  if (!is_near && labels.count > 0) return std::numeric_limits<S>::infinity();
-  if (!is_near && !sides) return S(0);
+  if (!is_near && (labels.count > 0 || !sides)) return std::numeric_limits<S>::infinity();
   S scaled[3];
   for (size_t i = 0; i < 3; ++i) scaled[i] = static_cast<S>(step[i]) * core_.scale[i];
   moveBy(scaled);

@@ -163,6 +163,7 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
     more |= tiling_.leavesOut() && core_.window.liveCells() < before;
     // A pass that the limit on the error ended was left half done: the one before tells the bound.
     if (!core_.tally.error_reached || first) bound_ = bound;
+    if (core_.tally.error_reached) return;
     const bool by_floor = isStoppedByFloor(so_far, before);
     if (!more && (mustStop() || !by_floor)) return;
     const bool on_the_way = approaches-- > 0 && core_.window.liveCells() > goal_.enough_cells;
@@ -174,7 +175,8 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
     if (!first)  // in that, most vertices are new
       bounds_.learn(before - core_.window.liveCells(), tiling_.looking());
     const double last = bound;
-    const double wanted = on_the_way ? goal_.step * bound : bounds_.wanted(bound, goal_);
+    const double wanted =
+        on_the_way ? bounds_.onTheWay(bound, goal_) : bounds_.wanted(bound, goal_);
     bound = bounds_.next(bound, wanted);
     if (bound == last) return;
   }

@@ -42,6 +42,7 @@ template <class S>
 double SweepBounds<S>::start(const Goal& goal, double unit) {
   unit_ = unit;
   yield_ = kFirstYield;
+  error_before_ = core_.tally.error;
   const bool is_by_error = std::isfinite(core_.error_limit) && !core_.options.countsCells();
   const bool must_reach = goal.last && core_.options.last_resort && !is_by_error;
   reach_ = must_reach ? &kWorth : nullptr;
@@ -91,15 +92,25 @@ double SweepBounds<S>::boundToTake(double cells) const {
   return static_cast<double>(std::bit_cast<float>(leasts[place]));
 }
 
+// The squared error that this goal made rises as n^(-4/3).
+template <class S>
+double SweepBounds<S>::stepToError(double limit) const {
+  const double made = core_.tally.error - error_before_;
+  if (!(made > 0)) return std::numeric_limits<double>::infinity();
+  return std::pow(std::max(limit - error_before_, 0.0) / made, 7.0 / 4);
+}
+
+template <class S>
+double SweepBounds<S>::onTheWay(double bound, const Goal& goal) const {
+  const double step = std::min(goal.step, stepToError(core_.error_limit));
+  return bound * std::max(step, kLeastStep);
+}
+
 template <class S>
 double SweepBounds<S>::wanted(double bound, const Goal& goal) const {
   const auto cells = static_cast<double>(core_.window.liveCells() - goal.cells);
   const double by_count = boundToTake(std::max(cells, 0.0)) / bound;
-  // The squared error rises as n^(-4/3).
-  const double by_error =
-      core_.tally.error > 0
-          ? std::pow(std::min(goal.most_error, core_.error_limit) / core_.tally.error, 7.0 / 4)
-          : std::numeric_limits<double>::infinity();
+  const double by_error = stepToError(std::min(goal.most_error, core_.error_limit));
   const bool is_careful = core_.options.effort == Effort::kHigh;
   double step = std::min({by_count, by_error, is_careful ? kCarefulStep : kLargestStep});
   if (!is_careful && !std::isfinite(core_.error_limit))

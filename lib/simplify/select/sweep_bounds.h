@@ -18,6 +18,8 @@ class SweepBounds {
   // Where nothing is known: a bound that falls short of the goal, from the errors of the best edges
   // of some vertices. What is simplified too far at first stays so.
   double first(std::vector<float>& errors, const Goal& goal) const;
+  // After one of the passes that approach it.
+  double onTheWay(double bound, const Goal& goal) const;
   // After a pass up to `bound`: where the goal's cells should be reached.
   double wanted(double bound, const Goal& goal) const;
   // And how far the next pass goes towards that: no farther than what was done so far bears, where
@@ -47,10 +49,11 @@ class SweepBounds {
   double errorIn(const Reach& reach) const;
   bool isInReach(const Goal& goal, const Refused& refused) const;
   double boundToTake(double cells) const;
+  double stepToError(double limit) const;
   double distance(double share_left, const Goal& goal) const;
 
   Core<S>& core_;
-  double unit_ = 1, yield_ = 0;
+  double unit_ = 1, yield_ = 0, error_before_ = 0;
   const Reach* reach_ = nullptr;  // none: there is no limit
 };
 

@@ -121,7 +121,7 @@ struct Core {
                      : followsPaper(the_options.mode) ? kShapeWeightPaper
                                                       : kShapeWeight),
         thin(0),
-        exact_curves(the_options.feature_angle > 0),
+        exact_curves(the_options.feature_angle > 0 && the_options.feature_angle < 180),
         keeps_body(!followsPaper(the_options.mode)) {}
 
   static WindowShape shapeOf(const Plan& plan) {
