@@ -455,7 +455,7 @@ void Simplifier::finish() {
 }
 
 int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
-  const Plan plan = makePlan(schema, options);
+  const Plan plan = makePlan(schema, carryingTooMany(schema, options));
   const WindowSize size =
       plan.double_window ? windowSize<double>(plan, options) : windowSize<float>(plan, options);
   return size.first();
