@@ -233,8 +233,6 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
   SimplifyOptions simplify;
   simplify.window_cells = options.simplify.window_cells;
   simplify.memory_bytes = options.simplify.memory_bytes;
-  for (const Column& c : schema.fields)  // carried: there may be too many to be measured
-    if (isFloat(c.type)) simplify.fields.emplace_back(c.name, 0);
   return {schema, facts.figures(), Simplifier::windowCells(schema, simplify), facts.notFinite(),
           facts.faceLabels()};
 }

@@ -40,14 +40,10 @@ bool Release<S>::mayGo(uint32_t cell) const {
          mesh.vertexFlags(v[3]) & kFinal;
 }
 
-// A memory budget bounds the points of a map that stay, too.
 template <class S>
-bool Release<S>::mustGo(uint32_t keep) const {
-  const Topology& mesh = core_.window.mesh;
-  if (mesh.liveCells() > keep) return true;
-  if (!core_.tracer || core_.options.memory_bytes == 0) return false;
-  return static_cast<double>(core_.tracer->pointCount()) >
-         kTracedPerCell * static_cast<double>(mesh.cellCapacity());
+bool Release<S>::mustGo(const Staying& most) const {
+  return core_.window.mesh.liveCells() > most.cells ||
+         (core_.tracer && core_.tracer->pointCount() > most.points);
 }
 
 template <class S>
@@ -185,23 +181,23 @@ float Release<S>::errorOf(uint32_t cell) const {
 }
 
 template <class S>
-void Release<S>::writeDearest(uint32_t keep) {
+void Release<S>::writeDearest(const Staying& most) {
   const Topology& mesh = core_.window.mesh;
   if (ranked_.size() < mesh.cellEnd()) ranked_.resize(mesh.cellCapacity());
   RankedCell* end = ranked_.data();
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
     if (mesh.isLive(c) && mayGo(c)) *end++ = {errorOf(c), c};
   std::sort(ranked_.data(), end);
-  for (const RankedCell* r = ranked_.data(); r != end && mustGo(keep); ++r) writeCell(r->cell);
+  for (const RankedCell* r = ranked_.data(); r != end && mustGo(most); ++r) writeCell(r->cell);
 }
 
 template <class S>
-void Release<S>::write(uint32_t keep) {
+void Release<S>::write(const Staying& most) {
   const Topology& mesh = core_.window.mesh;
   countUses();
-  if (core_.tracer && mustGo(keep)) core_.tracer->bringHome(core_.window.scratch());
-  if (core_.options.release == ReleaseOrder::kError) writeDearest(keep);
-  for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(keep); ++c)
+  if (core_.tracer && mustGo(most)) core_.tracer->bringHome(core_.window.scratch());
+  if (core_.options.release == ReleaseOrder::kError) writeDearest(most);
+  for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(most); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
   core_.report.unused_vertices +=
       static_cast<int64_t>(core_.window.pack(core_.front, core_.tasks()));

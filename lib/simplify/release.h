@@ -2,12 +2,19 @@
 // Depends on core.h.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "core.h"
 #include "source.h"
 
 namespace tetstream {
+
+// What may stay in the window: live cells, and points of a map that lie in them.
+struct Staying {
+  uint32_t cells;
+  size_t points = std::numeric_limits<size_t>::max();
+};
 
 // The cells that have been in the window longest leave first (paper, section 4), or those of the
 // largest error (Wu and Kobbelt 2003: what is dear will not be simplified), each after its
@@ -21,8 +28,8 @@ class Release {
     while (other_uses_.size() + 1 < core.mostParts()) other_uses_.emplace_back(account);
   }
 
-  // Lets cells go until `keep` live ones are left or no other may go, then packs the window.
-  void write(uint32_t keep);
+  // Lets cells go until no more are left than may stay or no other may go, then packs the window.
+  void write(const Staying& most);
   void flush();
 
   // Of the cells that were left at the last write, those that touched a vertex not yet final.
@@ -33,9 +40,9 @@ class Release {
 
  private:
   bool mayGo(uint32_t cell) const;
-  bool mustGo(uint32_t keep) const;
+  bool mustGo(const Staying& most) const;
   void countUses();
-  void writeDearest(uint32_t keep);
+  void writeDearest(const Staying& most);
   float errorOf(uint32_t cell) const;
   void writeCell(uint32_t cell);
   void writeVertex(uint32_t v);

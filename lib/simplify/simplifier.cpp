@@ -142,7 +142,7 @@ class WindowedEngine final : public Simplifier::Engine {
     decimate(budget_->lastGoal(now));
     if (now.written == 0) survey(now.read);
     selector_.reset();  // makes room for the output
-    release_.write(0);
+    release_.write({0});
     release_.flush();
     if (tracer_) tracer_->flush();
     closeReport();
@@ -215,7 +215,7 @@ class WindowedEngine final : public Simplifier::Engine {
     const Ledger before = ledger();
     decimate(budget_->goalOf(before));
     Ledger after = ledger();
-    release_.write(static_cast<uint32_t>(before.keep));
+    release_.write({static_cast<uint32_t>(before.keep), mostTraced()});
     after.front = release_.frontCells();
     budget_->learn(selector_->bound(), before, after,
                    static_cast<int64_t>(release_.cellsWritten()) - before.written);
@@ -276,6 +276,20 @@ class WindowedEngine final : public Simplifier::Engine {
     const bool has_more = options_.window_cells == 0 && front_cells_ >= kWideFront;
     constexpr int64_t kKeptFronts = kFrontsPerWindow / 2;
     return has_more ? std::min(capacity_ / 2, kKeptFronts * front_cells_) : capacity_ / 2;
+  }
+
+  // Points of a map that may stay, beside those that the next turn makes: as many as a budget is
+  // made for, or more where the account has memory left. Cells that went early for them would be
+  // lost for the target.
+  size_t mostTraced() const {
+    if (!tracer_ || options_.memory_bytes == 0) return std::numeric_limits<size_t>::max();
+    const double planned = kTracedPerCell * static_cast<double>(size_.foreseen(capacity_));
+    const auto unused = static_cast<int64_t>(account_.limit() - account_.used());
+    const int64_t left = std::max<int64_t>(unused - size_.heldBack(capacity_), 0);
+    const double room = static_cast<double>(tracer_->pointRoom()) +
+                        static_cast<double>(left) / static_cast<double>(Tracer<S>::pointBytes());
+    return static_cast<size_t>(
+        std::max(planned, room - static_cast<double>(core_.window.mesh.vertexEnd())));
   }
 
   // A window that was not asked for follows the front; one that was grows only when it is stuck.
@@ -441,7 +455,7 @@ void Simplifier::finish() {
 }
 
 int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
-  const Plan plan = makePlan(schema, options);
+  const Plan plan = makePlan(schema, carryingTooMany(schema, options));
   const WindowSize size =
       plan.double_window ? windowSize<double>(plan, options) : windowSize<float>(plan, options);
   return size.first();

@@ -22,7 +22,8 @@ class Simplifier : public Sink {
 
   Report report() const;  // what was done so far
 
-  // Cells of the window that a stream would get.
+  // Cells of the window that a stream would get; of one with too many fields to be measured, if all
+  // were carried: a user has to name those that matter.
   static int64_t windowCells(const Schema& schema, const SimplifyOptions& options);
   // Cells that its target leaves of a stream that says its count.
   static int64_t targetCells(const Schema& schema, const SimplifyOptions& options);

@@ -86,6 +86,17 @@ int64_t WindowSize::fitting() const {
   return 2 * cells < kRoomyHalfFronts * knownFront() ? beside(2 * patch) : cells;
 }
 
+int64_t WindowSize::foreseen(int64_t cells) const {
+  const bool may_grow = options_.window_cells == 0 && knownFront() < 0;
+  return may_grow ? std::max(cells, fitting()) : cells;
+}
+
+// A quarter is for meshes with more vertices to a cell than usual, for patches that become larger,
+// and for the way between cells, which has no memory before it is needed.
+int64_t WindowSize::heldBack(int64_t cells) const {
+  return kFixedBytes + options_.memory_bytes / 4 + (foreseen(cells) - cells) * cell_bytes_;
+}
+
 int64_t WindowSize::budgetFor(int64_t front) const {
   SimplifyOptions larger = options_;
   const WindowSize size(schema_, larger, cell_bytes_, patch_vertex_bytes_);

@@ -40,6 +40,11 @@ class WindowSize {
   int64_t forFront(int64_t front) const;
   // The cells that the memory budget allows.
   int64_t fitting() const;
+  // The cells that a window of so many may come to have: where nobody knows the front, all that
+  // fit.
+  int64_t foreseen(int64_t cells) const;
+  // Bytes of a budget that points of a map beyond those it is made for leave free then.
+  int64_t heldBack(int64_t cells) const;
   // A larger budget, for a front of so many cells and a window that was asked for, where this one
   // did not do.
   int64_t budgetFor(int64_t front) const;

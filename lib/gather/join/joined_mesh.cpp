@@ -30,9 +30,9 @@ class JoinedPoints final : public IndexedSource {
   const Schema& schema() const override { return schema_; }
   uint64_t firstNumber() const override { return mesh_->firstNumber(); }
   const uint8_t* locked() const override { return locked_.size() > 0 ? locked_.data() : nullptr; }
-  bool hasOrigins() const override { return points_->plan().everywhere; }
+  // A point is named as the file has it, the pieces' one after the other.
+  bool hasOrigins() const override { return true; }
   void readOrigins(uint64_t first, size_t count, int64_t* out) override {
-    if (!hasOrigins()) return IndexedSource::readOrigins(first, count, out);
     for (size_t i = 0; i < count; ++i) out[i] = static_cast<int64_t>(points_->oldOf(first + i));
   }
   void readPositions(uint64_t first, size_t count, void* out) override {

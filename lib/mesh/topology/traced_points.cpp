@@ -16,7 +16,7 @@ uint32_t TracedPoints<S>::freePoint() {
   const size_t size = points_.size();
   if (end_ == size) {
     if (size >= kNone / 2) fail(Status::kNoMemory, "more than %zu vertices are traced", size);
-    growArray(size, size / 2 + 1024, [this](size_t more) { points_.resize(more); });
+    growArray(size, size / 8 + 1024, [this](size_t more) { points_.resize(more); });
   }
   return end_++;
 }

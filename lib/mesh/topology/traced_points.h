@@ -48,6 +48,7 @@ class TracedPoints {
   void take(uint32_t& first, Visit visit);
 
   size_t count() const { return count_; }
+  size_t capacity() const { return points_.size(); }  // points that there is memory for
 
  private:
   uint32_t freePoint();

@@ -35,8 +35,9 @@ struct LockedVertices {
 
 constexpr size_t kCellsPerVertex = 4;  // 5.5 inside a mesh, less towards a boundary
 
-// Points of a map for each cell of the window's capacity that may stay with the cells that do,
-// under a memory budget. More of them would take the window's place, fewer let cells go early.
+// Points of a map for each cell of the window's capacity that a memory budget is made for, of those
+// that stay with the cells that do. More would make the window smaller, fewer let cells go early
+// where nothing is left beside it.
 constexpr double kTracedPerCell = 0.75;
 
 // Bytes of a row beside its values: of a cell its corners, flags, links or places in tiles; of a

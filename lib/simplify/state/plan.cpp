@@ -76,6 +76,16 @@ static void placeField(Plan& plan, const Column& column, double weight, Treatmen
   if (column.type == ScalarType::kFloat64) plan.double_window = true;
 }
 
+SimplifyOptions carryingTooMany(const Schema& schema, SimplifyOptions options) {
+  if (!options.fields.empty()) return options;
+  int dimension = 3;
+  for (const Column& c : schema.fields) dimension += isFloat(c.type) ? c.components : 0;
+  if (dimension <= kMaxDimension) return options;
+  for (const Column& c : schema.fields)
+    if (isFloat(c.type)) options.fields.emplace_back(c.name, 0);
+  return options;
+}
+
 // Measured components come first, so that the quadric's part of a vertex is one piece.
 Plan makePlan(const Schema& schema, const SimplifyOptions& options) {
   checkSchema(schema);

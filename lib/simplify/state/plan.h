@@ -35,6 +35,9 @@ struct Plan {
   std::vector<int> measured_column;  // of each measured component: its field
 };
 
+// The options by which all fields are carried, where more than can be would be measured by default.
+SimplifyOptions carryingTooMany(const Schema& schema, SimplifyOptions options);
+
 // Throws kBadArgument for fields that the stream does not have or that are no floats.
 Plan makePlan(const Schema& schema, const SimplifyOptions& options);
 

@@ -92,6 +92,14 @@ void Tracer<S>::addToMap(int64_t vertex, uint64_t cell, const double weights[4])
   if (map_.vertices.size() == kTraceRows) flushMap();
 }
 
+// As a column of that type holds it in the output.
+template <class S>
+static double storedAs(ScalarType type, S value) {
+  return type == ScalarType::kFloat32 ? static_cast<double>(static_cast<float>(value))
+                                      : static_cast<double>(value);
+}
+
+// note: the position has its column's type already (merged_place.h), for it decides on the cells.
 template <class S>
 void Tracer<S>::addToLog(const TracedCollapse<S>& c) {
   log_.kept.push_back(idOf(window_.origin(c.u)));
@@ -100,8 +108,9 @@ void Tracer<S>::addToLog(const TracedCollapse<S>& c) {
   for (size_t k = 0; k < plan_.fields.size(); ++k) {
     if (plan_.fields[k].treatment == Treatment::kPicked) continue;
     const S* from = c.merged + plan_.fields[k].offset;
-    for (int i = 0; i < plan_.schema.fields[k].components; ++i)
-      log_.values.push_back(static_cast<double>(from[i]));
+    const Column& column = plan_.schema.fields[k];
+    for (int i = 0; i < column.components; ++i)
+      log_.values.push_back(storedAs(column.type, from[i]));
   }
   log_.errors.push_back(c.error);
   if (log_.kept.size() == kTraceRows) flushLog();

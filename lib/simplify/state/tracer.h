@@ -49,6 +49,7 @@ class Tracer final : public FlipObserver {
   void flush();
 
   size_t pointCount() const { return points_.count(); }
+  size_t pointRoom() const { return points_.capacity(); }
   static constexpr size_t pointBytes() { return sizeof(typename TracedPoints<S>::Point); }
   // What a map takes for each cell and each vertex of the window, beside the points.
   static constexpr size_t kCellBytes = sizeof(uint32_t) + CellWalk<S>::kCellBytes;

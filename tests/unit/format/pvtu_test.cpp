@@ -44,6 +44,13 @@ class Pvtu : public ::testing::Test {
     return readMesh(openFile(path("all.pvtu")), *findFormat("pvtu"), step);
   }
 
+  std::vector<int64_t> origins() const {
+    const Input input = findFormat("pvtu")->open(openFile(path("all.pvtu")), {});
+    std::vector<int64_t> origins(static_cast<size_t>(input.schema().vertex_count));
+    input.indexed->readOrigins(0, origins.size(), origins.data());
+    return input.indexed->hasOrigins() ? origins : std::vector<int64_t>{};
+  }
+
   std::string failure() const {
     try {
       read();
@@ -87,6 +94,16 @@ TEST_F(Pvtu, JoinsPointsWithTheSameCoordinates) {
     EXPECT_NE(mesh.notes[0].find("3 points were joined"), std::string::npos) << mesh.notes[0];
     EXPECT_NE(mesh.notes[0].find("coordinates"), std::string::npos);
   }
+}
+
+// As whoever appends the points of one piece to those of the other would number them: of those that
+// were joined by the first one.
+TEST_F(Pvtu, PointsAreNamedAsThePiecesHaveThem) {
+  VtuTestPiece third = onePiece(1, 6, false);
+  third.points_element[0].reals[1] = 3;
+  writePieces({onePiece(-1, 4, false), onePiece(1, 5, false), third});
+  EXPECT_EQ(read().cells, (std::vector<int64_t>{0, 1, 2, 3, 0, 1, 2, 4, 5, 1, 2, 4}));
+  EXPECT_EQ(origins(), (std::vector<int64_t>{0, 1, 2, 3, 7, 8}));
 }
 
 TEST_F(Pvtu, BelievesGlobalIdsMoreThanCoordinates) {

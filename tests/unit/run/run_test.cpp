@@ -254,6 +254,24 @@ TEST(Inspect, TellsTheSameOfAStreamAndOfTheMeshItCameFrom) {
   EXPECT_EQ(a.box_min.size(), 5u);
 }
 
+// Fields are measured then, unless there are too many components: a user has to name some of them.
+TEST(Inspect, TellsTheWindowThatASimplificationTakes) {
+  TestMesh mesh = fullGrid(8, 8, 60, 0.1);
+  addPositionField(mesh, {"velocity", 3, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return std::sin(x + y) + 0.1 * z; });
+  RunOptions options;
+  options.simplify.memory_bytes = 2 << 20;
+  Input first = indexed(mesh);
+  const int64_t told = inspect(first, options, {}).window_cells;
+  EXPECT_EQ(told, pulled(indexed(mesh), options).report.window_cells);
+  EXPECT_LT(told, static_cast<int64_t>(mesh.cellCount()));
+  for (const char name : std::string("abcdefghijklmno"))
+    addPositionField(mesh, {std::string(1, name), 9, ScalarType::kFloat32},
+                     [](double x, double, double z) { return x * z; });
+  Input second = indexed(mesh);
+  EXPECT_LT(inspect(second, options, {}).window_cells, told);
+}
+
 // Unless it is told already: a name that is a word of the sentence is not.
 TEST(ReadNamed, TellsWhichFileIsWrong) {
   const auto sentence = [](const std::string& name, const char* text) {

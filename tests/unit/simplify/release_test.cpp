@@ -51,7 +51,7 @@ Written halfWritten(ReleaseOrder order) {
   out.begin(w.plan.schema);
   Release<double> release(w.core, out, w.account);
   const auto half = static_cast<uint32_t>(left.size() / 2);
-  release.write(half);
+  release.write({half});
   release.flush();
   EXPECT_EQ(out.problem, "");
   EXPECT_EQ(release.cellsWritten(), left.size() - half);

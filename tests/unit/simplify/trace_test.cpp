@@ -284,13 +284,12 @@ TEST(Traces, AreTheSameHoweverTheStreamIsCut) {
   EXPECT_EQ(whole.traces.errors, pieces.traces.errors);
 }
 
-// The values of the log are those of the output: of every float field, in the schema's order.
-TEST(Traces, LogTheValuesThatTheOutputHas) {
-  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
-  addPositionField(mesh, {"carried", 1, ScalarType::kFloat64},
-                   [](double x, double, double z) { return x - z; });
+// The values of the log are those of the output, of every float field, in the schema's order.
+void expectValuesOfOutput(ScalarType places, ScalarType values) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1, places);
+  addPositionField(mesh, {"carried", 1, values}, [](double x, double, double z) { return x - z; });
   mesh.addIntegerField("label", [](size_t v) { return static_cast<int64_t>(v % 3); });
-  mesh.addField({"measured", 2, ScalarType::kFloat64},
+  mesh.addField({"measured", 2, values},
                 [&](size_t v, int k) { return mesh.position(v, 0) * mesh.position(v, 1) + k; });
   SimplifyOptions options = toRatio(0.4);
   options.fields = {{"measured", 1}};
@@ -309,22 +308,40 @@ TEST(Traces, LogTheValuesThatTheOutputHas) {
     const auto v = at.find({x[0], x[1], x[2]});
     if (!is_last || v == at.end()) continue;
     ++found;
-    const double* values = &t.traces.values[3 * i];
-    EXPECT_EQ(values[0], out.field(0, v->second));
-    EXPECT_EQ(values[1], out.field(2, v->second, 0));
-    EXPECT_EQ(values[2], out.field(2, v->second, 1));
+    const double* logged = &t.traces.values[3 * i];
+    EXPECT_EQ(logged[0], out.field(0, v->second));
+    EXPECT_EQ(logged[1], out.field(2, v->second, 0));
+    EXPECT_EQ(logged[2], out.field(2, v->second, 1));
   }
   EXPECT_GT(found, 20u);
+}
+
+TEST(Traces, LogTheValuesThatTheOutputHas) {
+  for (ScalarType places : {k32, k64})
+    for (ScalarType values : {k32, k64}) expectValuesOfOutput(places, values);
+}
+
+// A map takes memory that is there, and no cells leave early for it.
+TEST(Traces, ChangeNothingWhereMemoryIsAmple) {
+  const TestMesh mesh = withField(fullGrid(8, 8, slowRun() ? 20 : 60, 0.1));
+  for (Mode mode : kModes) {
+    SimplifyOptions options = toRatio(0.02, 2000, mode);
+    options.memory_bytes = 1 << 30;
+    const Traced t = traced(mesh, options);
+    expectMap(mesh, t);
+    expectReached(t.result);
+    EXPECT_TRUE(simplified(mesh, options).out.allBytes() == t.result.out.allBytes());
+  }
 }
 
 TEST(Traces, KeepToTheMemoryBudget) {
   const TestMesh mesh = withField(fullGrid(12, 12, 60, 0.1));
   Cut cut;
   cut.say_front = true;
-  for (double ratio : {0.3, 0.03}) {
+  for (const auto& [ratio, megabytes] : {std::pair{0.3, 3}, {0.03, 3}, {0.03, 4}, {0.03, 6}}) {
     if (slowRun() && ratio == 0.3) continue;
     SimplifyOptions options = toRatio(ratio);
-    options.memory_bytes = 3 << 20;
+    options.memory_bytes = megabytes << 20;
     const Traced t = traced(mesh, options, cut);
     expectMap(mesh, t);
     EXPECT_EQ(t.result.out.problem, "");
