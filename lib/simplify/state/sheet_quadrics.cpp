@@ -7,13 +7,10 @@
 namespace tetstream {
 
 // Of a boundary face, where fields are measured: they would pay with the shape of interfaces, at
-// which they have their kinks. Without fields there is only the boundary to pay for interfaces. With
-// 50 the boundary would pay, too: a head of six tissues had 1.4 times the RMS error at 0.1 and 1.16
-// times the distance of the skin, for 0.88 times that of the interfaces; with 6 it is the other way
-// round, and interfaces are farther off than the boundary.
+// which they have their kinks. Without fields there is only the boundary to pay for interfaces.
 // Sheets inside a region, antennas or cracks, are small beside the cells far from them, with whose
 // shapes they would pay: of a ring in a box 3000 times as wide as it is the distance is a fifth.
-constexpr double kInterfaceShare = 16;
+constexpr double kInterfaceShare = 50;
 
 template <class S>
 static double weightOf(const Core<S>& core, SheetFace kind) {
