@@ -24,13 +24,17 @@ constexpr double kAgain = 0.8;
 // leave unused serves the others. By half of it some streams of a few windows end before they have
 // come near.
 constexpr double kFirstError = 0.5, kLargestRise = 2.5;
+// Of what is allowed: windows that made less squared error say nothing of the next one, as where a
+// field has been zero, or next to it beside what comes.
+constexpr double kUnspent = 0.01;
 // Share of a correction that is made at once, and the largest step.
 constexpr double kDamping = 0.7, kLargestChange = 4;
 
 // A bound is approached in so many passes for reductions stronger than this, where it takes 10 % of
 // the RMS error and 5 % more time, and changes little at 0.1, for which it takes effort; for all
-// where a pilot tells the final bound: swept up to that in one go, each tile for itself, a window of
-// nine cylinders in a cube had 1.7 times the error at 0.3 and could not be brought to its target.
+// where a pilot tells the final bound: swept up to that in one go, each tile for itself, a window
+// of nine cylinders in a cube had 1.7 times the error at 0.3 and could not be brought to its
+// target.
 constexpr int kApproaches = 4;
 constexpr double kStrong = 12, kStrongWithEffort = 4;
 // And where nobody knows what is to come, since a window may be far simpler than the one before:
@@ -106,7 +110,13 @@ double CommonBound::nextBound(const Ledger& ledger) const {
   const double for_cells = boundForCells(ledger);
   if (!(target_.error > 0)) return for_cells;
   const double change = std::pow(error_room_, 7.0 / 4);
-  return std::min(for_cells, bound_ * std::min(change, kLargestRise));
+  const double risen = bound_ * std::min(change, kLargestRise);
+  return target_.countsCells() ? std::min(for_cells, risen) : risen;
+}
+
+bool CommonBound::knowsBound(const Ledger& ledger) const {
+  const bool is_by_error = target_.error > 0 && !target_.countsCells();
+  return bound_ > 0 && !(is_by_error && ledger.error < kUnspent * ledger.error_limit);
 }
 
 // So many that the target stays in reach even if all that is to come is written as it is; where
@@ -175,7 +185,7 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
   // An error bound is not passed to make room: what comes first would use it up.
   if (target_.error > 0) goal.most_error = 0;
   if (spreads(ledger)) spread(due, ledger, goal);
-  if (bound_ > 0) {
+  if (knowsBound(ledger)) {
     goal.first_bound = nextBound(ledger);
     if (forced_) goal.first_bound = std::max(goal.first_bound, kAgain * bound_);
   } else if (pilot_.bound > 0) {

@@ -96,6 +96,7 @@ class CommonBound final : public Budget {
   double shareOf(double seen, const Ledger& ledger) const;
   double boundForCells(const Ledger& ledger) const;
   double nextBound(const Ledger& ledger) const;
+  bool knowsBound(const Ledger& ledger) const;
   int64_t leastOf(const Ledger& ledger) const;
   bool spreads(const Ledger& ledger) const;
   void approach(const Ledger& ledger, Goal& goal) const;

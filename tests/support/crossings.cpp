@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "exact_reference.h"
+#include "vector3.h"
 
 namespace tetstream::test {
 namespace {
@@ -76,7 +78,38 @@ bool cross(const Triangle& a, const Triangle& b) {
   return false;
 }
 
+// From the edge to the face's third corner, upright on the edge.
+void acrossEdge(const Triangle& t, const Triangle& other, double out[3]) {
+  size_t apex = 0;
+  while (holds(other, t.corner[apex])) ++apex;
+  const double *a = t.at[(apex + 1) % 3], *b = t.at[(apex + 2) % 3];
+  double edge[3], side[3];
+  subtract(b, a, edge);
+  subtract(t.at[apex], a, side);
+  const double along = dot(side, edge) / dot(edge, edge);
+  for (int i = 0; i < 3; ++i) out[i] = side[i] - along * edge[i];
+}
+
+bool isFolded(const Triangle& a, const Triangle& b) {
+  double p[3], q[3];
+  acrossEdge(a, b, p);
+  acrossEdge(b, a, q);
+  return dot(p, q) > std::cos(std::acos(-1) / 180) * std::sqrt(dot(p, p) * dot(q, q));
+}
+
 }  // namespace
+
+int64_t foldedEdges(const TestMesh& mesh) {
+  const std::vector<Triangle> all = boundaryOf(mesh);
+  std::map<std::pair<int64_t, int64_t>, const Triangle*> first;
+  int64_t folded = 0;
+  for (const Triangle& t : all)
+    for (size_t k = 0; k < 3; ++k) {
+      const auto [it, is_new] = first.emplace(std::minmax(t.corner[k], t.corner[(k + 1) % 3]), &t);
+      folded += !is_new && isFolded(t, *it->second);
+    }
+  return folded;
+}
 
 int64_t crossingPairs(const TestMesh& mesh) {
   const std::vector<Triangle> all = boundaryOf(mesh);

@@ -65,6 +65,51 @@ TEST(BodyVolume, IsNearlyKeptBesideARidge) {
   }
 }
 
+// A round body, and round ones of 48 cells beside it, in a row.
+TestMesh largeAndSmall(int small) {
+  TestMesh all = rounded(12, 0.5);
+  for (int k = 1; k <= small; ++k) {
+    const TestMesh one = rounded(2, 0.5, 0.2);
+    std::vector<double> positions;
+    const auto vertices = static_cast<int64_t>(all.vertexCount());
+    for (const TestMesh* mesh : {&std::as_const(all), &one})
+      for (size_t v = 0; v < mesh->vertexCount(); ++v)
+        for (int i = 0; i < 3; ++i)
+          positions.push_back(mesh->position(v, i) + (mesh == &one && i == 0 ? 2.5 + k : 0));
+    std::vector<int64_t> cells = all.cells;
+    for (const int64_t v : one.cells) cells.push_back(v + vertices);
+    all = makeMesh(k64, positions, cells);
+  }
+  addPositionField(all, {"f", 1, k64},
+                   [](double x, double y, double z) { return std::sin(2 * x) + y * z; });
+  return all;
+}
+
+// Of each body, by where it lies.
+std::vector<double> volumesOf(const TestMesh& mesh, size_t bodies) {
+  std::vector<double> volumes(bodies, 0);
+  for (size_t c = 0; c < mesh.cellCount(); ++c) {
+    const double x = mesh.position(static_cast<size_t>(mesh.cells[4 * c]), 0);
+    volumes[static_cast<size_t>(std::max(std::floor(x - 1.999), 0.0))] += cellVolume(mesh, c);
+  }
+  return volumes;
+}
+
+// Where the step that keeps its volume is long, and the volume small beside all of it: no body is
+// given up for one that is larger.
+TEST(BodyVolume, IsKeptOfEachOfSeveral) {
+  constexpr size_t kSmall = 6;
+  const TestMesh mesh = largeAndSmall(kSmall);
+  const std::vector<double> before = volumesOf(mesh, kSmall + 1);
+  for (const double ratio : {0.06, 0.04, 0.03}) {
+    const Result result = simplified(mesh, toRatio(ratio));
+    expectSound(mesh, result);
+    const std::vector<double> after = volumesOf(result.out.mesh, kSmall + 1);
+    for (size_t k = 0; k < before.size(); ++k)
+      EXPECT_NEAR(after[k], before[k], 1e-3 * before[k]) << k << " " << ratio;
+  }
+}
+
 // As Vo et al. 2007 have it a body that is round shrinks.
 TEST(BodyVolume, IsNotForThePaper) {
   SimplifyOptions paper = toRatio(0.1);

@@ -197,6 +197,33 @@ TEST(SimplifierErrorBound, IsSpentOnFewerCellsTheLargerItIs) {
 }
 
 // Whoever bounds the error has missed no number of cells, whatever stops the run.
+// A long box with all of its detail in the middle.
+TestMesh quietAtItsEnds() {
+  const int n = slowRun() ? 4 : 10;
+  TestMesh mesh = fullGrid(n, n, 8 * n, 0.1);
+  addPositionField(mesh, {"f", 1, k32}, [n](double x, double y, double z) {
+    const double far = (z / n - 4) / 0.6;
+    return std::sin(9 * x / n) * std::cos(7 * y / n) * std::exp(-far * far);
+  });
+  return mesh;
+}
+
+// Windows of any size leave about as many cells as the whole mesh in one: neither the quiet ones
+// before use up what is allowed, nor the first tiles of one. That left up to seven times as many.
+TEST(SimplifierErrorBound, IsSpentAlikeThroughWindowsOfAnySize) {
+  const TestMesh mesh = quietAtItsEnds();
+  const auto all = static_cast<double>(mesh.cellCount());
+  for (const double error : {1.0, 3.0}) {
+    const auto whole = static_cast<double>(simplified(mesh, toError(error)).report.cells_out);
+    for (const double part : {0.1, 0.2, 0.3, 0.45, 0.6}) {
+      const Result result = simplified(mesh, toError(error, static_cast<int64_t>(part * all)));
+      EXPECT_LT(static_cast<double>(result.report.cells_out), (slowRun() ? 2 : 1.4) * whole)
+          << part << " " << error;
+      EXPECT_LE(result.report.estimated_error, error);
+    }
+  }
+}
+
 TEST(SimplifierErrorBound, AloneIsNeverMissed) {
   std::vector<TestMesh> meshes = {wavyMesh(k64), withConstant(boxOf(k32)), withConstant(oneCell()),
                                   withConstant(apart(2))};

@@ -206,6 +206,51 @@ TestMesh grains(int n, int count) {
   return mesh;
 }
 
+// Three sectors of a cylinder, that meet in a curve, in a cube.
+TestMesh columnsOf(int n) {
+  TestMesh mesh = gridWithWaves(n);
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    const Place p = centreOf(mesh, c);
+    const double x = p[0] - 0.5 * n, y = p[1] - 0.5 * n;
+    return x * x + y * y > 0.12 * n * n ? int64_t{0} : int64_t{x + 0.3 * y > 0} + 1;
+  });
+  return mesh;
+}
+
+// A ball in a cube.
+TestMesh inclusion(int n) {
+  TestMesh mesh = gridWithWaves(n);
+  mesh.addIntegerCellData("material", [&](size_t c) {
+    double square = 0;
+    for (const double x : centreOf(mesh, c)) square += (x - 0.5 * n) * (x - 0.5 * n);
+    return int64_t{square < 0.09 * n * n};
+  });
+  return mesh;
+}
+
+// Between their sheets cells become thin before they are few, which has a price, and flips come
+// between the passes; of the same cells without regions that is not worth its time.
+TEST(SimplifierRegions, HaveAPriceOnThinCells) {
+  const TestMesh mesh = inclusion(slowRun() ? 12 : 16);
+  SimplifyOptions options = toRatio(0.05);
+  EXPECT_GT(simplified(mesh, options).report.flips, 0);
+  options.regions = "none";
+  EXPECT_EQ(simplified(mesh, options).report.flips, 0);
+}
+
+// Who wants no ridge has none, and curves where regions meet as without an angle.
+TEST(SimplifierRegions, KeepTheirVolumesWhereNoRidgeIsWanted) {
+  const TestMesh mesh = columnsOf(16);
+  SimplifyOptions options = toRatio(0.05);
+  options.feature_angle = 180;
+  const Result result = simplified(mesh, options);
+  expectSound(mesh, result);
+  for (int64_t label = 0; label < 3; ++label) {
+    const double before = regionVolume(mesh, label);
+    EXPECT_NEAR(regionVolume(result.out.mesh, label), before, 1e-4 * before) << label;
+  }
+}
+
 // How far the farthest corner of the grid is from what is left.
 double cornersLost(const TestMesh& mesh, int n) {
   double farthest = 0;

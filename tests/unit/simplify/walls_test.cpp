@@ -111,14 +111,19 @@ TEST(Walls, AreReducedToABoundOnTheErrorThatIsFar) {
   EXPECT_LT(by_error.report.cells_out, 250);  // with the floor 491
 }
 
-// What is not reached changes little.
+// What is not reached changes little: of one target by chance up to a tenth, of several less.
 TEST(Walls, LoseNothingToABoundBesideATarget) {
   const TestMesh mesh = films();
-  const Result alone = simplified(mesh, toCells(0.05, 0)),
-               both = simplified(mesh, toCells(0.05, 30));
-  expectReached(both);
-  EXPECT_EQ(both.report.reached, "ratio");
-  EXPECT_LT(fieldErrors(mesh, both.out.mesh)[0], 1.05 * fieldErrors(mesh, alone.out.mesh)[0]);
+  double error_alone = 0, error_both = 0;
+  for (const double ratio : {0.05, 0.06, 0.07, 0.08}) {
+    const Result alone = simplified(mesh, toCells(ratio, 0)),
+                 both = simplified(mesh, toCells(ratio, 30));
+    expectReached(both);
+    EXPECT_EQ(both.report.reached, "ratio");
+    error_alone += fieldErrors(mesh, alone.out.mesh)[0];
+    error_both += fieldErrors(mesh, both.out.mesh)[0];
+  }
+  EXPECT_LT(error_both, 1.05 * error_alone);
 }
 
 }  // namespace
