@@ -51,7 +51,7 @@ TEST(Crossing, DoesNotComeInAnyUnit) {
 
 // Struts three cubes thick that cross each other. Where a vertex of a bend goes into the strut that
 // it leads to, a side of that is laid on the plane of the other: no cell is turned over, and no
-// volume lost.
+// volume lost. So two edges were folded at both ratios.
 TestMesh struts(int n) {
   TestMesh mesh = cubes(
       n, n, n, [](int x, int y, int z) { return (x % 11 < 3) + (y % 11 < 3) + (z % 11 < 3) >= 2; });
@@ -62,10 +62,10 @@ TestMesh struts(int n) {
 }
 
 TEST(Crossing, LaysNoFaceOnAnother) {
-  const TestMesh mesh = struts(slowRun() ? 14 : 36);
+  const TestMesh mesh = struts(slowRun() ? 14 : 47);
   ASSERT_EQ(foldedEdges(mesh), 0);
-  for (const double ratio : {0.05, 0.04, 0.03, 0.02}) {
-    if (slowRun() && ratio < 0.05) continue;
+  for (const double ratio : {0.04, 0.015}) {
+    if (slowRun() && ratio < 0.04) continue;
     const Result result = simplified(mesh, toRatio(ratio));
     expectSound(mesh, result);
     EXPECT_EQ(foldedEdges(result.out.mesh), 0) << ratio;
