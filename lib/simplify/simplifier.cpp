@@ -30,6 +30,8 @@ Target targetOf(const Schema& schema, const SimplifyOptions& options) {
   const char* const mode = options.mode == Mode::kQueue ? "queue" : "paper";
   if (target.error > 0 && followsPaper(options.mode))
     fail(Status::kUnsupported, "mode \"%s\" knows no bound on the error", mode);
+  if (target.error > 0 && options.quadric == QuadricForm::kGarlandZhou)
+    fail(Status::kUnsupported, "quadric \"garland-zhou\" knows no bound on the error");
   if (options.shape == Shape::kSolver && followsPaper(options.mode))
     fail(Status::kUnsupported, "mode \"%s\" knows no shapes for solvers", mode);
   if (options.effort == Effort::kHigh && followsPaper(options.mode))
@@ -360,7 +362,7 @@ class WindowedEngine final : public Simplifier::Engine {
     r.rejected_other = t.rejected_other;
     r.largest_error = t.largest_error;
     r.estimated_error =
-        plan_.measures() ? percentOf(core_, t.error) : std::numeric_limits<double>::quiet_NaN();
+        plan_.tellsErrors() ? percentOf(core_, t.error) : std::numeric_limits<double>::quiet_NaN();
     r.cells_in = static_cast<int64_t>(intake_.cellsRead());
     r.vertices_in = static_cast<int64_t>(core_.front.introduced());
     r.cells_out = static_cast<int64_t>(release_.cellsWritten());

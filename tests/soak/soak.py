@@ -84,7 +84,8 @@ class Case:
             perhaps(0.3, *(["--field", name + weight] for name in fields
                            for weight in ("", ":0.1", ":100")))
         perhaps(0.5, *(["--window", str(n)] for n in (64, 100, 300, 1000, 5000)))
-        perhaps(0.2, ["--quadric", "garland-zhou"])
+        if "--error" not in words:
+            perhaps(0.2, ["--quadric", "garland-zhou"])
         if "--mode" not in words:
             perhaps(0.2, ["--shape", "solver"])
             perhaps(0.2, ["--balance", "none"])

@@ -25,6 +25,8 @@ struct Plan {
   bool double_window = false;  // something is float64, or its values are much larger than its range
   int dimension = 3;           // 3 + measured components: the quadric's
   bool measures() const { return dimension > 3; }
+  // Whether quadrics are in the fields' units.
+  bool tellsErrors() const { return measures() && layout == QuadricLayout::kFields; }
   QuadricLayout layout = QuadricLayout::kFields;
   int values = 3;  // 3 + measured + carried components
   int picks = 0;

@@ -377,5 +377,17 @@ TEST(SimplifierTargets, OfTheErrorAreForTheSweepOnly) {
   }
 }
 
+// Distances to hyperplanes are no errors of fields: none is told of them.
+TEST(SimplifierTargets, OfTheErrorAreNotForGarlandZhou) {
+  const TestMesh mesh = wavyMesh(k32);
+  SimplifyOptions options = toRatio(0.5);
+  options.quadric = QuadricForm::kGarlandZhou;
+  EXPECT_TRUE(std::isnan(simplified(mesh, options).report.estimated_error));
+  options.error = 1;
+  const auto [status, text] = thrownBy([&] { simplified(mesh, options); });
+  EXPECT_EQ(status, Status::kUnsupported);
+  EXPECT_NE(text.find("garland-zhou"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace tetstream::test
