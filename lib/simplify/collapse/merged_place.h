@@ -39,8 +39,7 @@ class MergedPlace {
   // Whether a region of the stars is larger there than before, or smaller, or the body.
   bool changesVolumes(const Stars& stars, const CellLabels& labels);
   // By as much as it takes, to where no region of the stars grows or shrinks, or side of a sheet,
-  // or the body; returns the error there. Where that is too far the body changes, but of regions
-  // nothing may: infinity.
+  // or the body; returns the error there. Where that is too far: infinity, but for sides.
   S keepVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
 
   // Carried fields take the value that the old cells have there.
