@@ -150,9 +150,10 @@ void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
   }
   if (is_tight_) return;
   const double strong = effort_ == Effort::kHigh ? kStrongWithEffort : kStrong;
-  const bool is_strong = pilot_.bound > 0 || total(ledger) > strong * wanted(ledger);
+  const bool is_strong = total(ledger) > strong * wanted(ledger);
   const bool is_blind = !pilot_.known() && spreads(ledger);
-  if (!is_blind && !is_strong) return;
+  const bool is_final = pilot_.bound > 0;
+  if (!is_blind && !is_final && !is_strong) return;
   const bool is_long = !pilot_.known() && !ledger.flips;
   goal.approaches = kApproaches;
   if (!is_long) return;

@@ -45,11 +45,15 @@ std::string missInWords(const Core<S>& core) {
             " are kept, unless there are to be no regions (option regions, --regions none)";
   const std::string kept = keptInWords(core.locked);
   if (!kept.empty()) text += "; kept as they are: " + kept;
-  return text + textOf(
-                    "; refused: %lld collapses that would turn a cell over or flatten it, %lld "
-                    "that would change the topology or push the boundary through itself",
-                    static_cast<long long>(report.rejected_orientation),
-                    static_cast<long long>(report.rejected_link));
+  text += textOf(
+      "; refused: %lld collapses that would turn a cell over or flatten it, %lld that would change "
+      "the topology or push the boundary through itself",
+      static_cast<long long>(report.rejected_orientation),
+      static_cast<long long>(report.rejected_link));
+  if (core.tally.rejected_volume > 0)
+    text += textOf(", %lld that could not keep the volume",
+                   static_cast<long long>(core.tally.rejected_volume));
+  return text;
 }
 
 template std::string missInWords(const Core<float>& core);

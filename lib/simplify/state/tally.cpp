@@ -22,6 +22,10 @@ void Tally::count(Outcome outcome) {
       break;
     case Outcome::kTooLarge:
       ++rejected_large;
+      ++rejected_other;
+      break;
+    case Outcome::kVolume:
+      ++rejected_volume;
       [[fallthrough]];
     case Outcome::kTooMany:
     case Outcome::kTooFar:
@@ -41,6 +45,7 @@ void Tally::add(const Tally& part) {
   rejected_other += part.rejected_other;
   rejected_thin += part.rejected_thin;
   rejected_large += part.rejected_large;
+  rejected_volume += part.rejected_volume;
   error += part.error;
   largest_error = std::max(largest_error, part.largest_error);
   error_reached |= part.error_reached;

@@ -7,12 +7,14 @@
 namespace tetstream {
 
 // kOrientation: a cell would be turned over, or flat; kThin: more cells would be thin; kCrossing:
-// the boundary would pass through itself where it does not; kTooLarge: the error, for the target.
+// the boundary would pass through itself where it does not; kVolume: no place that is near keeps
+// the volumes; kTooLarge: the error, for the target.
 enum class Outcome {
   kDone,
   kLocked,
   kTooMany,
   kTooFar,
+  kVolume,
   kTooLarge,
   kTopology,
   kCrossing,
@@ -33,10 +35,10 @@ inline bool mayFitElsewhere(Outcome outcome) {
 struct Tally {
   int64_t collapses = 0, flips = 0;
   int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
-  int64_t rejected_thin = 0;   // of those for orientation
-  int64_t rejected_large = 0;  // of the others
-  double error = 0;            // made: volume times squared error, normalised
-  double largest_error = 0;    // in the report's unit
+  int64_t rejected_thin = 0;                        // of those for orientation
+  int64_t rejected_large = 0, rejected_volume = 0;  // of the others
+  double error = 0;                                 // made: volume times squared error, normalised
+  double largest_error = 0;                         // in the report's unit
   bool error_reached = false;  // a collapse was refused for the limit on the error
 
   int64_t rejected() const {

@@ -110,6 +110,17 @@ TEST(BodyVolume, IsKeptOfEachOfSeveral) {
   }
 }
 
+// Walls one cube thick have nowhere to give: rather than the volume the target is missed.
+TEST(BodyVolume, IsWorthMoreThanATarget) {
+  TestMesh mesh = shellGrid(slowRun() ? 6 : 10);
+  addPositionField(mesh, {"f", 1, k64}, [](double x, double y, double z) { return x * y + z; });
+  const Result result = simplified(mesh, toRatio(0.005));
+  expectSound(mesh, result);
+  EXPECT_NEAR(result.report.volume_out, result.report.volume_in, 1e-4 * result.report.volume_in);
+  const std::string& why = result.report.limited_by;
+  EXPECT_NE(why.find("that could not keep the volume"), std::string::npos) << why;
+}
+
 // As Vo et al. 2007 have it a body that is round shrinks.
 TEST(BodyVolume, IsNotForThePaper) {
   SimplifyOptions paper = toRatio(0.1);

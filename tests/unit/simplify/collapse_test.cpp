@@ -139,7 +139,7 @@ TEST(Exhaustive, TriesOtherPlacesWhereTheBestMakesCellsThin) {
   EXPECT_TRUE(mayFitElsewhere(Outcome::kThin));
   EXPECT_TRUE(mayFitElsewhere(Outcome::kNotFinite));
   for (Outcome outcome : {Outcome::kDone, Outcome::kLocked, Outcome::kTooMany, Outcome::kTooFar,
-                          Outcome::kTopology, Outcome::kDear})
+                          Outcome::kVolume, Outcome::kTopology, Outcome::kDear})
     EXPECT_FALSE(mayFitElsewhere(outcome));
 }
 

@@ -196,7 +196,6 @@ TEST(SimplifierErrorBound, IsSpentOnFewerCellsTheLargerItIs) {
   }
 }
 
-// Whoever bounds the error has missed no number of cells, whatever stops the run.
 // A long box with all of its detail in the middle.
 TestMesh quietAtItsEnds() {
   const int n = slowRun() ? 4 : 10;
@@ -224,6 +223,7 @@ TEST(SimplifierErrorBound, IsSpentAlikeThroughWindowsOfAnySize) {
   }
 }
 
+// Whoever bounds the error has missed no number of cells, whatever stops the run.
 TEST(SimplifierErrorBound, AloneIsNeverMissed) {
   std::vector<TestMesh> meshes = {wavyMesh(k64), withConstant(boxOf(k32)), withConstant(oneCell()),
                                   withConstant(apart(2))};

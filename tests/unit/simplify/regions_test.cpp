@@ -206,8 +206,8 @@ TestMesh grains(int n, int count) {
   return mesh;
 }
 
-// Three sectors of a cylinder, that meet in a curve, in a cube.
-TestMesh columnsOf(int n) {
+// A cylinder of two halves in a cube, with two curves where all three meet.
+TestMesh halvedCylinder(int n) {
   TestMesh mesh = gridWithWaves(n);
   mesh.addIntegerCellData("material", [&](size_t c) {
     const Place p = centreOf(mesh, c);
@@ -240,7 +240,7 @@ TEST(SimplifierRegions, HaveAPriceOnThinCells) {
 
 // Who wants no ridge has none, and curves where regions meet as without an angle.
 TEST(SimplifierRegions, KeepTheirVolumesWhereNoRidgeIsWanted) {
-  const TestMesh mesh = columnsOf(16);
+  const TestMesh mesh = halvedCylinder(16);
   SimplifyOptions options = toRatio(0.05);
   options.feature_angle = 180;
   const Result result = simplified(mesh, options);
