@@ -1,7 +1,7 @@
 ## Files: the same bytes as the command's, and what is said about them.
 folder = tempname ();
 mkdir (folder);
-cleaner = onCleanup (@() confirm_recursive_rmdir (false) || rmdir (folder, "s"));
+cleaner = onCleanup (@() {confirm_recursive_rmdir(false), rmdir(folder, "s")});
 at = @(name) fullfile (folder, name);
 bracket = fullfile (getenv ("TETSTREAM_SOURCE"), "tests", "data", "bracket", "bracket.vtu");
 

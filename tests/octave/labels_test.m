@@ -9,7 +9,7 @@ mesh = struct ("points", points, "cells", cells, "fields", struct ("f", field), 
                "face_labels", 7 * ones (rows (bottom), 1), "label_names", names);
 folder = tempname ();
 mkdir (folder);
-cleaner = onCleanup (@() confirm_recursive_rmdir (false) || rmdir (folder, "s"));
+cleaner = onCleanup (@() {confirm_recursive_rmdir(false), rmdir(folder, "s")});
 at = @(name) fullfile (folder, name);
 
 ## From file to file, on the way simplified.
