@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "dear_angles.h"
 #include "field_weights.h"
 #include "orient.h"
 #include "pilot.h"
 #include "settled.h"
-#include "thinness.h"
 
 namespace tetstream {
 
@@ -23,13 +23,9 @@ constexpr double kShareBelow = 0.01;
 // alike, nearly every edge would be refused for it. No more than this share may be below so many
 // floors; where shapes come first the floor is what was asked for.
 constexpr double kShareNear = 0.05, kNearFloor = 3;
-// Where shapes come first, cells are flipped whose smallest angle is below this many floors, or
-// below the first dear angle, where the input made the floor a low one. At 2 it takes twice the
-// time.
-constexpr double kPoor = 1.5;
 // Where the input has more than this share of cells below one of these, making the share larger has
-// its price. Other meshes are spared the time, unless effort is asked for or walls are thin: then
-// the first counts.
+// its price. Other meshes are spared the time, unless effort is asked for or walls are thin, until
+// few cells are left: then the first counts.
 constexpr double kDear[] = {10, 1.01};
 constexpr double kShareToSpare = 0.002;
 // Where more than this share is below the first of them, flips that bring some above leave as many
@@ -347,18 +343,18 @@ void Metric<S>::chooseAngles(uint32_t first, uint32_t end) {
   size_t i = 0;
   while (i + 1 < floors_.size() && isTooHigh(i)) ++i;
   core_.thin = floors_[i];
-  core_.dear.clear();
+  std::vector<ThinAngle> dear;
+  core_.dear_when_few.clear();
   for (size_t k = 0; k < dear_.size(); ++k) {
-    const bool is_above = dear_[k].cos2 < core_.thin.cos2;
+    if (!(dear_[k].cos2 < core_.thin.cos2)) continue;  // not above
     const auto below = static_cast<double>(below_dear_[k]);
     const bool is_wanted = k == 0 && (core_.options.effort == Effort::kHigh || isWall());
-    if (is_above && (is_wanted || below > kShareToSpare * all)) core_.dear.push_back(dear_[k]);
+    if (is_wanted || below > kShareToSpare * all)
+      dear.push_back(dear_[k]);
+    else if (k == 0 && core_.options.shape == Shape::kField && core_.options.memory_bytes == 0)
+      core_.dear_when_few.push_back(dear_[k]);
   }
-  double poor = kPoor * core_.thin.degrees;
-  if (!core_.dear.empty())
-    poor = core_.shapesFirst() ? std::max(poor, core_.dear.front().degrees)
-                               : core_.dear.back().degrees;
-  core_.poor = thinnessOfAngle(std::min(poor, 90.0));
+  setDear(core_, std::move(dear));
 }
 
 // Before anything is measured, of several fields, where the window has enough of the mesh to tell.

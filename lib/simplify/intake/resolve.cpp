@@ -395,13 +395,12 @@ constexpr double kLeastFieldError = 1e-5;
 // at, which may be as large as the window; those of interfaces will be anyway.
 template <class S>
 void Resolver<S>::balance(const uint32_t* vertices, size_t count) {
-  const auto isFew = [](const Sampled& group) {
-    return static_cast<double>(group.of) < kLeastVertices;
-  };
-  const bool is_enough = !isFew(sampled_[2]) && !(isFew(sampled_[0]) && isFew(sampled_[1]));
+  const auto on_sheets = static_cast<double>(std::max(sampled_[0].of, sampled_[1].of));
+  const bool is_enough = on_sheets >= kLeastVertices;
   if (!is_enough && sampled_[1].of < kLeastPairs) return;
   BalanceSample<S> sample(core_);
   RemovalCosts& costs = sample.costs();
+  costs.is_whole = core_.holdsAll();
   costs.outer.vertices = static_cast<double>(sampled_[0].of);
   costs.interfaces.vertices = static_cast<double>(sampled_[1].of);
   costs.inside.vertices = static_cast<double>(sampled_[2].of);

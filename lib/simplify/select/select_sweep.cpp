@@ -5,6 +5,7 @@
 #include <optional>
 #include <thread>
 
+#include "dear_angles.h"
 #include "patch_sweep.h"
 #include "reshape.h"
 #include "select.h"
@@ -156,6 +157,8 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
     constexpr float kAll = std::numeric_limits<float>::infinity();
     tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll, layout());
     if (!(bound > 0)) bound = firstBound();
+    if (makeDearWhereFewAreLeft(core_))
+      for (auto& lane : lanes_) begin(*lane);
     const int64_t before = core_.window.liveCells();
     const Tally so_far = core_.tally;
     bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();

@@ -63,13 +63,15 @@ struct RemovalCosts {
     double square = 0, product = 0;
   };
   Jitter jitter;
+  bool is_whole = false;   // nothing of the mesh is to come
   double touching = 0;     // of the boundary's vertices, that with another one at its place
   double least_field = 0;  // error of the fields, of all, that counts as none
 };
 
 // Chooses what is not known of sheets, where they and the inside have enough vertices and samples,
 // for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
-// vertices too many are edges and corners, and where none is inside nothing starves.
+// vertices too many are edges and corners. Where next to none is inside nothing starves: in walls
+// of one cell, as far as a whole mesh tells, the boundary counts less where it drowns the field.
 constexpr double kLeastVertices = 256;
 constexpr size_t kLeastPairs = 32;  // tell whether interfaces are rough
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);

@@ -249,12 +249,13 @@ struct Core {
   double shape_weight;                  // of a cell's regulariser (kernels.h)
   double face_weight = 0;               // of a face on the boundary, before it is balanced
   Balance balance;
-  double balance_ratio = 0;     // that it is chosen for; 0: it is not
-  bool weighs_fields = false;   // against each other
-  ThinAngle thin;               // no more cells below than the input has
-  double poor = 1;              // cells thinner than this are worth a flip (thinness.h)
-  std::vector<ThinAngle> dear;  // falling, above: more cells below have their price
-  bool is_thin = false;         // the input, in most of its cells
+  double balance_ratio = 0;              // that it is chosen for; 0: it is not
+  bool weighs_fields = false;            // against each other
+  ThinAngle thin;                        // no more cells below than the input has
+  double poor = 1;                       // cells thinner than this are worth a flip (thinness.h)
+  std::vector<ThinAngle> dear;           // falling, above: more cells below have their price
+  std::vector<ThinAngle> dear_when_few;  // instead of none, once few cells are left
+  bool is_thin = false;                  // the input, in most of its cells
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();

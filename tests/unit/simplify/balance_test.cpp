@@ -66,6 +66,23 @@ TEST(Balance, KnowsNothingOfTooFewVertices) {
   EXPECT_FALSE(chosen(costs, 0.1).knows_outer);
 }
 
+// Nothing is inside: down to where what it adds is no more than so many times the field's. What is
+// to come of a stream may have an inside.
+TEST(Balance, LowersTheBoundaryOfAWallWhereItDrownsTheField) {
+  RemovalCosts wall = costsOf({}, 0, {1e-6, 1}, 500);
+  wall.inside.sample.clear();
+  EXPECT_EQ(chosen(wall, 0.1).outer, 1);
+  wall.is_whole = true;
+  EXPECT_EQ(chosen(wall, 0.1).outer, 1.0 / 128);
+  wall.outer = {std::vector<Removal>(64, {1, 64 * 8}), 500};
+  EXPECT_LT(chosen(wall, 0.1).outer, 1);
+  EXPECT_GT(chosen(wall, 0.1).outer, 1.0 / 16);
+  wall.outer = {std::vector<Removal>(64, {1, 60}), 500};
+  EXPECT_EQ(chosen(wall, 0.1).outer, 1);
+  wall.outer = {std::vector<Removal>(64, {1, 0}), 500};
+  EXPECT_EQ(chosen(wall, 0.1).outer, 1);
+}
+
 TEST(Balance, ComesToAnEndWithoutFieldErrors) {
   EXPECT_EQ(chosen(costsOf({0, 0}, 500, {0, 1}, 500), 0.1).outer, 1);
   EXPECT_EQ(chosen(costsOf({0, 0}, 500, {0, 0}, 500), 0.1).outer, 1);
@@ -142,6 +159,23 @@ TestMesh slab(int n, double roughness) {
   return mesh;
 }
 
+// A pipe whose wall is one cube thick.
+TestMesh pipe(int around, int along) {
+  const TestMesh grid = fullGrid(around, along, 1);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v) {
+    const double angle = 5.5 * grid.position(v, 0) / around;
+    const double radius = 10 + grid.position(v, 2);
+    positions.insert(positions.end(),
+                     {radius * std::cos(angle), radius * std::sin(angle), grid.position(v, 1)});
+  }
+  TestMesh mesh = makeMesh(k64, positions, grid.cells);
+  addPositionField(mesh, {"f", 1, k64}, [along](double x, double y, double z) {
+    return std::sin(6 * z / along) + 0.02 * x * y / 10;
+  });
+  return mesh;
+}
+
 SimplifyOptions unbalanced(SimplifyOptions options) {
   options.balance = BalanceUse::kNever;
   return options;
@@ -164,6 +198,18 @@ TEST(SimplifierBalance, FollowsASmoothFieldInARoughBody) {
               (window > 0 ? 0.9 : gain) * fieldErrors(mesh, without.out.mesh)[0]);
     EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(with.out.mesh)), "");
   }
+}
+
+// All of its vertices lie on the boundary, which bends around it, and the field along it.
+TEST(SimplifierBalance, FollowsASmoothFieldInAThinWall) {
+  const TestMesh mesh = pipe(40, 60);
+  const Result with = simplified(mesh, toRatio(0.1));
+  const Result without = simplified(mesh, unbalanced(toRatio(0.1)));
+  expectSound(mesh, with);
+  expectReached(with);
+  EXPECT_NE(with.report.balance.find("the boundary counts 1/"), std::string::npos);
+  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], 0.8 * fieldErrors(mesh, without.out.mesh)[0]);
+  EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(with.out.mesh)), "");
 }
 
 void expectBytesOfUnbalanced(const TestMesh& mesh, const SimplifyOptions& options) {

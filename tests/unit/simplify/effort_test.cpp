@@ -38,6 +38,28 @@ TEST(Effort, LowersTheErrorAndLeavesFewerThinCells) {
   }
 }
 
+// Thin cells have their price from where a tenth of a mesh that is held whole is left, and cells
+// are flipped; not on the way to more, nor where flips need memory that a budget has not planned.
+TEST(Effort, IsMadeWhereFewCellsAreLeft) {
+  const TestMesh mesh = withALayer(slowRun() ? 10 : 16);
+  const Result few = simplified(mesh, with(Effort::kNormal, 0.02));
+  expectSound(mesh, few);
+  expectReached(few);
+  EXPECT_GT(few.report.flips, 0);
+  EXPECT_EQ(simplified(mesh, with(Effort::kNormal, 0.11)).report.flips, 0);
+  SimplifyOptions options = with(Effort::kNormal, 0.02);
+  options.memory_bytes = 64 << 20;
+  const Result within = simplified(mesh, options);
+  EXPECT_EQ(within.report.flips, 0);
+  if (!slowRun()) {
+    EXPECT_LT(fieldErrors(mesh, few.out.mesh)[0], 0.9 * fieldErrors(mesh, within.out.mesh)[0]);
+  }
+  const Tasks tasks(3);
+  SimplifyOptions threads = with(Effort::kNormal, 0.02);
+  threads.tasks = &tasks;
+  EXPECT_TRUE(simplified(mesh, threads).out.allBytes() == few.out.allBytes());
+}
+
 TEST(Effort, GoesWithShapesForSolvers) {
   const TestMesh mesh = withALayer(slowRun() ? 6 : 12);
   SimplifyOptions options = with(Effort::kHigh, 0.1);

@@ -232,7 +232,7 @@ TestMesh inclusion(int n) {
 // between the passes; of the same cells without regions that is not worth its time.
 TEST(SimplifierRegions, HaveAPriceOnThinCells) {
   const TestMesh mesh = inclusion(slowRun() ? 12 : 16);
-  SimplifyOptions options = toRatio(0.05);
+  SimplifyOptions options = toRatio(0.1);
   EXPECT_GT(simplified(mesh, options).report.flips, 0);
   options.regions = "none";
   EXPECT_EQ(simplified(mesh, options).report.flips, 0);
