@@ -125,6 +125,15 @@ class Arrays(unittest.TestCase):
         kept = result.points[result.locked]
         self.assertEqual({tuple(p) for p in kept}, {tuple(p) for p in points[locked]})
 
+    def test_edges_of_locked_points_are_not_tried(self):
+        points, cells, field = box(5)
+        some = numpy.arange(len(points)) % 5 == 0
+        for mode in ("sweep", "paper", "queue"):
+            report = tetstream.simplify(points, cells, {"f": field}, locked=some, ratio=0.05,
+                                        mode=mode).report
+            self.assertGreater(report.collapses, 0)
+            self.assertEqual(report.rejected_locked, 0, mode)
+
     def test_labelled_faces_go_along(self):
         points, cells, field = box(5)
         faces = numpy.array([[p for p in cell if points[p, 2] == 0] for cell in cells
