@@ -174,6 +174,11 @@ class Arrays(unittest.TestCase):
             self.assertEqual(back.shape, shape)
             self.assertTrue(numpy.isnan(back).all())
 
+    def test_an_empty_mesh_may_be_of_empty_lists(self):
+        result = tetstream.simplify([], [], ratio=0.5)
+        self.assertEqual((result.points.shape, result.points.dtype), ((0, 3), numpy.float64))
+        self.assertEqual(result.cells.shape, (0, 4))
+
     def test_no_labelled_faces_may_be_empty_lists(self):
         points, cells, field = box(3)
         plain = tetstream.simplify(points, cells, {"f": field}, ratio=0.5)
