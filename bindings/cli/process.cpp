@@ -5,15 +5,25 @@
 #include <malloc.h>
 #endif
 #include <signal.h>
+#include <time.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 
 #include "failure.h"
 
 namespace tetstream::cli {
 
-static volatile sig_atomic_t g_signals = 0;
+// Signals that come within this time are one: `timeout` sends one to its child and then to the
+// group that the child is in. What a run leaves is cleaned up in less; a person at a keyboard takes
+// more.
+constexpr uint32_t kOneSignalMs = 500;
+
+// When the first signal came; 0: none has.
+static std::atomic<uint32_t> g_first_signal = 0;
+static_assert(decltype(g_first_signal)::is_always_lock_free);  // for a handler
 // Per standard descriptor: one that refuses its direction of transfer and takes its place at a
 // signal; -1: the descriptor stays.
 static volatile sig_atomic_t g_refusing[2] = {-1, -1};
@@ -22,13 +32,22 @@ static int openRefusing(int standard_fd) {
   return ::open("/dev/null", (standard_fd == 0 ? O_WRONLY : O_RDONLY) | O_CLOEXEC);
 }
 
+// Milliseconds, which wrap, but are never 0.
+static uint32_t now() {
+  struct timespec time = {};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);
+  const auto seconds = static_cast<uint32_t>(time.tv_sec);
+  return (1000 * seconds + static_cast<uint32_t>(time.tv_nsec / 1000000)) | 1;
+}
+
 // Only calls that are allowed in handlers. The library restarts a transfer that a signal cut
 // short; on the descriptor put in place here it fails instead.
 extern "C" {
 static void handleSignal(int) {
   const int saved = errno;
-  if (g_signals > 0) ::_exit(kCancelled);
-  g_signals = 1;
+  uint32_t first = 0;
+  const bool is_first = g_first_signal.compare_exchange_strong(first, now());
+  if (!is_first && now() - first > kOneSignalMs) ::_exit(kCancelled);
   for (int fd = 0; fd < 2; ++fd)
     if (g_refusing[fd] >= 0) ::dup2(g_refusing[fd], fd);
   errno = saved;
@@ -57,7 +76,7 @@ void prepareProcess() {
 }
 
 bool interrupted() {
-  return g_signals > 0;
+  return g_first_signal != 0;
 }
 
 void interruptTransfersOf(int standard_fd) {

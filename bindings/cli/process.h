@@ -8,7 +8,8 @@ namespace tetstream::cli {
 // goes back to the system.
 void prepareProcess();
 
-// True after the first such signal; at the second the process ends at once.
+// True after the first such signal; at another one that comes half a second later or more, the
+// process ends at once.
 bool interrupted();
 
 // From here on a signal also makes pending and later transfers on that descriptor fail, so that a

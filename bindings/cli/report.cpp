@@ -31,8 +31,7 @@ static std::string memoryText(const tetstream_report& r) {
 
 static std::string rejectionText(const tetstream_report& r) {
   return countText(r.rejected_orientation) + " orientation, " + countText(r.rejected_link) +
-         " topology, " + countText(r.rejected_locked) + " locked, " + countText(r.rejected_other) +
-         " other";
+         " topology, " + countText(r.rejected_other) + " other";
 }
 
 // Percent of the range: fields with such errors may be of no use, and what is left of the domain

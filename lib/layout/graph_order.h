@@ -15,8 +15,10 @@ void rankByGraph(IndexedSource& source, Order order, Account& account, const Tel
                  Array<uint32_t>& rank);
 
 // The narrower of the spectral order and that of keys from places: front widths, in vertices.
+// Spectral ones are not tried, kUntried, where hardly anything could be gained.
 struct OrderWidths {
-  int64_t spectral, by_place;
+  static constexpr int64_t kUntried = -1;
+  int64_t by_place = 0, spectral = kUntried;
 };
 OrderWidths rankNarrowest(IndexedSource& source, const VertexKey& key, Account& account,
                           const Tell& tell, Array<uint32_t>& rank);

@@ -215,13 +215,14 @@ VertexKey OrderedSource::rankKey() {
 
 VertexKey OrderedSource::narrowestKey(const VertexKey& sweep, const Tell& tell) {
   const OrderWidths widths = rankNarrowest(*source_, sweep, account_, tell, graph_rank_);
-  const bool is_sweep = widths.by_place <= widths.spectral;
-  const std::string swept = chosen_;
-  chosen_ = textOf("%s, with a front of %lld vertices: %s has %lld",
-                   is_sweep ? swept.c_str() : nameOf(Order::kSpectral),
-                   static_cast<long long>(std::min(widths.spectral, widths.by_place)),
-                   is_sweep ? nameOf(Order::kSpectral) : swept.c_str(),
-                   static_cast<long long>(std::max(widths.spectral, widths.by_place)));
+  const std::string swept = chosen_, spectral = nameOf(Order::kSpectral);
+  const bool is_tried = widths.spectral != OrderWidths::kUntried;
+  const bool is_sweep = !is_tried || widths.by_place <= widths.spectral;
+  chosen_ = textOf("%s, with a front of %lld vertices", (is_sweep ? swept : spectral).c_str(),
+                   static_cast<long long>(is_sweep ? widths.by_place : widths.spectral));
+  if (is_tried)
+    chosen_ += textOf(": %s has %lld", (is_sweep ? spectral : swept).c_str(),
+                      static_cast<long long>(is_sweep ? widths.spectral : widths.by_place));
   return rankKey();
 }
 

@@ -1,5 +1,5 @@
 # SIGINT and SIGTERM end a run in good order: exit code 7 and no file left, also while it waits for
-# a pipe; the second signal ends it even where the first cannot.
+# a pipe or if several come together; one that comes later ends it even where the first cannot.
 source "${BASH_SOURCE%/*}/common.bash"
 
 # start ARGUMENTS...: in the background, as $pid. Shells without job control start commands that
@@ -44,6 +44,17 @@ for signal in INT TERM; do
   kill -s "$signal" "$pid"
   ended 7
   contains "$(<"$logs/err")" "tetstream: cancelled"
+  only_files
+done
+
+# Several that come together are one: the output's temporary file is gone before a later one counts.
+for ((try = 0; try < 5; ++try)); do
+  start generate fluid --cells 1e9 out.tets
+  until_true has_temporary out.tets
+  kill -HUP "$pid"
+  kill -TERM "$pid"
+  kill -TERM "$pid"
+  ended 7
   only_files
 done
 
@@ -111,7 +122,8 @@ kill -INT "$pid"
 ended 7
 exec 3>&-
 
-# A named pipe is read by the library alone: there the first signal waits for data, the second not.
+# A named pipe is read by the library alone: there the first signal waits for data, one that
+# comes later does not.
 # Memory of a process that ends like that is not given back, which memcheck would count.
 if [[ -n ${TETSTREAM_LAUNCHER:-} ]]; then exit 0; fi
 exec 3<>pipe
@@ -120,7 +132,9 @@ until_true has_temporary out.tets
 until_true waits_in_read
 sleep 0.5
 kill -INT "$pid"
-sleep 0.2
+kill -TERM "$pid"
+sleep 0.7
+kill -0 "$pid" || fail "a signal that came with another one ended it at once"
 kill -INT "$pid"
 ended 7
 exec 3>&-

@@ -125,6 +125,15 @@ class Arrays(unittest.TestCase):
         kept = result.points[result.locked]
         self.assertEqual({tuple(p) for p in kept}, {tuple(p) for p in points[locked]})
 
+    def test_edges_of_locked_points_are_not_tried(self):
+        points, cells, field = box(5)
+        some = numpy.arange(len(points)) % 5 == 0
+        for mode in ("sweep", "paper", "queue"):
+            report = tetstream.simplify(points, cells, {"f": field}, locked=some, ratio=0.05,
+                                        mode=mode).report
+            self.assertGreater(report.collapses, 0)
+            self.assertEqual(report.rejected_locked, 0, mode)
+
     def test_labelled_faces_go_along(self):
         points, cells, field = box(5)
         faces = numpy.array([[p for p in cell if points[p, 2] == 0] for cell in cells
@@ -164,6 +173,11 @@ class Arrays(unittest.TestCase):
             back = result.vertex_map.prolong(there)
             self.assertEqual(back.shape, shape)
             self.assertTrue(numpy.isnan(back).all())
+
+    def test_an_empty_mesh_may_be_of_empty_lists(self):
+        result = tetstream.simplify([], [], ratio=0.5)
+        self.assertEqual((result.points.shape, result.points.dtype), ((0, 3), numpy.float64))
+        self.assertEqual(result.cells.shape, (0, 4))
 
     def test_no_labelled_faces_may_be_empty_lists(self):
         points, cells, field = box(3)

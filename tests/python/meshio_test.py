@@ -62,6 +62,21 @@ class Meshio(unittest.TestCase):
             numpy.testing.assert_array_equal(again.cell_data["r"], small.cell_data["r"])
             self.assertEqual(again.label_names, mesh.label_names)
 
+    def test_labels_of_faces_go_through_a_vtu_file(self):
+        points, cells, field = box(4)
+        bottom = cells[(points[cells][:, :, 2] == 0).sum(axis=1) == 3]
+        faces = bottom[points[bottom][:, :, 2] == 0].reshape(-1, 3)
+        labels_of = lambda p, f: 7 + (p[f][:, :, 0].mean(axis=1) > 0.5)
+        mesh = tetstream.Mesh(points, cells, {"f": field}, {"part": halves(points, cells)},
+                              faces=faces, face_labels=labels_of(points, faces))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "faces.vtu")
+            mesh.to_meshio().write(path)
+            again = tetstream.read(path)  # in another order
+        self.assertEqual(len(again.faces), len(faces))
+        numpy.testing.assert_array_equal(again.face_labels, labels_of(again.points, again.faces))
+        numpy.testing.assert_array_equal(again.cell_data["part"], halves(again.points, again.cells))
+
     def test_faces_of_cells_without_labels_reach_gmsh(self):
         points, cells, _ = box(2)
         mesh = tetstream.Mesh(points, cells, faces=cells[:1, :3], face_labels=numpy.array([5]),

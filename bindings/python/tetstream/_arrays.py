@@ -48,6 +48,8 @@ def needs_shape(name, array, wanted, fits):
 def points(values):
     """[n][3], float32 or float64."""
     array = _array("points", values)
+    if array.shape == (0,):  # as that of []
+        array = array.reshape(0, 3)
     needs_shape("points", array, "[n][3]", array.ndim == 2 and array.shape[1] == 3)
     dtype = _holding("points", array)
     floats = _dense(array, dtype if dtype.kind == "f" else numpy.float64)

@@ -53,10 +53,8 @@ class CellsToPoints final : public IndexedSource {
   PointMeans& meansOf(size_t field) {
     std::unique_ptr<PointMeans>& means = means_[field];
     if (means) return *means;
-    const auto points = static_cast<uint64_t>(schema_.vertex_count);
-    const auto cells = static_cast<uint64_t>(schema_.cell_count);
     means = std::make_unique<PointMeans>(
-        schema_.fields[own_fields_ + field], points, 4 * cells, temp_dir_,
+        schema_.fields[own_fields_ + field], static_cast<uint64_t>(schema_.vertex_count), temp_dir_,
         [&](size_t component, auto add) { forCorners(arrays_[field], component, add); });
     return *means;
   }

@@ -105,10 +105,9 @@ class JoinedPoints final : public IndexedSource {
 
   PointMeans& meansOf(size_t column) {
     std::unique_ptr<PointMeans>& means = means_[column];
-    const auto old_points = static_cast<uint64_t>(mesh_->schema().vertex_count);
     if (!means)
       means = std::make_unique<PointMeans>(
-          schema_.fields[column], points_->count(), old_points, points_->plan().temp_dir,
+          schema_.fields[column], points_->count(), points_->plan().temp_dir,
           [&](size_t component, auto add) { forValues(column, component, add); });
     return *means;
   }

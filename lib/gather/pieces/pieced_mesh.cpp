@@ -233,18 +233,24 @@ class PiecedMesh final : public IndexedSource {
           noteUnlike(mesh_, array.name);
   }
 
-  void countTriangleLabels(size_t column, IdCensus& census) {
+  // Whether one of them is not 0.
+  bool countTriangleLabels(size_t column, IdCensus& census) {
     PieceColumnPlan plan = cell_data_[column].plan();
     plan.type = ScalarType::kInt64;
     PieceColumn wide(mesh_, std::move(plan));
     int64_t rows[kRowsAtOnce];
+    bool any = false;
     const uint64_t count = mixed_->count(MixedCells::kTriangles);
     for (uint64_t first = 0; first < count; first += kRowsAtOnce) {
       const auto some = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - first));
       mixed_->readRows(MixedCells::kTriangles, first, some, sizeof rows[0], rows,
                        [&](uint64_t cell, size_t n, void* to) { wide.read(cell, n, to); });
-      for (size_t i = 0; i < some; ++i) census.add(&rows[i], 1);
+      for (size_t i = 0; i < some; ++i) {
+        census.add(&rows[i], 1);
+        any = any || rows[i] != 0;
+      }
     }
+    return any;
   }
 
   // By one cell array, which is nothing else if only faces have it.
@@ -252,7 +258,7 @@ class PiecedMesh final : public IndexedSource {
     const auto faces = static_cast<long long>(mixed_->count(MixedCells::kTriangles));
     const int by = faceLabelColumn(
         schema_.cell_data, mixed_->count(MixedCells::kTriangles),
-        [this](size_t column, IdCensus& census) { countTriangleLabels(column, census); });
+        [this](size_t column, IdCensus& census) { return countTriangleLabels(column, census); });
     if (by < 0)
       return mesh_.addNote(
           textOf("%lld triangles are left out: there is no cell array of integers, one to "

@@ -1,5 +1,5 @@
-// gather/rows: rows that are sorted in memory a part at a time, each part in a temporary file until
-// then. Depends on column_spool.h, memory.h.
+// gather/rows: rows that are worked on in memory a part at a time, each part in a temporary file
+// until then. Depends on column_spool.h, memory.h, rows_at_once.h.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 
 #include "column_spool.h"
 #include "memory.h"
+#include "rows_at_once.h"
 
 namespace tetstream {
 
@@ -36,6 +37,21 @@ class Buckets {
     std::sort(rows.data(), rows.data() + rows.size());
     files_[bucket].reset();
     return rows;
+  }
+  // use(row) for the rows of a bucket in the order in which they came, of which there may be any
+  // number. Its file is gone afterwards.
+  template <class Use>
+  void empty(size_t bucket, Use use) {
+    ColumnSpool& file = *files_[bucket];
+    file.close();
+    const uint64_t count = file.size() / sizeof(Row);
+    std::vector<Row> rows(kRowsAtOnce);
+    for (uint64_t at = 0; at < count; at += kRowsAtOnce) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - at));
+      file.readAt(at * sizeof(Row), rows.data(), n * sizeof(Row));
+      for (size_t i = 0; i < n; ++i) use(rows[i]);
+    }
+    files_[bucket].reset();
   }
 
  private:

@@ -4,36 +4,41 @@
 
 namespace tetstream {
 
-// note: by steps that cannot overflow, and of equal values exactly that.
-double PointMeans::meanOf(const Value* values, size_t count) {
-  double mean = values[0].value, finite = 0;
-  for (size_t i = 0; i < count; ++i) {
-    if (!std::isfinite(values[i].value)) continue;
-    ++finite;
-    mean = finite == 1 ? values[i].value : mean + (values[i].value / finite - mean / finite);
-  }
-  return mean;
+void PointMeans::Mean::add(double next) {
+  if (finite == kNone) *this = {next, 0};
+  if (!std::isfinite(next)) return;
+  ++finite;
+  const auto count = static_cast<double>(finite);
+  value = finite == 1 ? next : value + (next / count - value / count);
 }
 
-void PointMeans::addComponent(Buckets<Value>& sorted, const std::string& temp_dir) {
-  Account account;
-  auto means = std::make_unique<RowSpool>(sizeof(double), temp_dir, kSpooledInSequence);
-  const auto fillUpTo = [&](uint64_t point) {
-    constexpr double nothing = 0;
-    while (means->rows() < point) means->append(&nothing, 1);
-  };
-  for (size_t bucket = 0; bucket < sorted.count(); ++bucket) {
-    const Array<Value> values = sorted.take(bucket, account);
-    for (size_t first = 0, end; first < values.size(); first = end) {
-      for (end = first + 1; end < values.size() && values[end].point == values[first].point;) ++end;
-      fillUpTo(values[first].point);
-      const double mean = meanOf(values.data() + first, end - first);
-      means->append(&mean, 1);
+PointMeans::Gathered::Gathered(uint64_t points, const std::string& temp_dir)
+    : points_(points),
+      part_(points / bucketsFor(points, sizeof(Mean)) + 1),
+      temp_dir_(temp_dir),
+      means_(account_, static_cast<size_t>(std::min(points, part_))),
+      later_(static_cast<size_t>(points / part_), temp_dir) {
+  clear();
+}
+
+void PointMeans::Gathered::clear() {
+  std::fill_n(means_.data(), means_.size(), Mean{0, Mean::kNone});
+}
+
+std::unique_ptr<RowSpool> PointMeans::Gathered::spooled() {
+  auto rows = std::make_unique<RowSpool>(sizeof(double), temp_dir_, kSpooledInSequence);
+  for (uint64_t first = 0; first < points_; first += part_) {
+    if (first > 0) {
+      clear();
+      later_.empty(static_cast<size_t>(first / part_) - 1, [&](const Value& row) {
+        means_[static_cast<size_t>(row.point - first)].add(row.value);
+      });
     }
+    const auto count = static_cast<size_t>(std::min(part_, points_ - first));
+    for (size_t i = 0; i < count; ++i) rows->append(&means_[i].value, 1);
   }
-  fillUpTo(points_);
-  means->finish();
-  components_.push_back(std::move(means));
+  rows->finish();
+  return rows;
 }
 
 void PointMeans::read(uint64_t first, size_t count, void* out) {

@@ -2,7 +2,6 @@
 // row_spool.h, schema.h.
 #pragma once
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,21 +16,14 @@ namespace tetstream {
 // are finite; where none is, the first of them, and where there is none, 0. Memory is bounded.
 class PointMeans {
  public:
-  // visit(component, add) calls add(point, value) for each value of that component, of which there
-  // are about `values`.
+  // visit(component, add) calls add(point, value) for each value of that component.
   template <class Visit>
-  PointMeans(const Column& column, uint64_t points, uint64_t values, const std::string& temp_dir,
-             Visit visit)
-      : column_(column), points_(points) {
+  PointMeans(const Column& column, uint64_t points, const std::string& temp_dir, Visit visit)
+      : column_(column) {
     for (size_t k = 0; k < static_cast<size_t>(column.components); ++k) {
-      const size_t buckets = bucketsFor(values, sizeof(Value));
-      Buckets<Value> sorted(buckets, temp_dir);
-      const uint64_t part = points / buckets + 1;
-      uint64_t rank = 0;
-      visit(k, [&](uint64_t point, double value) {
-        sorted.add(static_cast<size_t>(point / part), {point, rank++, value});
-      });
-      addComponent(sorted, temp_dir);
+      Gathered gathered(points, temp_dir);
+      visit(k, [&](uint64_t point, double value) { gathered.add(point, value); });
+      components_.push_back(gathered.spooled());
     }
   }
 
@@ -39,18 +31,42 @@ class PointMeans {
   void read(uint64_t first, size_t count, void* out);
 
  private:
-  struct Value {
-    uint64_t point, rank;
+  // Of the values so far. note: by steps that cannot overflow, and of equal values exactly that.
+  struct Mean {
     double value;
-    bool operator<(const Value& other) const {
-      return point != other.point ? point < other.point : rank < other.rank;
-    }
+    int64_t finite;  // how many there were; kNone: not even others
+    static constexpr int64_t kNone = -1;
+    void add(double next);
   };
-  static double meanOf(const Value* values, size_t count);
-  void addComponent(Buckets<Value>& sorted, const std::string& temp_dir);
+
+  // Those of one component. Values are added up as they come at the first points, as many as are in
+  // memory at once; those at others wait in files until their part of the points has its turn.
+  class Gathered {
+   public:
+    Gathered(uint64_t points, const std::string& temp_dir);
+    void add(uint64_t point, double value) {
+      if (point < part_)
+        means_[static_cast<size_t>(point)].add(value);
+      else
+        later_.add(static_cast<size_t>(point / part_) - 1, {point, value});
+    }
+    std::unique_ptr<RowSpool> spooled();
+
+   private:
+    struct Value {
+      uint64_t point;
+      double value;
+    };
+    void clear();
+
+    uint64_t points_, part_;  // all, and of a part
+    std::string temp_dir_;
+    Account account_;
+    Array<Mean> means_;     // of the part that has its turn
+    Buckets<Value> later_;  // of the parts from the second on
+  };
 
   Column column_;
-  uint64_t points_;
   std::vector<std::unique_ptr<RowSpool>> components_;  // of float64
 };
 

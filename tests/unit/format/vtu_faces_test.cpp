@@ -79,6 +79,17 @@ TEST(VtuFaces, AreNotLabelledByIdsOrRanks) {
   EXPECT_EQ(mesh.schema.face_count, 0);
 }
 
+// What labels tetrahedra alone is filled up with zeros, by meshio for one, and may come first.
+TEST(VtuFaces, AreLabelledByAnArrayThatIsNotZeroForAllIfThereIsOne) {
+  VtuTestPiece piece = mixedPiece();
+  piece.cell_data.insert(piece.cell_data.begin(), {"Int32", "material", 1, {}, {0, 0, 5, 0, 6, 0}});
+  EXPECT_EQ(readVtu(makeVtu({piece}, {})).face_labels, (std::vector<int64_t>{-3, 40, 41, 42}));
+  piece.cell_data.pop_back();
+  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  EXPECT_EQ(mesh.face_labels, std::vector<int64_t>(4));
+  EXPECT_TRUE(hasNote(mesh, "by the cell array \"material\""));
+}
+
 TEST(VtuFaces, OfSeveralPiecesAreReadEndToEnd) {
   VtuTestPiece plain = twoCellPiece(), empty = twoCellPiece();
   plain.cell_data.insert(plain.cell_data.begin(), {"Float64", "heat", 1, {1, 2}, {}});

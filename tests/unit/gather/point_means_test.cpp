@@ -18,10 +18,9 @@ const double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 using PointValues = std::vector<std::pair<uint64_t, double>>;
 
 std::vector<double> meansOf(uint64_t points, const PointValues& values) {
-  PointMeans means({"f", 1, ScalarType::kFloat64}, points, values.size(), "",
-                   [&](size_t, auto add) {
-                     for (const auto& [point, value] : values) add(point, value);
-                   });
+  PointMeans means({"f", 1, ScalarType::kFloat64}, points, "", [&](size_t, auto add) {
+    for (const auto& [point, value] : values) add(point, value);
+  });
   std::vector<double> out(static_cast<size_t>(points));
   means.read(0, out.size(), out.data());
   return out;
@@ -49,19 +48,31 @@ TEST(PointMeans, AreThoseOfEachPointInAnyOrder) {
     ASSERT_NEAR(means[i], counts[i] > 0 ? sums[i] / counts[i] : 0, 1e-11) << i;
 }
 
-// More values than a bucket holds, in no order.
+// More points than are in memory at once, in no order.
 TEST(PointMeans, OfManyValuesComeInOrder) {
-  constexpr uint64_t kPoints = 300000, kTimes = 5;
-  PointMeans means({"f", 1, ScalarType::kFloat64}, kPoints, kTimes * kPoints, "",
-                   [](size_t, auto add) {
-                     for (uint64_t i = 0; i < kTimes * kPoints; ++i)
-                       if (const uint64_t point = i * 7919 % kPoints; point % 10 != 3)
-                         add(point, static_cast<double>(point) + static_cast<double>(i / kPoints));
-                   });
+  constexpr uint64_t kPoints = 2100000, kTimes = 3;
+  PointMeans means({"f", 1, ScalarType::kFloat64}, kPoints, "", [](size_t, auto add) {
+    for (uint64_t i = 0; i < kTimes * kPoints; ++i)
+      if (const uint64_t point = i * 7919 % kPoints; point % 10 != 3)
+        add(point, static_cast<double>(point) + static_cast<double>(i / kPoints));
+  });
   std::vector<double> out(kPoints);
   means.read(0, kPoints, out.data());
   for (uint64_t point = 0; point < kPoints; ++point)
-    ASSERT_EQ(out[point], point % 10 == 3 ? 0 : static_cast<double>(point) + 2) << point;
+    ASSERT_EQ(out[point], point % 10 == 3 ? 0 : static_cast<double>(point) + 1) << point;
+}
+
+// However many values there are: the folder for files is none.
+TEST(PointMeans, OfPointsThatAreInMemoryAtOnceTakeNoFile) {
+  constexpr uint64_t kPoints = 100, kTimes = 10000;
+  PointMeans means({"f", 1, ScalarType::kFloat64}, kPoints, "/nowhere", [](size_t, auto add) {
+    for (uint64_t i = 0; i < kTimes * kPoints; ++i)
+      add(i % kPoints, static_cast<double>(i % kPoints));
+  });
+  std::vector<double> out(kPoints);
+  means.read(0, kPoints, out.data());
+  for (size_t point = 0; point < kPoints; ++point)
+    ASSERT_EQ(out[point], static_cast<double>(point));
 }
 
 TEST(PointMeans, OfPointsWithoutValuesAreZero) {
@@ -91,7 +102,7 @@ TEST(PointMeans, OfLargeValuesAreNumbers) {
 
 // Component by component, as the type of the column has it.
 TEST(PointMeans, HaveTheTypeAndTheComponentsOfTheirColumn) {
-  PointMeans means({"v", 2, ScalarType::kFloat32}, 3, 4, "", [](size_t component, auto add) {
+  PointMeans means({"v", 2, ScalarType::kFloat32}, 3, "", [](size_t component, auto add) {
     const double sign = component == 0 ? 1 : -1;
     add(2, sign * 3);
     add(0, sign * 1);

@@ -169,6 +169,27 @@ TEST(OrderedSource, RanksByTheGraph) {
     }
 }
 
+// Of a slab, and of a column of single cubes: a spectral order takes long for such, if they are
+// long.
+TEST(OrderedSource, SeeksTheNarrowestUnlessTheSweepIsNarrowEnough) {
+  OrderOptions options = inOrder("auto");
+  options.narrowest = true;
+  const TestMesh slab = withColumns(shuffled(fullGrid(2, 5, 9, 0.1), 3));
+  const TestMesh chain = withColumns(shuffled(fullGrid(1, 1, 40), 3));
+  for (bool spooled : {false, true}) {
+    const Ordered sought = ordered(slab, options, spooled),
+                  narrow = ordered(chain, options, spooled);
+    expectSound(slab, sought);
+    EXPECT_NE(sought.chosen.find("spectral"), std::string::npos) << sought.chosen;
+    EXPECT_NE(sought.chosen.find(" has "), std::string::npos) << sought.chosen;
+    expectSound(chain, narrow);
+    EXPECT_LE(narrow.front.width, 16);
+    EXPECT_EQ(narrow.chosen, "spatial, along z, with a front of " +
+                                 std::to_string(narrow.front.width) + " vertices");
+    EXPECT_TRUE(narrow.out.allBytes() == ordered(chain, inOrder("auto"), spooled).out.allBytes());
+  }
+}
+
 // A layer has more cells than a piece.
 TEST(OrderedSource, RanksBreadthFirstThroughWideFronts) {
   const int n = slowRun() ? 27 : 40;

@@ -128,6 +128,17 @@ TEST(SimplifierStream, KeepsTheOrderSoThatTheFrontStaysLow) {
   }
 }
 
+// The least window of a known front is larger, as is a mesh that is held whole if it can be told.
+TEST(SimplifierStream, HasASmallWindowAtFirstIfTheFrontIsUnknown) {
+  TestMesh mesh = fullGrid(18, 18, 18);
+  mesh.schema.front_cells = -1;
+  EXPECT_GT(mesh.cellCount(), 32768u);
+  EXPECT_EQ(simplified(mesh, toRatio(0.5, 0), {}).report.window_cells, 32768);
+  mesh.schema.front_cells = 3000;
+  EXPECT_EQ(simplified(mesh, toRatio(0.5, 0), {}).report.window_cells,
+            static_cast<int64_t>(mesh.cellCount()));
+}
+
 TEST(SimplifierStream, TellsTheSameFrontAsTheStreamHas) {
   const TestMesh mesh = fullGrid(4, 4, 12);
   Cut whole;
