@@ -3,6 +3,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "folds.h"
 #include "patch_sweep.h"
 #include "simplify_testing.h"
 #include "window_testing.h"
@@ -54,6 +55,24 @@ TEST(Hubs, AreNotOwnedByASweep) {
     std::vector<uint32_t> expected(static_cast<size_t>(2 + 2 * wedges) - hubs);
     std::iota(expected.begin(), expected.end(), static_cast<uint32_t>(hubs));
     EXPECT_EQ(ownedOf(wedges), expected);
+  }
+}
+
+// Of few faces all pairs are looked at, of many those with an edge in common.
+TEST(Hubs, HaveFoldsAsOtherVerticesDo) {
+  for (const uint32_t wedges : {20u, 2000u}) {
+    WholePatch<double> w(wheel(wedges));
+    std::vector<uint64_t> faces;
+    const auto face = [](uint32_t a, uint32_t b) { return uint64_t{a} << 32 | b; };
+    for (uint32_t i = 0; i < wedges; ++i) faces.push_back(face(2 + i, 2 + (i + 1) % wedges));
+    EXPECT_FALSE(hasFold(w.core.window, 0, faces));
+    for (const uint64_t upon : {face(5, 7), face(7, 5), face(5, 6), face(wedges, 2)}) {
+      faces.push_back(upon);
+      EXPECT_TRUE(hasFold(w.core.window, 0, faces));
+      faces.pop_back();
+    }
+    faces.push_back(face(5, 1));  // square to all others
+    EXPECT_FALSE(hasFold(w.core.window, 0, faces));
   }
 }
 
