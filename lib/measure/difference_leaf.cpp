@@ -102,7 +102,7 @@ void FieldDifference::Leaf::integrateCells(Part& part, size_t begin, size_t end,
   for (size_t i = begin; i < end; ++i) {
     const double* p = cell(i);
     part.volume = volumeOf(i);
-    others.forEachNear(shape_.boxOf(p), [&](const double* other, const CellMap& map) {
+    others.forEachNear(p, [&](const double* other, const CellMap& map) {
       double planes[4][4];
       if (!map.planesOf(p, planes) || !part.overlap.set(planes)) return;
       covered_[i] += part.overlap.volume;
@@ -206,8 +206,9 @@ void FieldDifference::Leaf::lookAt(Uncovered& u, const MappedCells& others) cons
     double coordinates[4];
     spread(u.cell, t, coordinates);
     placeAt(u.cell, coordinates, places[t]);
+    if (t < kCorners && others.isHub(places[t])) u.seen |= uint64_t{1} << t;
   }
-  others.forEachNear(shape_.boxOf(cell(u.cell)), [&](const double*, const CellMap& map) {
+  others.forEachNear(cell(u.cell), [&](const double*, const CellMap& map) {
     for (int t = 0; t < kTrials; ++t) {
       if (u.seen >> t & 1) continue;
       double at[4];
@@ -287,9 +288,7 @@ void FieldDifference::Leaf::locate(size_t n, const MappedCells& others) {
   Sample& sample = samples_[n];
   double place[3];
   placeAt(sample.cell, sample.coordinates, place);
-  Box box;
-  box.add(place);
-  others.forEachNear(box, [&](const double* other, const CellMap& map) {
+  others.forEachAt(place, [&](const double* other, const CellMap& map) {
     double at[4];
     map.coordinates(place, at);
     const double depth = *std::min_element(at, at + 4);

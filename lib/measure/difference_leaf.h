@@ -11,15 +11,27 @@ namespace tetstream {
 class MappedCells {
  public:
   MappedCells(const RowChunk& chunk, Account& account);
-  // visit(cell's row, map) for those whose boxes are near.
+  // visit(cell's row, map) for those whose boxes are near a place,
   template <class Visit>
-  void forEachNear(const Box& box, Visit&& visit) const {
-    chunk_.tree().forEachNear(box, [&](uint32_t i) {
-      if (has_map_[i]) visit(chunk_.row(i), maps_[i]);
-    });
+  void forEachAt(const double place[3], Visit&& visit) const {
+    Box box;
+    box.add(place);
+    chunk_.tree().forEachNear(box, [&](uint32_t i) { visitMapped(i, visit); });
   }
+  // or which may have something in common with a cell.
+  template <class Visit>
+  void forEachNear(const double* corners, Visit&& visit) const {
+    chunk_.forEachNear(corners, [&](uint32_t i) { visitMapped(i, visit); });
+  }
+  // Whether very many cells have the place as a corner: they may not be near a cell that has it.
+  bool isHub(const double place[3]) const { return chunk_.hubs().find(place) != Hubs::kNone; }
 
  private:
+  template <class Visit>
+  void visitMapped(uint32_t i, Visit&& visit) const {
+    if (has_map_[i]) visit(chunk_.row(i), maps_[i]);
+  }
+
   const RowChunk& chunk_;
   Array<CellMap> maps_;
   Array<uint8_t> has_map_;

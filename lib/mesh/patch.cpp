@@ -94,9 +94,11 @@ template <class S>
 void Patch<S>::listStars() {
   const size_t corners = 4 * size_t{cells_};
   lists_end_ = 0;
+  largest_star_ = 0;
   for (uint32_t v = 0; v < owned_; ++v) {
     star_of_[v].begin = static_cast<uint32_t>(lists_end_);
     lists_end_ += star_of_[v].size;
+    largest_star_ = std::max(largest_star_, star_of_[v].size);
   }
   star_of_[owned_].begin = static_cast<uint32_t>(lists_end_);
   ensure(lists_, std::max(2 * lists_end_ + 4096, corners));
@@ -214,8 +216,9 @@ bool Patch<S>::gatherOnBoundary(uint32_t v, size_t most, Star& star) {
   if (!rim_listed_) listRim();
   const uint32_t *const begin = rim_.data(), *const end = begin + rim_end_;
   const uint32_t *first = std::lower_bound(begin, end, v << 16), *last = first;
-  while (last < end && *last >> 16 == v) ++last;
-  if (static_cast<size_t>(last - first) > most) return false;
+  while (last < end && *last >> 16 == v) {
+    if (static_cast<size_t>(++last - first) > most) return false;  // it may have any number
+  }
   for (; first < last; ++first) addCell(*first & 0xffff, v, star);
   return true;
 }

@@ -35,6 +35,7 @@ class Patch {
   int64_t storeUncounted();
 
   uint32_t ownedEnd() const { return owned_; }
+  uint32_t largestStar() const { return largest_star_; }  // of an owned vertex, as loaded
   uint32_t vertexEnd() const { return vertices_; }
   uint32_t cellEnd() const { return cells_; }
   bool isLive(uint32_t c) const { return corner_[4 * size_t{c}] != kGoneCorner; }
@@ -134,6 +135,7 @@ class Patch {
   Array<List> star_of_;  // of owned vertices
   Array<uint16_t> lists_;
   size_t lists_end_ = 0;
+  uint32_t largest_star_ = 0;
   Array<uint32_t> rim_;  // vertices of the rim that are on the boundary, each with its cells
   size_t rim_end_ = 0;
   bool rim_listed_ = false;

@@ -18,9 +18,15 @@ class BoxTree {
   // visit(number) for each leaf's item whose box meets the box, and for some near it.
   template <class Visit>
   void forEachNear(const Box& box, Visit&& visit) const {
-    for (size_t at = 0; at < used_;) {
+    forEachNear(
+        box, [](uint32_t) { return false; }, visit);
+  }
+  // Without those of nodes of which isApart(node) knows that they matter not.
+  template <class IsApart, class Visit>
+  void forEachNear(const Box& box, IsApart&& isApart, Visit&& visit) const {
+    for (uint32_t at = 0; at < used_;) {
       const Node& node = nodes_[at];
-      if (!node.box.meets(box)) {
+      if (!node.box.meets(box) || isApart(at)) {
         at = node.next;
         continue;
       }
@@ -33,12 +39,23 @@ class BoxTree {
   // distance within which further items still matter; `within` is the first one.
   template <class Visit>
   void forEachWithin(const double place[3], double within, Visit&& visit) const {
+    forEachWithin(
+        place, within, [](uint32_t, double distance, double) { return distance; }, visit);
+  }
+  // `bound(node, distance, within)`: a lower bound of the squared distance of what is in the node,
+  // given that of its box, which is within.
+  template <class Bound, class Visit>
+  void forEachWithin(const double place[3], double within, Bound&& bound, Visit&& visit) const {
+    const auto distanceOf = [&](uint32_t node) {
+      const double distance = distanceTo(node, place);
+      return distance <= within ? bound(node, distance, within) : distance;
+    };
     struct Open {
       uint32_t node;
       double distance;
     } open[kDeepest];
     size_t depth = 0;
-    if (used_ > 0) open[depth++] = {0, distanceTo(0, place)};
+    if (used_ > 0) open[depth++] = {0, distanceOf(0)};
     while (depth > 0) {
       const Open top = open[--depth];
       if (top.distance > within) continue;
@@ -47,12 +64,25 @@ class BoxTree {
         for (uint32_t i = node.first; i < node.first + node.count; ++i) within = visit(items_[i]);
         continue;
       }
-      Open left = {top.node + 1, distanceTo(top.node + 1, place)};
+      Open left = {top.node + 1, distanceOf(top.node + 1)};
       const uint32_t other = nodes_[top.node + 1].next;
-      Open right = {other, distanceTo(other, place)};
+      Open right = {other, distanceOf(other)};
       if (left.distance < right.distance) std::swap(left, right);
       open[depth++] = left;  // the nearer one is on top
       open[depth++] = right;
+    }
+  }
+
+  uint32_t nodes() const { return static_cast<uint32_t>(used_); }
+  // Each node after its children: leaf(node, items, count) or inner(node, child, other child).
+  template <class Leaf, class Inner>
+  void forEachNodeUp(Leaf&& leaf, Inner&& inner) const {
+    for (uint32_t at = nodes(); at-- > 0;) {
+      const Node& node = nodes_[at];
+      if (node.count > 0)
+        leaf(at, items_.data() + node.first, node.count);
+      else
+        inner(at, at + 1, nodes_[at + 1].next);
     }
   }
 

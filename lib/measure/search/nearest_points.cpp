@@ -35,7 +35,7 @@ void NearestPoints::add(const double place[3], const double* carried) {
 void NearestPoints::improve(const RowChunk& chunk, double* row) const {
   double& least = row[3 + carried_];
   double* values = row + 4 + carried_;
-  chunk.tree().forEachWithin(row, least, [&](uint32_t i) {
+  chunk.forEachWithin(row, least, [&](uint32_t i) {
     double at[3];
     const double* triangle = chunk.row(i);
     const double found = squaredDistance(triangle, row, at);

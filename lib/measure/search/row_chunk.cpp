@@ -14,9 +14,16 @@ RowChunk::RowChunk(SimplexRows& rows, uint64_t first, size_t count, Account& acc
       std::copy_n(rows.row(first + i), doubles_, copy_.data() + i * doubles_);
     rows_ = copy_.data();
   }
-  Array<Box> boxes(account, count);
-  for (size_t i = 0; i < count; ++i) boxes[i] = shape_.boxOf(row(i));
-  tree_ = std::make_unique<BoxTree>(account, boxes.data(), count);
+  const RowView all = {shape_, rows_, count_};
+  hubs_ = std::make_unique<Hubs>(all, account);
+  {
+    Array<Box> boxes(account, count);
+    for (size_t i = 0; i < count; ++i) boxes[i] = shape_.boxOf(row(i));
+    tree_ = std::make_unique<BoxTree>(account, boxes.data(), count);
+  }
+  if (hubs_->count() == 0) return;
+  hulls_ = std::make_unique<HubHulls>(*hubs_, account);  // in the room of the boxes
+  hulls_->build(*tree_, all);
 }
 
 size_t RowChunk::rowsFor(const SimplexRows& rows, size_t bytes, size_t more) {

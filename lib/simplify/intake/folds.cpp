@@ -1,11 +1,14 @@
 #include "folds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "vector3.h"
 
 namespace tetstream {
+
+constexpr size_t kManyFaces = 64;  // of which not all pairs are looked at
 
 template <class S>
 static void difference(const Window<S>& window, uint32_t to, uint32_t from, double out[3]) {
@@ -46,20 +49,41 @@ double bendAt(const Window<S>& window, uint32_t v, uint32_t a, uint32_t b, uint3
 }
 
 template <class S>
+static bool isFoldAt(const Window<S>& window, uint32_t v, uint32_t a, uint32_t b, uint32_t c) {
+  const IntoFaces into = intoFaces(window, v, a, b, c);
+  const bool is_less_than_square = dot(into.b, into.c) > 0;  // as of few
+  return is_less_than_square && isFold(bendOf(into));
+}
+
+static std::pair<uint32_t, uint32_t> endsOf(uint64_t face) {
+  return {static_cast<uint32_t>(face >> 32), static_cast<uint32_t>(face)};
+}
+
+// The faces by each of their ends: those that share it follow each other.
+template <class S>
+static bool hasFoldOfMany(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& faces) {
+  std::vector<uint64_t> turned(faces);
+  for (const uint64_t face : faces) turned.push_back(face << 32 | face >> 32);
+  std::sort(turned.begin(), turned.end());
+  for (size_t i = 0; i < turned.size(); ++i)
+    for (size_t j = i; j-- > 0 && turned[j] >> 32 == turned[i] >> 32;) {
+      const auto [shared, b] = endsOf(turned[i]);
+      if (isFoldAt(window, v, shared, b, endsOf(turned[j]).second)) return true;
+    }
+  return false;
+}
+
+template <class S>
 bool hasFold(const Window<S>& window, uint32_t v, const std::vector<uint64_t>& faces) {
-  const auto ends = [&](size_t i) {
-    return std::pair(static_cast<uint32_t>(faces[i] >> 32), static_cast<uint32_t>(faces[i]));
-  };
+  if (faces.size() > kManyFaces) return hasFoldOfMany(window, v, faces);
   for (size_t i = 0; i < faces.size(); ++i)
     for (size_t j = 0; j < i; ++j) {
-      const auto [a, b] = ends(i);
-      const auto [c, d] = ends(j);
+      const auto [a, b] = endsOf(faces[i]);
+      const auto [c, d] = endsOf(faces[j]);
       const bool from_a = a == c || a == d;
       if (!from_a && b != c && b != d) continue;
       const uint32_t shared = from_a ? a : b;
-      const IntoFaces into = intoFaces(window, v, shared, from_a ? b : a, shared == c ? d : c);
-      const bool is_less_than_square = dot(into.b, into.c) > 0;  // as of few
-      if (is_less_than_square && isFold(bendOf(into))) return true;
+      if (isFoldAt(window, v, shared, from_a ? b : a, shared == c ? d : c)) return true;
     }
   return false;
 }

@@ -35,8 +35,21 @@ bool PatchSweep<S>::load(const uint32_t* owned, size_t owned_count, const uint32
                          size_t cell_count) {
   collapser_.forget();
   evaluated_ = false;
-  return owned_count <= Choices::kMostVertices &&
-         patch_.load(owned, owned_count, cells, cell_count, core_.window.liveCells() - died_);
+  if (owned_count > Choices::kMostVertices ||
+      !patch_.load(owned, owned_count, cells, cell_count, core_.window.liveCells() - died_))
+    return false;
+  return patch_.largestStar() <= kLargestStar || leaveHubs(cells, cell_count);
+}
+
+// Whoever tries an edge looks at the stars of both ends: with n cells round a hub each of its n
+// edges would cost n.
+template <class S>
+bool PatchSweep<S>::leaveHubs(const uint32_t* cells, size_t cell_count) {
+  kept_.clear();
+  for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
+    if (patch_.starSize(v) <= kLargestStar) kept_.push_back(patch_.slotOf(v));
+  return patch_.load(kept_.data(), kept_.size(), cells, cell_count,
+                     core_.window.liveCells() - died_);
 }
 
 template <class S>

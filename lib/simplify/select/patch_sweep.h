@@ -16,6 +16,11 @@ namespace tetstream {
 template <class S>
 class PatchSweep {
  public:
+  // Hubs, with more cells than this, are left alone until what is collapsed round them has made
+  // them smaller. Meshes made for computing have no such star; a larger number would let the edges
+  // of those that do take longer than all others.
+  static constexpr uint32_t kLargestStar = 1024;
+
   PatchSweep(Core<S>& core, Account& account);
 
   // Errors are in units of the whole, up to a power of two: rounded, they order alike in whatever
@@ -25,7 +30,8 @@ class PatchSweep {
     unit_ = unit;
   }
 
-  // As Patch::load; false also if there are more vertices than choices can be kept of.
+  // As Patch::load; false also if there are more vertices than choices can be kept of. Hubs are not
+  // owned then, but of the rim.
   bool load(const uint32_t* owned, size_t owned_count, const uint32_t* cells, size_t cell_count);
   // Collapses edges of errors up to the bound. Returns whether a higher one could do more.
   bool sweep(float bound);
@@ -50,6 +56,7 @@ class PatchSweep {
   Collapser<Patch<S>>& collapser() { return collapser_; }
 
  private:
+  bool leaveHubs(const uint32_t* cells, size_t cell_count);
   bool mustStop() const { return goal_.isMet(patch_.liveCells()) || collapser_.errorReached(); }
   void copySeamRow(uint32_t slot, size_t row);
   float leastAcrossSeam(uint32_t v);
@@ -80,6 +87,7 @@ class PatchSweep {
   Solutions<S> solutions_;
   Renewal<S> renewal_;
   Array<S> errors_;
+  std::vector<uint32_t> kept_;            // of the owned vertices, where some are hubs
   Array<uint32_t> neighbours_, seen_;     // seen_: per vertex, the mark_ of its last listing
   Array<uint8_t> looks_;                  // of an owned vertex: at all its edges
   Array<uint8_t> marks_;                  // per vertex, when it is settled

@@ -1,5 +1,5 @@
-// measure: numbers that look random, made of places: the same whatever the order in which cells
-// come. Depends on base.
+// measure/search: numbers that look random, made of places: the same whatever the order in which
+// cells come. Depends on base.
 #pragma once
 
 #include <bit>
