@@ -354,7 +354,7 @@ void Metric<S>::chooseAngles(uint32_t first, uint32_t end) {
     else if (k == 0 && core_.options.shape == Shape::kField && core_.options.memory_bytes == 0)
       core_.dear_when_few.push_back(dear_[k]);
   }
-  setDear(core_, std::move(dear));
+  setDear(core_, dear);
 }
 
 // Before anything is measured, of several fields, where the window has enough of the mesh to tell.

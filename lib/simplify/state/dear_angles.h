@@ -17,8 +17,8 @@ constexpr double kPoor = 1.5;
 // Collapses that make more cells thinner than these have their price, and cells are flipped that
 // are below the last of them, or suit solvers too little.
 template <class S>
-void setDear(Core<S>& core, std::vector<ThinAngle> dear) {
-  core.dear = std::move(dear);
+void setDear(Core<S>& core, const std::vector<ThinAngle>& dear) {
+  core.dear = dear;
   double poor = kPoor * core.thin.degrees;
   if (!core.dear.empty())
     poor =
