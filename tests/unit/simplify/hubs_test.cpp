@@ -1,4 +1,5 @@
 // Vertices with very many cells, which are left alone until they have fewer.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -25,7 +26,7 @@ TestMesh wheel(int64_t wedges) {
     }
   std::vector<int64_t> cells;
   for (int64_t i = 0; i < wedges; ++i) {
-    const auto [low, high] = std::minmax(2 + i, 2 + (i + 1) % wedges);
+    const auto [low, high] = std::minmax({2 + i, 2 + (i + 1) % wedges});
     cells.insert(cells.end(), {0, low, high, high + wedges, 0, low, low + wedges, high + wedges, 0,
                                1, low + wedges, high + wedges});
   }
