@@ -548,7 +548,7 @@ typedef struct tetstream_report {
   int64_t rejected_orientation; /* a cell would have been flat or inverted */
   int64_t rejected_link;        /* the topology would have changed, or the boundary crossed itself */
   int64_t rejected_locked;      /* 0: edges of locked vertices are passed over, not tried */
-  int64_t rejected_other;       /* non-finite results, overshoot of the target */
+  int64_t rejected_other;       /* non-finite results, volumes not kept, overshoot of the target or error */
   int64_t locked_cells;         /* flat or folded in the input, passed on as they are */
   int64_t unused_vertices;      /* in no cell, left out */
   double largest_error;         /* largest quadric error of a collapse: volume times field error

@@ -194,6 +194,7 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
       lower(model, ratio, costs.outer, &Balance::outer, balance);
     balance->knows_outer = true;
   }
+  if (costs.inside.vertices < kLeastVertices) return;
   if (!balance->knows_interfaces && isEnough(costs.interfaces)) {
     lower(model, ratio, costs.interfaces, &Balance::interfaces, balance);
     balance->knows_interfaces = true;
