@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tetstream {
 
@@ -133,6 +134,14 @@ bool Collapser<Mesh>::keepCurveArea(uint32_t u, uint32_t v, const Embedded& embe
   return behind_u != kNone && behind_v != kNone && place_.keepCurveArea(behind_u, behind_v);
 }
 
+template <class Mesh>
+auto Collapser<Mesh>::intoCurve(const CellLabels& labels) -> Adjusted {
+  constexpr double kThere[3] = {0, 0, 0};
+  if (!place_.changesVolumes(stars_, labels)) return {place_.error()};
+  if (place_.givesUpRegion(labels, kThere)) return {std::numeric_limits<S>::infinity()};
+  return {place_.error(), kIntoCurve};
+}
+
 // The place that sheets and curves want.
 template <class Mesh>
 auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Strata& strata) -> Adjusted {
@@ -140,7 +149,7 @@ auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Strata& strata) -> Ad
   const bool v_on_it = strata.v.stratum == Stratum::kCurve;
   const CellLabels& labels = strata.embedded.labels;
   if (core_.exact_curves && (u_on_it || v_on_it) && place_.putOnCurve(u_on_it, v_on_it))
-    return {place_.error(), place_.changesVolumes(stars_, labels) ? kIntoCurve : 1};
+    return intoCurve(labels);
   const bool has_volumes = labels.count > 0 || keepsBody(u, v);
   if (!core_.inner_sheets)
     return {has_volumes ? place_.keepVolumes(stars_, labels, nullptr) : S(0)};

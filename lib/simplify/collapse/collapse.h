@@ -83,6 +83,7 @@ class Collapser {
     S error;
     float cost = 1;
   };
+  Adjusted intoCurve(const CellLabels& labels);
   Adjusted adjust(uint32_t u, uint32_t v, const Strata& strata);
   Outcome moveOnSheets(uint32_t u, uint32_t v, const Strata& strata, S* error, float most_price);
   uint32_t nextOnCurve(uint32_t v, uint32_t before, const Star& star, const Star& ring,

@@ -6,6 +6,7 @@
 
 #include "barycentric.h"
 #include "curve_area.h"
+#include "price.h"
 
 namespace tetstream {
 
@@ -131,6 +132,13 @@ bool MergedPlace<Mesh>::changesVolumes(const Stars& stars, const CellLabels& lab
 }
 
 template <class Mesh>
+bool MergedPlace<Mesh>::givesUpRegion(const CellLabels& labels, const double step[3]) const {
+  return volumes_.anyGivesUp(kOfARegion, step, [&](const int64_t* row) {
+    return core_.label_volumes.inputOf(labels, row);
+  });
+}
+
+template <class Mesh>
 auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels,
                                     const SheetSides* sides) -> S {
   measureVolumes(stars, labels, sides);
@@ -140,6 +148,7 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
   std::copy_n(cost, 6, form);
   const bool is_near = volumes_.step(form, step);
   if (!is_near && (labels.count > 0 || !sides)) return std::numeric_limits<S>::infinity();
+  if (givesUpRegion(labels, step)) return std::numeric_limits<S>::infinity();
   S scaled[3];
   for (size_t i = 0; i < 3; ++i) scaled[i] = static_cast<S>(step[i]) * core_.scale[i];
   moveBy(scaled);

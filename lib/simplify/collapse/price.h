@@ -20,6 +20,10 @@ constexpr float kDearGrowth = 1.5f;
 // the curve, and nothing makes up for it: it costs that many times the error.
 constexpr float kIntoCurve = 4;
 
+// And no collapse may change a region by a larger share of the volume that it has in all: where few
+// cells are left, and whatever costs less is refused, some would take a tenth of it at once.
+constexpr double kOfARegion = 0.003;
+
 // In the error of the best place. Where that is none, still a number.
 template <class S>
 float growthPrice(S best, S there) {

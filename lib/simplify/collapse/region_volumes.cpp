@@ -119,8 +119,13 @@ void RegionVolumes::close(const double ends[2][3]) {
 // as they are no more than 16,000 edges from the origin.
 constexpr double kNoChange = 1e-3;
 
+double RegionVolumes::leastChange() const {
+  const double square = dot(edge_, edge_);
+  return kNoChange * square * std::sqrt(square);
+}
+
 bool RegionVolumes::anyChanges() const {
-  const double square = dot(edge_, edge_), least = kNoChange * square * std::sqrt(square);
+  const double least = leastChange();
   return std::any_of(changes_.begin(), changes_.end(),
                      [least](const Change& change) { return std::fabs(change.volume) > least; });
 }

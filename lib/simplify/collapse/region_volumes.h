@@ -2,9 +2,12 @@
 // body. Depends on mesh.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "sheet_sides.h"
+#include "vector3.h"
 
 namespace tetstream {
 
@@ -31,6 +34,16 @@ class RegionVolumes {
                const double x[3], const CellLabels& labels, const SheetSides* sides);
   // Whether any would be another at x, by more than is worth a word.
   bool anyChanges() const;
+  // Whether a region, other than a side, would be another a step from x by more than a share of the
+  // volume that it has in all.
+  template <class VolumeOf>
+  bool anyGivesUp(double share, const double step[3], VolumeOf volumeOf) const {
+    const double least = leastChange();
+    return std::any_of(changes_.begin(), changes_.end(), [&](const Change& change) {
+      const double there = std::fabs(change.volume + dot(change.gradient, step));
+      return there > least && change.row && there > 6 * share * volumeOf(change.row);
+    });
+  }
   // From x to where the volumes are as they were; `form` tells what a step costs, as its lower
   // triangle by rows. False if that is farther than the edge is long:
   // a region that has but small faces at the vertex, such as one cell, would become a spike. Its
@@ -41,6 +54,7 @@ class RegionVolumes {
   template <class S, class ChangeOf>
   void addCells(const Stars& stars, const S* values, size_t stride, const double x[3],
                 const double tip[3], ChangeOf changeOf);
+  double leastChange() const;
   size_t of(const int64_t* row, const CellLabels& labels, size_t likely);
   size_t ofPart(size_t part);
   void close(const double ends[2][3]);

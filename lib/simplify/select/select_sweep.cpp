@@ -420,6 +420,7 @@ template <class S>
 void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
   do {
     core_.most_error = bounds_.limit();
+    core_.most_percent = bounds_.mostPercent();
     tryByAllMeans(tick);
     core_.most_error = std::numeric_limits<double>::infinity();
     if (mustStop() || !bounds_.widen(goal_, refused_)) return;

@@ -17,12 +17,12 @@ constexpr double kLeastStep = 1.15, kLargestStep = 4;
 constexpr double kLargestStride = 16;
 // Where the errors that were made bear no more.
 constexpr double kGuardedStep = 2;
-// Where no more cells are left their mean error tells nothing.
-constexpr int64_t kFewCells = 1000;
 // A goal that is farther than so many times it, with fewer edges than this share refused for their
 // error alone, is out of reach: what is left is not legal, and the few edges that are would be
-// spent for nothing.
+// spent for nothing. Where regions and fields are both to be kept, whatever the share.
 constexpr double kNear = 1.25, kFewAsLarge = 0.15;
+// Of no more cells the mean error tells nothing, and the largest is none for the last few.
+constexpr int64_t kFewCells = 1000, kFewest = 48;
 // Both with high effort: the smaller they are, the more nearly edges are taken in the order of
 // their errors, and the more often quadrics are made anew.
 constexpr double kCarefulStep = 2;
@@ -142,15 +142,19 @@ double SweepBounds<S>::limit() const {
 
 template <class S>
 bool SweepBounds<S>::isInReach(const Goal& goal, const Refused& refused) const {
-  return static_cast<double>(core_.window.liveCells()) <= kNear * static_cast<double>(goal.cells) ||
-         static_cast<double>(refused.as_large) > kFewAsLarge * static_cast<double>(refused.all);
+  const int64_t live = core_.window.liveCells();
+  if (static_cast<double>(live) <= kNear * static_cast<double>(goal.cells)) return true;
+  const bool are_large =
+      static_cast<double>(refused.as_large) > kFewAsLarge * static_cast<double>(refused.all);
+  if (core_.interfaces) return are_large && !core_.plan.measures();
+  return are_large || live <= kFewCells;
 }
 
 template <class S>
 bool SweepBounds<S>::widen(const Goal& goal, const Refused& refused) {
-  if (!reach_) return false;
+  if (!reach_ || !isInReach(goal, refused)) return false;
   const bool is_last = reach_ == &kLastWorth;
-  if (core_.window.liveCells() > kFewCells && (is_last || !isInReach(goal, refused))) return false;
+  if (is_last && (core_.interfaces || core_.window.liveCells() > kFewest)) return false;
   reach_ = is_last ? nullptr : &kLastWorth;
   return true;
 }

@@ -30,12 +30,13 @@ class SweepBounds {
   void learn(int64_t taken, int64_t looking);
   // The largest error that is worth to be made for the goal, in normalised units: few edges that
   // are legal must not make up for many that are not. What is left below it is tried by all means
-  // before it is widened, towards a goal that is in reach, of few cells in the end without a limit;
-  // so many edges were refused by then.
+  // before it is widened, towards a goal that is in reach; so many edges were refused by then.
   struct Refused {
     int64_t as_large, all;
   };
   double limit() const;
+  // That of all vertices, in percent of the range of the fields.
+  double mostPercent() const { return reach_ ? reach_->percent : 0; }
   bool widen(const Goal& goal, const Refused& refused);
 
  private:

@@ -259,7 +259,8 @@ struct Core {
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();
-  double most_error = std::numeric_limits<double>::infinity();  // of an edge that may be taken
+  // Of an edge that may be taken; and of all vertices, in percent of the range, where that is why.
+  double most_error = std::numeric_limits<double>::infinity(), most_percent = 0;
   Tally tally;                    // of the whole; parts that are not added yet have their own
   double rescaled = 1;            // what errors of the last window count in today's units
   bool exact_curves;              // there are curves that the user wants to stay where they are

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "status.h"
 
@@ -27,6 +28,19 @@ auto LabelVolumes::volumesOf(const CellLabels& labels, uint32_t cell) -> Volumes
 
 void LabelVolumes::add(const CellLabels& labels, uint32_t cell, double volume, Side side) {
   if (Volumes* const volumes = volumesOf(labels, cell)) volumes->of[side] += volume;
+}
+
+int LabelVolumes::Less::compare(const Row& a, const Labelled& b) {
+  for (size_t i = 0; i < a.size(); ++i) {
+    const int64_t other = b.row[b.labels.columns[i]];
+    if (a[i] != other) return a[i] < other ? -1 : 1;
+  }
+  return 0;
+}
+
+double LabelVolumes::inputOf(const CellLabels& labels, const int64_t* row) const {
+  const auto found = all_.find(Labelled{labels, row});
+  return found == all_.end() ? std::numeric_limits<double>::infinity() : found->second.of[kInput];
 }
 
 static std::string nameOf(const std::vector<int64_t>& row) {

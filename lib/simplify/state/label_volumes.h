@@ -15,18 +15,34 @@ class LabelVolumes {
  public:
   enum Side { kInput, kOutput };
   void add(const CellLabels& labels, uint32_t cell, double volume, Side side);
+  // Of the region that a row of labels tells, as far as it was read; infinite where none is kept.
+  double inputOf(const CellLabels& labels, const int64_t* row) const;
   // Those that changed by more than a percent, the most first; empty if there is none.
   std::string changesInWords() const;
 
  private:
   using Row = std::vector<int64_t>;
+  // Of a cell, with what does not count.
+  struct Labelled {
+    const CellLabels& labels;
+    const int64_t* row;
+  };
+  struct Less {
+    using is_transparent = void;
+    bool operator()(const Row& a, const Row& b) const { return a < b; }
+    bool operator()(const Row& a, const Labelled& b) const { return compare(a, b) < 0; }
+    bool operator()(const Labelled& a, const Row& b) const { return compare(b, a) > 0; }
+
+   private:
+    static int compare(const Row& a, const Labelled& b);
+  };
   struct Volumes {
     double of[2] = {0, 0};
     double change() const { return of[kOutput] / of[kInput] - 1; }
   };
   Volumes* volumesOf(const CellLabels& labels, uint32_t cell);
 
-  std::map<Row, Volumes> all_;
+  std::map<Row, Volumes, Less> all_;
   Row row_;  // of the last cell
   Volumes* last_ = nullptr;
 };

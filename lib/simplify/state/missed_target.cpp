@@ -33,7 +33,8 @@ std::string missInWords(const Core<S>& core) {
   const Report& report = core.report;
   std::string text = "no legal collapse is left";
   if (core.tally.rejected_large > 0)
-    text += textOf(" but with errors of a tenth of the %s and more",
+    text += textOf(" but with errors %s the %s and more",
+                   core.most_percent < 100 ? "of a tenth of" : "as large as",
                    core.plan.measures() ? "range of the fields" : "extent of the mesh");
   if (report.window_cells < 2 * report.front_cells)
     text += textOf(

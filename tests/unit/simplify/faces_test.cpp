@@ -1,6 +1,7 @@
 // Labels of faces, with the curves between them, and locked faces and edges.
 #include "faces.h"
 
+#include <cmath>
 #include <set>
 
 #include "ways_testing.h"
@@ -84,6 +85,30 @@ TEST(SimplifierFaces, GiveTheSameBytesWhateverTheBatches) {
     };
     const std::vector<unsigned char> first = bytes(100000);
     for (size_t batch_cells : {7, 64, 1000}) EXPECT_TRUE(bytes(batch_cells) == first) << side;
+  }
+}
+
+// Two regions with a bent interface, whose rim crosses the curves between the labels of faces, to
+// fewer cells than can be had: where whatever was legal was collapsed, half of a region was lost,
+// and vertices left the cube by half its width.
+TEST(SimplifierFaces, CostRegionsNoVolumeWhereFewCellsAreLeft) {
+  const int n = 6;
+  Labelled in(n);
+  in.mesh.addIntegerCellData("region", [&in](size_t cell) {
+    double x = 0, z = 0;
+    for (size_t j = 0; j < 4; ++j) {
+      const auto v = static_cast<size_t>(in.mesh.cells[4 * cell + j]);
+      x += in.mesh.position(v, 0) / 4;
+      z += in.mesh.position(v, 2) / 4;
+    }
+    return x + 2 * std::sin(z) < 3 ? 1 : 2;
+  });
+  for (double ratio : {0.1, 0.02}) {
+    const Faced result = simplified(in, toRatio(ratio), 4096);
+    EXPECT_EQ(result.report.regions, "by region");  // and no word of volumes
+    EXPECT_NEAR(result.report.volume_out, n * n * n, 1e-3 * n * n * n);
+    for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
+      for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(result.out.mesh.position(v, i), n / 2, 0.6 * n);
   }
 }
 
