@@ -133,8 +133,10 @@ bool MergedPlace<Mesh>::changesVolumes(const Stars& stars, const CellLabels& lab
 
 template <class Mesh>
 bool MergedPlace<Mesh>::givesUpRegion(const CellLabels& labels, const double step[3]) const {
+  const auto unit = static_cast<double>(core_.inverse_scale[0]);
+  const double body = core_.volume * unit * unit * unit;
   return volumes_.anyGivesUp(kOfARegion, step, [&](const int64_t* row) {
-    return core_.label_volumes.inputOf(labels, row);
+    return row ? core_.label_volumes.inputOf(labels, row) : body;
   });
 }
 
@@ -147,8 +149,9 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
   core_.kernels.spaceForm(mesh_.quadric(u_), mesh_.quadric(v_), core_.plan.dimension, cost);
   std::copy_n(cost, 6, form);
   const bool is_near = volumes_.step(form, step);
-  if (!is_near && (labels.count > 0 || !sides)) return std::numeric_limits<S>::infinity();
-  if (givesUpRegion(labels, step)) return std::numeric_limits<S>::infinity();
+  const bool has_regions = labels.count > 0;
+  if ((!is_near && (has_regions || !sides)) || (has_regions && givesUpRegion(labels, step)))
+    return std::numeric_limits<S>::infinity();
   S scaled[3];
   for (size_t i = 0; i < 3; ++i) scaled[i] = static_cast<S>(step[i]) * core_.scale[i];
   moveBy(scaled);

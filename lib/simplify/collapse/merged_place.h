@@ -38,7 +38,8 @@ class MergedPlace {
   bool keepCurveArea(uint32_t behind_u, uint32_t behind_v);
   // Whether a region of the stars is larger there than before, or smaller, or the body.
   bool changesVolumes(const Stars& stars, const CellLabels& labels);
-  // Of those measured last: whether a region would lose or win a share of its volume that counts.
+  // Of those measured last: whether a region would lose or win a share of its volume that counts,
+  // or a side, or the body, of the body's.
   bool givesUpRegion(const CellLabels& labels, const double step[3]) const;
   // By as much as it takes, to where no region of the stars grows or shrinks, or side of a sheet,
   // or the body; returns the error there. Where that is too far: infinity, but for sides.

@@ -34,14 +34,14 @@ class RegionVolumes {
                const double x[3], const CellLabels& labels, const SheetSides* sides);
   // Whether any would be another at x, by more than is worth a word.
   bool anyChanges() const;
-  // Whether a region, other than a side, would be another a step from x by more than a share of the
-  // volume that it has in all.
+  // Whether a region, or side, would be another a step from x by more than a share of a volume:
+  // volumeOf(row).
   template <class VolumeOf>
   bool anyGivesUp(double share, const double step[3], VolumeOf volumeOf) const {
     const double least = leastChange();
     return std::any_of(changes_.begin(), changes_.end(), [&](const Change& change) {
       const double there = std::fabs(change.volume + dot(change.gradient, step));
-      return there > least && change.row && there > 6 * share * volumeOf(change.row);
+      return there > least && there > 6 * share * volumeOf(change.row);
     });
   }
   // From x to where the volumes are as they were; `form` tells what a step costs, as its lower

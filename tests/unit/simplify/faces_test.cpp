@@ -1,6 +1,7 @@
 // Labels of faces, with the curves between them, and locked faces and edges.
 #include "faces.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -109,6 +110,27 @@ TEST(SimplifierFaces, CostRegionsNoVolumeWhereFewCellsAreLeft) {
     EXPECT_NEAR(result.report.volume_out, n * n * n, 1e-3 * n * n * n);
     for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
       for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(result.out.mesh.position(v, i), n / 2, 0.6 * n);
+  }
+}
+
+// A ball, whose curves are bent, without regions: 3.6 % of it were lost.
+TEST(SimplifierFaces, CostTheBodyNoVolumeWhereFewCellsAreLeft) {
+  const int n = 6;
+  Labelled in(n);
+  std::vector<double> places;
+  for (size_t v = 0; v < in.mesh.vertexCount(); ++v) {
+    double x[3], largest = 0, square = 0;
+    for (size_t i = 0; i < 3; ++i) {
+      x[i] = in.mesh.position(v, i) - n / 2;
+      largest = std::max(largest, std::fabs(x[i]));
+      square += x[i] * x[i];
+    }
+    for (double at : x) places.push_back(square > 0 ? at * largest / std::sqrt(square) : 0);
+  }
+  in.mesh = makeMesh(ScalarType::kFloat64, places, in.mesh.cells);
+  for (double ratio : {0.1, 0.05, 0.02}) {
+    const Report report = simplified(in, toRatio(ratio), 4096).report;
+    EXPECT_NEAR(report.volume_out, report.volume_in, 1e-2 * report.volume_in);
   }
 }
 
