@@ -181,7 +181,7 @@ void Parser::addOut(CLI::App* command) {
         ->add_option_function<std::string>(
             flag,
             [=, this](const std::string& value) {
-              arguments_.properties.push_back({property, value});
+              arguments_.properties.push_back({flag, property, value});
             },
             text)
         ->option_text(values);
@@ -362,8 +362,8 @@ void Parser::addCompare(CLI::App* command) {
        "part of ORIGINAL whose fields and boundary are compared: x0:x1,y0:y1,z0:z1, whose ends may "
        "be left out (default: all of it)"},
       {TETSTREAM_OPTION_REGIONS,
-       "cell array whose labels are regions; auto: the first of both with several values and no "
-       "ids; none"},
+       "cell array of integers, of one component, whose labels are regions; auto: the first of "
+       "both with several values, no ids and not named after processes; none"},
       {TETSTREAM_OPTION_SEED, "another seed takes other samples"},
       {TETSTREAM_OPTION_MEMORY, "bytes that the comparison may take; 0: 512M"},
   };
@@ -413,7 +413,10 @@ std::string Parser::chosenCommand() const {
 
 // What the command has no place for: an option that it does not know, before what follows that.
 std::string Parser::unexpectedText() const {
-  std::vector<std::string> words = app_.remaining(true);
+  std::vector<std::string> words = app_.remaining();
+  if (!words.empty() && !chosenCommand().empty())
+    return "options follow the command, but " + words.front() + " comes before it";
+  words = app_.remaining(true);
   const auto mark = std::find(words.begin(), words.end(), "--");
   for (auto word = words.begin(); word != mark; ++word)
     if (word->size() > 1 && word->front() == '-') return "there is no option " + *word;

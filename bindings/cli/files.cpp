@@ -130,6 +130,18 @@ Reader generateReader(const std::string& kind, int64_t cells, int64_t seed) {
   return reader;
 }
 
+// The library's sentence, with the flag where it speaks of the property.
+static void setProperty(tetstream_writer* writer, const Property& property) {
+  try {
+    check(tetstream_writer_set(writer, property.name.c_str(), property.value.c_str()), writer);
+  } catch (Failure& failure) {
+    const std::string called = "property \"" + property.name + "\"";
+    const size_t place = failure.text.find(called);
+    if (place != std::string::npos) failure.text.replace(place, called.size(), property.flag);
+    throw;
+  }
+}
+
 Writer createWriter(const Place& out, const std::vector<Property>& properties) {
   tetstream_writer* handle = nullptr;
   tetstream_status status;
@@ -141,8 +153,7 @@ Writer createWriter(const Place& out, const std::vector<Property>& properties) {
   }
   Writer writer(handle);
   check(status, handle);
-  for (const Property& p : properties)
-    check(tetstream_writer_set(handle, p.name.c_str(), p.value.c_str()), handle);
+  for (const Property& p : properties) setProperty(handle, p);
   return writer;
 }
 

@@ -18,9 +18,9 @@ struct Place {
   std::string name() const;  // the file's alone, without its folders
 };
 
-// A property of the output's format, as for tetstream_writer_set.
+// A property of the output's format, as for tetstream_writer_set, and the flag that asks for it.
 struct Property {
-  std::string name, value;
+  std::string flag, name, value;
 };
 
 // Before any work: throws Failure if nothing can be written there, or a terminal would get it.

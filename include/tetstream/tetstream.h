@@ -117,7 +117,7 @@ TETSTREAM_API const char *tetstream_status_name(tetstream_status status);
 #define TETSTREAM_OPTION_REGIONS 120         /* text: cell array that labels regions; "auto", "none" */
 #define TETSTREAM_OPTION_FEATURE_ANGLE 121   /* double, degrees: sharper edges are kept; 0: folds */
 #define TETSTREAM_OPTION_MODE 130            /* text: "sweep", "paper", "queue" */
-#define TETSTREAM_OPTION_SEED 131            /* int64, for the random choices of "paper" */
+#define TETSTREAM_OPTION_SEED 131            /* int64, of what "paper" draws, and of samples */
 #define TETSTREAM_OPTION_QUADRIC 132         /* text: "determinant", "garland-zhou" */
 #define TETSTREAM_OPTION_CANDIDATES 133      /* int64, edges "paper" draws for one collapse */
 #define TETSTREAM_OPTION_PILOT 134           /* text: "auto": may read input before; "none" */
@@ -464,7 +464,8 @@ typedef struct tetstream_front_info {
   double mean_width, mean_span; /* over the cells */
   double mean_life;             /* cells read while a vertex is active, over the vertices */
   int64_t longest_life;         /* cells */
-  int64_t window_cells;         /* that a simplification holds */
+  int64_t window_cells;         /* room of the window, in cells, of a simplification that knows this
+                                   front beforehand, to a quarter of the cells or fewer */
 } tetstream_front_info;
 
 /* The front as `inspect` found it. BAD_STATE before. Since 0.1. */
@@ -524,7 +525,8 @@ TETSTREAM_API tetstream_status tetstream_writer_get_memory(const tetstream_write
                                                            const void **data, size_t *size);
 /* A property of the format, before the stream begins: "compress" ("yes", "no"; .tets, .vtu,
  * .vtkhdf), "order" ("pre", "post"; .sva, .svb), "encoding" ("binary", "text"; .msh), "version"
- * ("4.1", "2.2"; .msh). BAD_ARGUMENT if there is none such. Since 0.1. */
+ * ("4.1", "2.2"; .msh). BAD_ARGUMENT if there is none such. A .tets that goes where nothing can be
+ * sought, as in a pipe, or into .gz or .zst, is not compressed by itself. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_writer_set(tetstream_writer *writer, const char *property,
                                                     const char *value);
 /* Since 0.1. */
@@ -542,7 +544,7 @@ typedef struct tetstream_report {
   size_t struct_size;
   int64_t cells_in, vertices_in, cells_out, vertices_out; /* in: those that are left out, too */
   int64_t target_cells;      /* the larger one of ratio and cells; 0: only an error was given */
-  int64_t window_cells;      /* cells that the window held at most */
+  int64_t window_cells;      /* room of the window, in cells, at most; it need not be full */
   int64_t front_width, front_span, front_cells; /* of the input, as it was streamed */
   int64_t collapses;
   int64_t rejected_orientation; /* a cell would have been flat or inverted */
@@ -733,7 +735,8 @@ typedef struct tetstream_layout_report {
  * each vertex just before the first cell that uses it, finalized by the last (Vo et al. 2007,
  * section 3.2). Memory is bounded by the option `memory` (0: 512 MB), whatever the mesh; the rest
  * is in temporary files in `tmpdir`. An indexed mesh is always ordered; a stream with order "auto"
- * only if its front is known and wide, with "none" never: it is copied then. "auto" is the sweep
+ * only if it tells of n vertices, 20000 or more, and of a front wider than 6 n^(2/3) (so it is in a
+ * run and in a comparison, too), with "none" never: it is copied then. "auto" is the sweep
  * or, if the mesh fits the memory, the spectral order where that is narrower; for `run`, and for
  * indexed meshes in `convert` and `inspect`, it is the sweep, whose smooth front lets collapses
  * through that narrower ones hold up. `options` may be NULL:
@@ -743,9 +746,9 @@ TETSTREAM_API tetstream_status tetstream_layout(tetstream_reader *reader, tetstr
                                                 tetstream_progress_callback progress, void *user,
                                                 tetstream_layout_report *report);
 /* Reads everything and fills *info completely: counts, box, front width, span and cells, as it
- * stands or, for an indexed mesh, as `run` would stream it. `options` as for `convert`. The
- * pointers in *info live as long as the reader. On failure the message is the reader's. Since 0.1.
- */
+ * stands or, for an indexed mesh, as `run` would stream it. As for `convert`, the options `order`,
+ * `axis`, `memory` and `tmpdir` count. The pointers in *info live as long as the reader. On failure
+ * the message is the reader's. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_inspect(tetstream_reader *reader,
                                                  const tetstream_options *options,
                                                  tetstream_progress_callback progress, void *user,
@@ -942,8 +945,9 @@ typedef struct tetstream_face_label_comparison {
 } tetstream_face_label_comparison;
 
 /* The options are copied; NULL: the defaults. Those count that count for `inspect`, and `samples`,
- * `seed`, `cut`, `box`, `regions` and fields that were added: only these are compared, those of
- * weight 0 left out. BAD_ARGUMENT for a `cut` or a `box` that is none. Since 0.1. */
+ * `boundary-samples`, `seed`, `cut`, `box`, `regions`, `threads`, the pool and fields that were
+ * added: only these are compared, those of weight 0 left out. BAD_ARGUMENT for a `cut` or a `box`
+ * that is none. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_comparison_create(const tetstream_options *options,
                                                            tetstream_comparison **comparison);
 /* Since 0.1. */

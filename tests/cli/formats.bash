@@ -55,6 +55,8 @@ expect 0 convert mesh.tets post.sva --vertex-order post
 [[ $(bytes_of post.sva) != "$(bytes_of mesh.sva)" ]] || fail "--vertex-order post changes nothing"
 expect 0 convert mesh.tets plain.vtu --compress no
 (($(stat -c %s plain.vtu) > $(stat -c %s mesh.vtu))) || fail "--compress no changes nothing"
-expect_error 1 "order" convert mesh.tets none.vtu --vertex-order post
-expect_error 1 "compress" convert mesh.tets none.vtu --compress perhaps
+expect_error 1 "the format vtu has no --vertex-order" convert mesh.tets none.vtu --vertex-order post
+expect_error 1 "the format tets has no --msh-version" convert mesh.vtu none.tets --msh-version 4.0
+expect_error 1 '--msh-version: "4.0" is neither "4.1" nor "2.2"' convert mesh.vtu none.msh --msh-version 4.0
+expect_error 1 '--compress: "perhaps" is neither "yes" nor "no"' convert mesh.tets none.vtu --compress perhaps
 [[ ! -e none.vtu ]] || fail "a refused property left a file"

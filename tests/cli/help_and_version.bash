@@ -35,6 +35,7 @@ expect_error 1 "no command" help nonsense
 expect_error 1 "which command" 
 expect_error 1 'no command "smplify", but simplify, info, convert' smplify a.tets b.tets
 expect_error 1 "there is no option --nonsense" --nonsense
+expect_error 1 "options follow the command, but --quiet comes before it; see" --quiet info f.tets
 expect_error 1 "one argument too many: --quiet" convert -- -in.tets out.tets --quiet
 expect_error 1 "which k, M or G may follow" simplify a.tets b.tets --ratio 0.1 --memory 16MiB
 expect_error 1 "tetstream simplify --help" simplify --nonsense 1 a.tets b.tets --ratio 0.1

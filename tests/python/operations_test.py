@@ -144,6 +144,14 @@ class Operations(unittest.TestCase):
         self.assertIn("one of: sweep paper queue", tetstream.Options.mode.__doc__)
         for name in ("boundary_weight", "tmpdir", "order"):
             self.assertIn(f"        {name}: ", tetstream.simplify.__doc__)
+        for name in ("split", "recover", "step", "join_points", "cells_to_points"):
+            self.assertIn(f"        {name}: ", tetstream.simplify_file.__doc__)
+            for without_files in (tetstream.simplify, tetstream.simplify_batches):
+                self.assertNotIn(f"        {name}: ", without_files.__doc__)
+        for needs_a_target in (tetstream.simplify, tetstream.simplify_file,
+                               tetstream.simplify_batches):
+            self.assertIn("ratio: cells out / cells in; 0: not asked for (",
+                          needs_a_target.__doc__)
 
     def test_options_are_a_mapping_of_what_was_set(self):
         options = tetstream.Options(ratio=0.25, memory="64M", cells=1e3, tmpdir=None,

@@ -8,7 +8,7 @@
 ## how coherent its order is, width and span in vertices, cells that touch them; notes. An indexed
 ## mesh's front is that of the order in which it is streamed.
 ##
-## Pairs: "window", "memory", "order", "axis", "tmpdir"; of files "step", "split", "recover",
+## Pairs: "memory", "order", "axis", "tmpdir", "threads"; of files "step", "split", "recover",
 ## "join-points", "cells-to-points"; "progress", a function.
 ##
 ## See also: tetstream_compare, tetstream_read.

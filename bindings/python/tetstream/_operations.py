@@ -160,7 +160,7 @@ def compare(original, simplified, *, weights=None, progress=None, **options):
         original, simplified: each a path, a Reader or a Mesh. Options of the reading are for the
             original, and for the other where it is a file that takes them.
         weights: dict of field to weight: only these are compared, those of weight 0 left out. None:
-            all float fields that both have.
+            all fields that both have, with as many components, those of integers too.
         progress: as in simplify.
     """
     made = _options.made(options, core.SCOPE_COMPARE, weights)

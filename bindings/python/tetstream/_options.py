@@ -31,6 +31,12 @@ class _Row:
         default = f"; default {self.default}" if self.default else ""
         return f"{self.text} ({self.range_text()}{default})"
 
+    def describe_for(self, scope):
+        """As for a function: there no target stands in for one that is missing."""
+        if self.name == "ratio" and scope == core.SCOPE_SIMPLIFY:
+            return f"cells out / cells in; 0: not asked for ({self.range_text()}; default 0)"
+        return self.describe()
+
     def get(self, handle):
         if self.type == core.OPTION_IS_INT64:
             return handle.get_int64(self.id)
@@ -163,11 +169,13 @@ def made(values, scope, weights=None):
     return Options(weights=weights, **values)
 
 
-def documented(scope):
-    """A decorator: adds the options that count there to what a function says of itself."""
+def documented(scope, reads=True):
+    """A decorator: adds the options that count there to what a function says of itself; without
+    those of files where it `reads` none."""
     def with_table(function):
-        lines = [f"    {row.name}: {row.describe()}" for row in ROWS.values()
-                 if row.scope & (scope | core.SCOPE_READ)]
+        counted = scope | core.SCOPE_READ if reads else scope
+        lines = [f"    {row.name}: {row.describe_for(scope)}" for row in ROWS.values()
+                 if row.scope & counted]
         function.__doc__ += "\n    Options:\n\n" + "\n".join("    " + line for line in lines) + "\n"
         return function
     return with_table

@@ -81,7 +81,7 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
     return result
 
 
-@_options.documented(core.SCOPE_SIMPLIFY)
+@_options.documented(core.SCOPE_SIMPLIFY, reads=False)
 def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None, locked=None,
              faces=None, face_labels=None, locked_faces=None, locked_edges=None, label_names=None,
              weights=None, vertex_map=False, progress=None, **options):
@@ -113,8 +113,9 @@ def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None
             is reached ends the run, and what else is listed below.
 
     Returns:
-        A Simplified: points, cells, fields, cell_data, report, vertex_map. Integers have the types
-        that they came with.
+        A Simplified: points, cells, fields, cell_data, report, vertex_map. Fields and cell_data of
+        integers have the types that they came with, of others points and floats are float32 or
+        float64, cells int32 or int64.
 
     Raises:
         tetstream.Error or one of its kinds, TypeError, or what `progress` raised. KeyboardInterrupt
@@ -161,7 +162,7 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
         return _run(made, reader, _streams.writer_of(target), tell, prepare, 4)
 
 
-@_options.documented(core.SCOPE_SIMPLIFY)
+@_options.documented(core.SCOPE_SIMPLIFY, reads=False)
 def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, weights=None,
                      vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
                      front_cells=-1, label_names=None, **options):
