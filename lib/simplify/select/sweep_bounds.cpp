@@ -19,7 +19,7 @@ constexpr double kLargestStride = 16;
 constexpr double kGuardedStep = 2;
 // A goal that is farther than so many times it, with fewer edges than this share refused for their
 // error alone, is out of reach: what is left is not legal, and the few edges that are would be
-// spent for nothing. Where regions and fields are both to be kept, whatever the share.
+// spent for nothing. Where both regions and fields are to be kept it is nearly so with any share.
 constexpr double kNear = 1.25, kFewAsLarge = 0.15;
 // Of no more cells the mean error tells nothing, and the largest is none for the last few.
 constexpr int64_t kFewCells = 1000, kFewest = 48;
@@ -140,22 +140,28 @@ double SweepBounds<S>::limit() const {
   return reach_ ? errorIn(*reach_) : std::numeric_limits<double>::infinity();
 }
 
+// Null: no farther.
 template <class S>
-bool SweepBounds<S>::isInReach(const Goal& goal, const Refused& refused) const {
+auto SweepBounds<S>::widest(const Goal& goal, const Refused& refused) const -> const Reach* {
   const int64_t live = core_.window.liveCells();
-  if (static_cast<double>(live) <= kNear * static_cast<double>(goal.cells)) return true;
+  if (static_cast<double>(live) <= kNear * static_cast<double>(goal.cells)) return &kLastWorth;
   const bool are_large =
       static_cast<double>(refused.as_large) > kFewAsLarge * static_cast<double>(refused.all);
-  if (core_.interfaces) return are_large && !core_.plan.measures();
-  return are_large || live <= kFewCells;
+  if (!are_large && (core_.interfaces || live > kFewCells)) return nullptr;
+  return core_.interfaces && core_.plan.measures() ? &kWorthBeside : &kLastWorth;
 }
 
 template <class S>
 bool SweepBounds<S>::widen(const Goal& goal, const Refused& refused) {
-  if (!reach_ || !isInReach(goal, refused)) return false;
-  const bool is_last = reach_ == &kLastWorth;
-  if (is_last && (core_.interfaces || core_.window.liveCells() > kFewest)) return false;
-  reach_ = is_last ? nullptr : &kLastWorth;
+  if (!reach_) return false;
+  const Reach* const wider = widest(goal, refused);
+  const bool is_last = reach_ == &kLastWorth && !core_.interfaces;
+  if (is_last && core_.window.liveCells() <= kFewest)
+    reach_ = nullptr;
+  else if (wider && wider->percent > reach_->percent)
+    reach_ = wider;
+  else
+    return false;
   return true;
 }
 

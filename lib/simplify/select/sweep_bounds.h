@@ -45,10 +45,11 @@ class SweepBounds {
   struct Reach {
     double percent, times;
   };
-  static constexpr Reach kFree = {1, 2}, kWorth = {10, 4}, kLastWorth = {100, 4};
+  static constexpr Reach kFree = {1, 2}, kWorth = {10, 4}, kWorthBeside = {20, 4},
+                         kLastWorth = {100, 4};
 
   double errorIn(const Reach& reach) const;
-  bool isInReach(const Goal& goal, const Refused& refused) const;
+  const Reach* widest(const Goal& goal, const Refused& refused) const;
   double boundToTake(double cells) const;
   double stepToError(double limit) const;
   double distance(double share_left, const Goal& goal) const;

@@ -28,13 +28,17 @@ static std::string regionArrays(const Core<S>& core) {
   return names;
 }
 
+static const char* sizeInWords(double percent) {
+  if (percent >= 100) return "as large as";
+  return percent > 10 ? "of a fifth of" : "of a tenth of";
+}
+
 template <class S>
 std::string missInWords(const Core<S>& core) {
   const Report& report = core.report;
   std::string text = "no legal collapse is left";
   if (core.tally.rejected_large > 0)
-    text += textOf(" but with errors %s the %s and more",
-                   core.most_percent < 100 ? "of a tenth of" : "as large as",
+    text += textOf(" but with errors %s the %s and more", sizeInWords(core.most_percent),
                    core.plan.measures() ? "range of the fields" : "extent of the mesh");
   if (report.window_cells < 2 * report.front_cells)
     text += textOf(
