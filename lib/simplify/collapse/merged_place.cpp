@@ -25,7 +25,8 @@ bool MergedPlace<Mesh>::set(uint32_t u, uint32_t v, const S* z) {
 
 // The new position is rounded to the type in which it is written: what is tested is what the file
 // will hold. Values stay in what their field may have, as far as its range is known, or in what the
-// two ends have where a header has told a narrower one. Returns whether z had to give way.
+// two ends have where a header has told a narrower one; those that are not finite stay, and are
+// refused. Returns whether z had to give way.
 template <class Mesh>
 bool MergedPlace<Mesh>::update() {
   const S *a = mesh_.values(u_), *b = mesh_.values(v_);
@@ -35,7 +36,7 @@ bool MergedPlace<Mesh>::update() {
     const S middle = a[i] + S(0.5) * (b[i] - a[i]);
     S& x = values_[i] = middle + z_[i] * core_.inverse_scale[i];
     if (to_float && i < 3) x = static_cast<S>(static_cast<float>(x));
-    if (!(x < core_.least[i] || x > core_.most[i])) continue;
+    if (!(x < core_.least[i] || x > core_.most[i]) || std::isinf(x)) continue;
     x = std::clamp(x, std::min({core_.least[i], a[i], b[i]}),
                    std::max({core_.most[i], a[i], b[i]}));
     z_[i] = (x - middle) * core_.scale[i];
