@@ -157,7 +157,8 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
 }
 
 // A value that is not finite has no part in a mean: there the nearest corner's is taken, so that
-// such places do not grow.
+// such places do not grow. note: weights add up to 1 but for rounding, by which a mean could leave
+// the corners' range.
 template <class Mesh>
 void MergedPlace<Mesh>::interpolateCarried(const Stars& stars) {
   const double x[3] = {at(0), at(1), at(2)};
@@ -181,11 +182,15 @@ void MergedPlace<Mesh>::interpolateCarried(const Stars& stars) {
   const auto nearest = static_cast<size_t>(std::max_element(weights, weights + 4) - weights);
   for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
     double sum = 0;
-    for (int k = 0; k < 4; ++k)
-      sum += weights[k] * static_cast<double>(mesh_.values(corners[k])[i]);
+    S there[4];
+    for (int k = 0; k < 4; ++k) {
+      there[k] = mesh_.values(corners[k])[i];
+      sum += weights[k] * static_cast<double>(there[k]);
+    }
     const S mean = static_cast<S>(sum);
+    const auto [least, most] = std::minmax({there[0], there[1], there[2], there[3]});
     values_[static_cast<size_t>(i)] =
-        std::isfinite(mean) ? mean : mesh_.values(corners[nearest])[i];
+        std::isfinite(mean) ? std::clamp(mean, least, most) : there[nearest];
   }
 }
 
