@@ -1,6 +1,7 @@
 // How many cells come out, what stops a run short, what memory it takes, how it is cancelled.
 #include <cmath>
 
+#include "budget.h"
 #include "mix.h"
 #include "simplify_testing.h"
 
@@ -98,6 +99,18 @@ TEST(SimplifierTarget, IsTheNumberOfCellsAskedFor) {
                   std::min(cells, static_cast<int64_t>(mesh.cellCount())));
         expectReached(result);
       }
+}
+
+// No product of a decimal ratio is short of its whole number by rounding; of others the cell that
+// they are short of is not made.
+TEST(SimplifierTarget, OfARatioIsItsWholeNumberOfCells) {
+  for (int64_t cells : {int64_t{100}, int64_t{1000}, int64_t{187300}, int64_t{14000000000}})
+    for (int64_t percent = 1; percent <= 100; ++percent)
+      EXPECT_EQ((Target{static_cast<double>(percent) / 100, 0, 0}).cellsOf(cells),
+                cells / 100 * percent);
+  EXPECT_EQ((Target{0.1, 0, 0}).cellsOf(187395), 18739);
+  EXPECT_EQ((Target{1, 0, 0}).cellsOf(int64_t{1} << 48), int64_t{1} << 48);
+  EXPECT_EQ((Target{0.29 * (1 - 1e-14), 0, 0}).cellsOf(100), 28);
 }
 
 TEST(SimplifierTarget, AsANumberOfCellsNeedsACountedStream) {
