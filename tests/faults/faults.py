@@ -70,6 +70,7 @@ class Group:
         self.call_fails("memory ends", "memory", [errno.ENOMEM], [MEMORY], is_ours)
         self.call_fails("memory is short once", "memory", [f"only:{errno.ENOMEM}"], [MEMORY],
                         is_ours)
+        self.no_memory_to_pack()
 
     def surroundings(self):
         self.changing_inputs()
@@ -87,6 +88,18 @@ class Group:
         limits.recovery(self)
 
     # ---------------------------------------------------------------------------- one by one
+
+    def no_memory_to_pack(self):
+        """Each of the few large pieces of memory that are asked for, as by what compresses."""
+        large = {"FAULT_LEAST": "4000"}
+        for command in runs.packing(self.bench.tool):
+            digest, calls = self.bench.reference(command, large)
+            for n in range(1, calls["memory"] + 1):
+                self.bench.fill()
+                fault = f"memory {n} only:{errno.ENOMEM}"
+                code, err = self.bench.run(command.words, fault, environment=large)
+                self.tally.count("no large piece of memory", command.name, fault,
+                                 self.bench.complaint(command, digest, code, err, [MEMORY]))
 
     def short_transfers(self):
         for command, digest, calls in self.each():
