@@ -225,6 +225,23 @@ TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
   for (Mode mode : kModes) expectWithinBudget(mesh, mode);
 }
 
+// Before the first window is full nobody may know the front: then the message tells of none.
+TEST(SimplifierMemory, IsAskedForWithoutAFrontThatIsNotKnown) {
+  const TestMesh mesh = gridWith(10, [](double x, double y, double z) { return x * y + z; });
+  int refused = 0;
+  for (Mode mode : kModes)
+    for (bool say_counts : {false, true})
+      for (int64_t limit = 20000; limit < 400000; limit += limit / 8) {
+        Cut cut;
+        cut.say_counts = say_counts;
+        const BudgetRun run = simplifiedWithin(mesh, toRatio(0.2, 0, mode), limit, cut);
+        if (run.status != Status::kNoMemory) continue;
+        refused += run.text.find(" should do") != std::string::npos;
+        EXPECT_EQ(run.text.find("front of 0"), std::string::npos) << run.text;
+      }
+  EXPECT_GT(refused, 5);
+}
+
 // A window that starts small and grows must not fail with more memory where it held with less.
 void expectMoreSuffices(const TestMesh& mesh, Mode mode) {
   Cut cut;
