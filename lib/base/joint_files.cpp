@@ -1,5 +1,7 @@
 #include "joint_files.h"
 
+#include <string>
+
 #include "status.h"
 
 namespace tetstream {
@@ -28,12 +30,30 @@ void JointFiles::commit() {
     if (files_.size() > 1) prepare();
     for (const auto& file : files_) file->close();
     for (; renamed < files_.size(); ++renamed) files_[renamed]->rename();
+  } catch (const Error& error) {
+    undo(renamed);
+    const std::string text = error.text() + leftInWords();
+    forget();
+    throw Error(error.status(), text);
   } catch (...) {
-    while (renamed-- > 0) files_[renamed]->undo();
+    undo(renamed);
     forget();
     throw;
   }
   forget();
+}
+
+void JointFiles::undo(size_t renamed) noexcept {
+  while (renamed-- > 0) files_[renamed]->undo();
+}
+
+std::string JointFiles::leftInWords() const {
+  std::string words;
+  for (const auto& file : files_)
+    if (!file->left().empty())
+      words += textOf("; %s is new already, what it was before is now %s", file->path().c_str(),
+                      file->left().c_str());
+  return words;
 }
 
 }  // namespace tetstream

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,13 +23,16 @@ class JointFiles {
   void add(std::unique_ptr<NamedTemporary> file) { files_.push_back(std::move(file)); }
 
   // A single file is closed and renamed. Of several, all are on the disk before the first one is
-  // renamed, and where one cannot be, the names before it are again what they were. Throws kIo, and
-  // kBadArgument for two of the same name; none has its name then.
+  // renamed, and where one cannot be, the names before it are again what they were; what does not
+  // get its name back is kept, as the error tells. Throws kIo, and kBadArgument for two of the same
+  // name; none has its name then.
   void commit();
   void forget() noexcept { files_.clear(); }
 
  private:
   void prepare();
+  void undo(size_t renamed) noexcept;
+  std::string leftInWords() const;
 
   std::vector<const NamedTemporary*> begun_;  // borrowed
   std::vector<std::unique_ptr<NamedTemporary>> files_;

@@ -118,6 +118,7 @@ void NamedTemporary::close() {
 // now, the next run removes it. A file system without links keeps nothing.
 void NamedTemporary::keepOld() {
   old_ = temporary_ + "0000";
+  spare_ = temporary_ + ".old";
   ::unlink(old_.c_str());
   if (::link(target_.c_str(), old_.c_str()) == 0)
     before_ = Before::kKept;
@@ -133,8 +134,14 @@ void NamedTemporary::rename() {
 void NamedTemporary::undo() noexcept {
   if (!renamed_) return;
   if (before_ == Before::kNone) ::unlink(target_.c_str());
-  if (before_ == Before::kKept && ::rename(old_.c_str(), target_.c_str()) == 0)
-    before_ = Before::kUnknown;
+  if (before_ != Before::kKept) return;
+  before_ = Before::kUnknown;
+  if (::rename(old_.c_str(), target_.c_str()) == 0) return;
+  left_.swap(old_);
+  // By that name the next run would take it for abandoned.
+  if (::link(left_.c_str(), spare_.c_str()) != 0) return;
+  ::unlink(left_.c_str());
+  left_.swap(spare_);
 }
 
 }  // namespace tetstream

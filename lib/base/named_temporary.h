@@ -25,8 +25,10 @@ class NamedTemporary {
   void close();    // nothing is written any more
   void keepOld();  // what has the name now stays beside, as long as this does
   void rename();
-  // The name is as it was before the rename.
+  // The name is as it was before the rename. Where that cannot be, what had it stays beside, as
+  // left() then tells.
   void undo() noexcept;
+  const std::string& left() const { return left_; }
   const std::string& target() const { return target_; }
   const std::string& path() const { return path_; }
 
@@ -34,7 +36,7 @@ class NamedTemporary {
   void create(const std::string& stem);
   enum class Before { kUnknown, kNone, kKept };
 
-  std::string path_, target_, temporary_, old_;
+  std::string path_, target_, temporary_, old_, spare_, left_;
   int fd_ = -1;
   Before before_ = Before::kUnknown;  // what the name was of
   bool renamed_ = false;

@@ -1,10 +1,9 @@
 // zstd's wrapping (RFC 8878), one frame or several.
 #include "status.h"
 #include "wrapping_parts.h"
+#include "zstd_result.h"
 
 #ifdef TETSTREAM_WITH_ZSTD
-#include <zstd.h>
-
 #include <utility>
 #include <vector>
 #endif
@@ -18,7 +17,7 @@ namespace {
 constexpr int kZstdLevel = 3;
 
 void checkZstd(size_t result, const std::string& name) {
-  if (ZSTD_isError(result))
+  if (zstdFailed(result))
     fail(Status::kBadData, "%s: the compressed data are damaged: %s", name.c_str(),
          ZSTD_getErrorName(result));
 }
@@ -73,7 +72,7 @@ class ZstdSink final : public WrappedSink {
     for (;;) {
       ZSTD_outBuffer to = {buffer_.data(), buffer_.size(), 0};
       const size_t left = ZSTD_compressStream2(stream_, &to, &from, end);
-      if (ZSTD_isError(left)) fail(Status::kInternal, "zstd: %s", ZSTD_getErrorName(left));
+      if (zstdFailed(left)) fail(Status::kInternal, "zstd: %s", ZSTD_getErrorName(left));
       inner().write(buffer_.data(), to.pos);
       if (end == ZSTD_e_continue ? from.pos == from.size : left == 0) return;
     }

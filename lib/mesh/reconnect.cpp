@@ -8,7 +8,8 @@ namespace tetstream {
 constexpr double kNotKnown = -2;
 
 template <class S>
-void Reconnector<S>::start() {
+void Reconnector<S>::start(bool is_folded) {
+  is_folded_ = is_folded;
   if (thinness_.size() < patch_.cellEnd()) thinness_.resize(patch_.cellEnd() + 1024);
   std::fill_n(thinness_.data(), patch_.cellEnd(), kNotKnown);
 }
@@ -46,11 +47,21 @@ void Reconnector<S>::addGone(uint32_t c, Reconnection& out) {
   out.before = std::max(out.before, thinnessOfCell(c));
 }
 
-// As far as the patch knows: all cells of owned vertices.
+// Of vertices that are not owned, whether one may be somewhere already that is about to be made.
+// Both would begin in the same direction: cells overlap at every one of the vertices, which then
+// are those of cells that fold, and locked, or are not final.
+template <class S>
+bool Reconnector<S>::mayBeThere(const uint32_t* vertices, size_t count) const {
+  return is_folded_ && std::none_of(vertices, vertices + count,
+                                    [&](uint32_t v) { return patch_.isFreeElsewhere(v); });
+}
+
+// The patch knows all cells of owned vertices.
 template <class S>
 bool Reconnector<S>::hasEdge(uint32_t a, uint32_t b) {
   if (a >= patch_.ownedEnd()) std::swap(a, b);
-  if (a >= patch_.ownedEnd()) return false;
+  const uint32_t ends[2] = {a, b};
+  if (a >= patch_.ownedEnd()) return mayBeThere(ends, 2);
   patch_.gather(a, b, star_, ring_);
   return ring_.size() > 0;
 }
@@ -58,7 +69,7 @@ bool Reconnector<S>::hasEdge(uint32_t a, uint32_t b) {
 template <class S>
 bool Reconnector<S>::hasFace(const uint32_t corners[3]) {
   const uint32_t* owned = std::min_element(corners, corners + 3);
-  if (*owned >= patch_.ownedEnd()) return false;
+  if (*owned >= patch_.ownedEnd()) return mayBeThere(corners, 3);
   const auto k = static_cast<size_t>(owned - corners);
   patch_.gather(*owned, corners[(k + 1) % 3], star_, ring_);
   for (const StarCell& s : ring_)

@@ -29,8 +29,10 @@ class Reconnector {
   Reconnector(Patch<S>& patch, Account& account)
       : patch_(patch), star_(account), ring_(account), thinness_(account) {}
 
-  // Another patch, or one that was changed otherwise.
-  void start();
+  // Another patch, or one that was changed otherwise. `is_folded`: the mesh folds over itself
+  // somewhere; then of no use are flips that make an edge or a face between vertices of which none
+  // is free, whose cells are not all known.
+  void start(bool is_folded);
   // As Patch::replace.
   void replace(const Reconnection& r, uint32_t* slots);
 
@@ -63,6 +65,7 @@ class Reconnector {
     thinnessOfFour(patch_.allValues(), patch_.valueStride(), corners, out);
   }
   void measureFour(const uint32_t* cells);
+  bool mayBeThere(const uint32_t* vertices, size_t count) const;
   bool hasEdge(uint32_t a, uint32_t b);
   bool hasFace(const uint32_t corners[3]);
   bool orderRing(uint32_t v, uint32_t* ring) const;
@@ -75,6 +78,7 @@ class Reconnector {
 
   Patch<S>& patch_;
   Star star_, ring_;
+  bool is_folded_ = false;
   Array<double> thinness_;  // per cell of the patch, below -1 where not known
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "pilot.h"
 #include "select.h"
@@ -31,8 +32,15 @@ struct Target {
   bool countsCells() const { return ratio > 0 || cells > 0; }
   // Cells out when `read` have come in: never more than asked for, but one where there are any.
   int64_t cellsOf(int64_t read) const {
-    return std::max({static_cast<int64_t>(ratio * static_cast<double>(read)), std::min(cells, read),
-                     std::min<int64_t>(read, 1)});
+    return std::max({share(read), std::min(cells, read), std::min<int64_t>(read, 1)});
+  }
+
+ private:
+  // Of 0.29 times 100 the product is 28.999999999999996: it is below a whole number by half a unit
+  // in the last place for the ratio and half a one for itself.
+  int64_t share(int64_t read) const {
+    constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
+    return static_cast<int64_t>(ratio * static_cast<double>(read) * (1 + kRounding));
   }
 };
 

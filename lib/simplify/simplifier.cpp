@@ -162,8 +162,10 @@ class WindowedEngine final : public Simplifier::Engine {
   }
   [[noreturn]] void failForBudget(const char* why) const {
     const int64_t front = std::max(plan_.schema.front_cells, front_cells_);
+    const auto enough = static_cast<long long>(size_.budgetFor(front));
+    if (front <= 0) fail(Status::kNoMemory, "%s; %lld should do", why, enough);  // not known yet
     fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", why,
-         static_cast<long long>(front), static_cast<long long>(size_.budgetFor(front)));
+         static_cast<long long>(front), enough);
   }
 
   std::unique_ptr<Selector> makeSelector() {

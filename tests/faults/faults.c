@@ -7,6 +7,7 @@
  *   shrink      before that call, the file FAULT_FILE loses its second half
  *   grow        before that call, the file FAULT_FILE gets as many bytes again
  *   kill        the process is killed
+ * Of memory only what has FAULT_LEAST bytes and more counts, where that is given.
  * Without FAULT, the calls are counted: at the end a line "CALL NUMBER" for each goes to
  * FAULT_COUNTS. What is done before main begins neither counts nor fails. */
 #define _GNU_SOURCE
@@ -28,11 +29,13 @@ static const char* const kNames[CALLS] = {"read", "write",  "open",  "close",
 
 static int begun, ready, chosen = -1, only, error, is_short, is_shrink, is_grow, is_kill;
 static long number, counts[CALLS];
+static size_t least;
 
 /* No memory is asked for here. */
 static void prepare(void) {
-  const char* fault = getenv("FAULT");
+  const char *fault = getenv("FAULT"), *bytes = getenv("FAULT_LEAST");
   ready = 1;
+  if (bytes) least = strtoul(bytes, NULL, 10);
   if (!fault) return;
   for (int call = 0; call < CALLS; ++call) {
     const size_t length = strlen(kNames[call]);
@@ -159,25 +162,30 @@ int rename(const char* from, const char* to) {
 }
 
 #ifdef FAULTS_OF_MEMORY
+static int isDenied(size_t size) {
+  if (begun && !ready) prepare();
+  return size >= least && fails(MEMORY) > 0;
+}
+
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t count, size_t size);
 void* __libc_realloc(void* old, size_t size);
 void* __libc_memalign(size_t alignment, size_t size);
 
 void* malloc(size_t size) {
-  return fails(MEMORY) > 0 ? NULL : __libc_malloc(size);
+  return isDenied(size) ? NULL : __libc_malloc(size);
 }
 void* calloc(size_t count, size_t size) {
-  return fails(MEMORY) > 0 ? NULL : __libc_calloc(count, size);
+  return isDenied(count * size) ? NULL : __libc_calloc(count, size);
 }
 void* realloc(void* old, size_t size) {
-  return fails(MEMORY) > 0 ? NULL : __libc_realloc(old, size);
+  return isDenied(size) ? NULL : __libc_realloc(old, size);
 }
 void* aligned_alloc(size_t alignment, size_t size) {
-  return fails(MEMORY) > 0 ? NULL : __libc_memalign(alignment, size);
+  return isDenied(size) ? NULL : __libc_memalign(alignment, size);
 }
 int posix_memalign(void** out, size_t alignment, size_t size) {
-  if (fails(MEMORY) > 0) return ENOMEM;
+  if (isDenied(size)) return ENOMEM;
   *out = __libc_memalign(alignment, size);
   return *out ? 0 : ENOMEM;
 }

@@ -57,6 +57,7 @@ class Group:
         self.call_fails("close fails", "close", [f"only:{errno.EIO}"], [IO])
         self.call_fails("rename fails", "rename", [f"only:{errno.EPERM}"], [IO])
         self.call_fails("sync to the disk fails", "sync", [f"only:{errno.EIO}"], [IO])
+        self.old_files_are_kept()
 
     def transfers(self):
         self.call_fails("write: no space left", "write", [errno.ENOSPC, errno.EDQUOT], [IO])
@@ -70,6 +71,7 @@ class Group:
         self.call_fails("memory ends", "memory", [errno.ENOMEM], [MEMORY], is_ours)
         self.call_fails("memory is short once", "memory", [f"only:{errno.ENOMEM}"], [MEMORY],
                         is_ours)
+        self.no_memory_to_pack()
 
     def surroundings(self):
         self.changing_inputs()
@@ -87,6 +89,36 @@ class Group:
         limits.recovery(self)
 
     # ---------------------------------------------------------------------------- one by one
+
+    def old_files_are_kept(self):
+        """Of outputs that get their names together, where from some rename on none can be done: not
+        even back."""
+        for command in self.commands:
+            for n in range(1, len(command.outputs) + 1) if len(command.outputs) > 1 else ():
+                self.bench.fill()
+                for name in command.outputs:
+                    with open(os.path.join(self.bench.work, name), "w") as file:
+                        file.write("old " + name)
+                code, err = self.bench.run(command.words, f"rename {n} {errno.EPERM}")
+                kept = {out: self.bench.keeper(out, err) for out in command.outputs}
+                self.bench.run(command.words)  # which takes away what is abandoned
+                complaint = "" if code == IO else f"exit code {code}: {err.strip()[-300:]}"
+                for out, name in kept.items():
+                    if name not in self.bench.written():
+                        complaint = complaint or f"what {out} was is lost"
+                self.tally.count("rename fails, and back", command.name, f"rename {n}", complaint)
+
+    def no_memory_to_pack(self):
+        """Each of the few large pieces of memory that are asked for, as by what compresses."""
+        large = {"FAULT_LEAST": "4000"}
+        for command in runs.packing(self.bench.tool):
+            digest, calls = self.bench.reference(command, large)
+            for n in range(1, calls["memory"] + 1):
+                self.bench.fill()
+                fault = f"memory {n} only:{errno.ENOMEM}"
+                code, err = self.bench.run(command.words, fault, environment=large)
+                self.tally.count("no large piece of memory", command.name, fault,
+                                 self.bench.complaint(command, digest, code, err, [MEMORY]))
 
     def short_transfers(self):
         for command, digest, calls in self.each():

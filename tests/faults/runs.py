@@ -52,6 +52,24 @@ def table(tool):
     return rows
 
 
+def has_zstd(tool):
+    text = subprocess.run([tool, "--version"], capture_output=True, text=True).stdout
+    return "no zstd" not in text
+
+
+def packing(tool):
+    """What compresses or decompresses."""
+    rows = [Command("convert to tets", "convert in.tets out.tets", ["out.tets"]),
+            Command("convert from vtu", "convert in.vtu out.tets", ["out.tets"]),
+            Command("layout", "layout in.tets out.tets --order brick", ["out.tets"]),
+            Command("wrap", "convert in.tets out.tets.gz", ["out.tets.gz"]),
+            Command("unwrap", "convert in.tets.gz out.tets", ["out.tets"])]
+    if has_zstd(tool):
+        rows += [Command("wrap by zstd", "convert in.tets out.tets.zst", ["out.tets.zst"]),
+                 Command("unwrap by zstd", "convert in.tets.zst out.tets", ["out.tets"])]
+    return rows
+
+
 class Bench:
     """Folders with the inputs, the command, and the fault library."""
 
@@ -77,6 +95,8 @@ class Bench:
         for name in formats_written(self.tool):
             if name != "tets":
                 run("convert", "in.tets", f"in.{name}")
+        for ending in ["gz"] + (["zst"] if has_zstd(self.tool) else []):
+            run("convert", "in.tets", f"in.tets.{ending}")
         read_only.make(self.inputs)
 
     def environment(self, fault=None, counts=None):
@@ -121,11 +141,11 @@ class Bench:
                 parts.append(hashlib.sha256(file.read()).hexdigest())
         return parts
 
-    def reference(self, command):
+    def reference(self, command, environment=None):
         """What the command writes, and how often it makes each call."""
         counts = os.path.join(self.root, "counts")
         self.fill()
-        code, err = self.run(command.words, counts=counts)
+        code, err = self.run(command.words, counts=counts, environment=environment)
         if code != OK:
             raise AssertionError(f"{command.name} fails by itself: {err}")
         with open(counts) as file:
@@ -161,6 +181,14 @@ class Bench:
                 return f"exit code {code} and the files {self.written()}"
         left = os.listdir(self.spool)
         return f"left in the temporary folder: {left}" if left else ""
+
+    def keeper(self, out, err):
+        """The file with "old OUT": of its name, or of one that the error tells; or None."""
+        for name in self.written():
+            with open(os.path.join(self.work, name), "rb") as file:
+                if file.read(300) == f"old {out}".encode() and (name == out or name in err):
+                    return name
+        return None
 
     def is_complete(self, command, digest):
         return self.written() == sorted(command.outputs) and self.digest(command) == digest

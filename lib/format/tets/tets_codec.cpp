@@ -3,10 +3,7 @@
 #include <algorithm>
 
 #include "status.h"
-
-#ifdef TETSTREAM_WITH_ZSTD
-#include <zstd.h>
-#endif
+#include "zstd_result.h"
 
 namespace tetstream::tets {
 
@@ -148,9 +145,11 @@ size_t Codec::compress(const ChunkShape& shape, size_t payload_at,
   unsigned char* const payload = section.data() + payload_at;
   const size_t got =
       ZSTD_compressCCtx(s.to, payload, shape.payloadBytes(), s.filtered.data(), at, kLevel);
+  const bool fits = !zstdFailed(got);
+  if (!fits && ZSTD_getErrorCode(got) != ZSTD_error_dstSize_tooSmall)
+    fail(Status::kInternal, "zstd: %s", ZSTD_getErrorName(got));
   // Where less than an eighth is saved, columns that can be used in place are worth more.
-  const bool pays =
-      !ZSTD_isError(got) && alignUp(got) <= shape.payloadBytes() - shape.payloadBytes() / 8;
+  const bool pays = fits && alignUp(got) <= shape.payloadBytes() - shape.payloadBytes() / 8;
   if (pays) {
     section.resize(payload_at + got);
     return got;
@@ -168,7 +167,7 @@ bool Codec::decompress(const ChunkShape& shape, const unsigned char* stored, siz
   if (ZSTD_getFrameContentSize(stored, stored_bytes) != bytes) return false;
   makeZeros(s.filtered, bytes);
   const size_t got = ZSTD_decompressDCtx(s.from, s.filtered.data(), bytes, stored, stored_bytes);
-  if (ZSTD_isError(got) || got != bytes) return false;
+  if (zstdFailed(got) || got != bytes) return false;
   unfilter(shape, s.filtered.data(), payload);
   return true;
 }
@@ -185,7 +184,7 @@ bool Codec::decompressFirst(const ChunkShape& shape, const unsigned char* stored
   while (out.pos < out.size) {
     const size_t before = in.pos + out.pos;
     const size_t more = ZSTD_decompressStream(s.from, &out, &in);
-    if (ZSTD_isError(more) || in.pos + out.pos == before) return false;
+    if (zstdFailed(more) || in.pos + out.pos == before) return false;
   }
   filterBack(shape[0], s.filtered.data(), column);
   return true;

@@ -194,6 +194,7 @@ Outcome Collapser<Mesh>::moveOnSheets(uint32_t u, uint32_t v, const Strata& stra
   if (core_.inner_sheets) listLabelled(u, v);
   const Adjusted moved = adjust(u, v, strata);
   if (!std::isfinite(moved.error)) return Outcome::kVolume;
+  if (!place_.isFinite()) return Outcome::kNotFinite;
   price_ = growthPrice(*error, moved.error * S(moved.cost));
   if (price_ > most_price) return Outcome::kDear;
   if (isTooLarge(moved.error)) return Outcome::kTooLarge;

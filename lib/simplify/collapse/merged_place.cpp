@@ -25,7 +25,8 @@ bool MergedPlace<Mesh>::set(uint32_t u, uint32_t v, const S* z) {
 
 // The new position is rounded to the type in which it is written: what is tested is what the file
 // will hold. Values stay in what their field may have, as far as its range is known, or in what the
-// two ends have where a header has told a narrower one. Returns whether z had to give way.
+// two ends have where a header has told a narrower one; those that are not finite stay, and are
+// refused. Returns whether z had to give way.
 template <class Mesh>
 bool MergedPlace<Mesh>::update() {
   const S *a = mesh_.values(u_), *b = mesh_.values(v_);
@@ -35,7 +36,7 @@ bool MergedPlace<Mesh>::update() {
     const S middle = a[i] + S(0.5) * (b[i] - a[i]);
     S& x = values_[i] = middle + z_[i] * core_.inverse_scale[i];
     if (to_float && i < 3) x = static_cast<S>(static_cast<float>(x));
-    if (!(x < core_.least[i] || x > core_.most[i])) continue;
+    if (!(x < core_.least[i] || x > core_.most[i]) || std::isinf(x)) continue;
     x = std::clamp(x, std::min({core_.least[i], a[i], b[i]}),
                    std::max({core_.most[i], a[i], b[i]}));
     z_[i] = (x - middle) * core_.scale[i];
@@ -159,7 +160,8 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
 }
 
 // A value that is not finite has no part in a mean: there the nearest corner's is taken, so that
-// such places do not grow.
+// such places do not grow. note: weights add up to 1 but for rounding, by which a mean could leave
+// the corners' range.
 template <class Mesh>
 void MergedPlace<Mesh>::interpolateCarried(const Stars& stars) {
   const double x[3] = {at(0), at(1), at(2)};
@@ -183,11 +185,15 @@ void MergedPlace<Mesh>::interpolateCarried(const Stars& stars) {
   const auto nearest = static_cast<size_t>(std::max_element(weights, weights + 4) - weights);
   for (int i = core_.plan.dimension; i < core_.plan.values; ++i) {
     double sum = 0;
-    for (int k = 0; k < 4; ++k)
-      sum += weights[k] * static_cast<double>(mesh_.values(corners[k])[i]);
+    S there[4];
+    for (int k = 0; k < 4; ++k) {
+      there[k] = mesh_.values(corners[k])[i];
+      sum += weights[k] * static_cast<double>(there[k]);
+    }
     const S mean = static_cast<S>(sum);
+    const auto [least, most] = std::minmax({there[0], there[1], there[2], there[3]});
     values_[static_cast<size_t>(i)] =
-        std::isfinite(mean) ? mean : mesh_.values(corners[nearest])[i];
+        std::isfinite(mean) ? std::clamp(mean, least, most) : there[nearest];
   }
 }
 

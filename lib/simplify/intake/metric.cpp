@@ -384,14 +384,30 @@ constexpr double kMostBeyond = 0.25;
 // Minimizers lie beyond the values they come from where a field bends: of a density, below 0. Where
 // it jumps and few cells are left they would do so by most of the range, for no smaller error.
 template <class S>
+double Metric<S>::slackOf(size_t component) const {
+  if (core_.options.field_range != FieldRange::kFree) return 0;
+  if (followsPaper(core_.options.mode)) return std::numeric_limits<double>::infinity();
+  return kMostBeyond * rangeOf(component);
+}
+
+// In no mode are values beyond what the output's numbers can be.
+template <class S>
 void Metric<S>::keepRange() {
-  const bool is_free = core_.options.field_range == FieldRange::kFree;
-  if (is_free && followsPaper(core_.options.mode)) return;
   for (size_t i = 3; i < low_.size(); ++i) {
-    const double slack = is_free ? kMostBeyond * rangeOf(i) : 0;
-    core_.least[i] = static_cast<S>(low_[i] - slack);
-    core_.most[i] = static_cast<S>(high_[i] + slack);
+    const double slack = slackOf(i);
+    const double largest = largestNumberOf(i);
+    core_.least[i] = static_cast<S>(std::max(low_[i] - slack, -largest));
+    core_.most[i] = static_cast<S>(std::min(high_[i] + slack, largest));
   }
+}
+
+// note: a window of float32 has no column of float64.
+template <class S>
+double Metric<S>::largestNumberOf(size_t component) const {
+  const auto field = static_cast<size_t>(core_.plan.measured_column[component - 3]);
+  return core_.plan.schema.fields[field].type == ScalarType::kFloat32
+             ? std::numeric_limits<float>::max()
+             : static_cast<double>(std::numeric_limits<S>::max());
 }
 
 template <class S>

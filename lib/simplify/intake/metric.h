@@ -39,6 +39,8 @@ class Metric {
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
   void keepRange();
+  double slackOf(size_t component) const;
+  double largestNumberOf(size_t component) const;
   void rescaleQuadrics(const std::vector<S>& factor);
   double addCell(uint32_t cell, double volume);
   bool addLanes(uint32_t first, double* volume);

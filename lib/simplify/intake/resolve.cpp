@@ -270,6 +270,7 @@ void Resolver<S>::lockFold(uint32_t a, uint32_t b) {
     if (!s.has(a) || !s.has(b)) continue;
     if (mesh.cellFlags(s.cell) & kFolded) continue;
     mesh.flagCell(s.cell, kFolded);
+    core_.folds = true;
     for (int j = 0; j < 4; ++j) mesh.flagVertex(mesh.corners(s.cell)[j], kLocked);
     ++core_.report.locked_cells;
     ++core_.locked.bad_cells;

@@ -267,6 +267,7 @@ struct Core {
   bool keeps_body;                // the volume in the boundary, where there are no regions
   bool interfaces = false;        // met any: labels that are all the same cost nothing
   bool inner_sheets = false;      // met labelled faces with cells of one region on both sides
+  bool folds = false;             // met two cells on the same side of their common face
   std::vector<int> region_picks;  // columns of the cell picks that label regions
   LabelVolumes label_volumes;     // of those
   Report report;

@@ -18,10 +18,11 @@ namespace {
 using Point = std::array<double, 3>;
 using Corners = std::array<uint32_t, 4>;
 
-// Cells by their corners, all vertices free unless said otherwise, in a patch that owns those.
+// Cells by their corners, all vertices free unless said otherwise, in a patch that owns those but
+// the ones that are another's.
 struct Pieces {
   Pieces(const std::vector<Point>& points, const std::vector<Corners>& cells,
-         const std::set<uint32_t>& locked = {})
+         const std::set<uint32_t>& locked = {}, const std::set<uint32_t>& others = {})
       : window(account, {3, 1, 0, 0, 0}, cells.size(), points.size(), true),
         patch(account, window),
         reconnector(patch, account) {
@@ -30,14 +31,14 @@ struct Pieces {
       window.mesh.addVertex(locked.count(v) ? kFinal | kLocked : kFinal);
       std::copy(points[v].begin(), points[v].end(), window.values(v));
       window.quadric(v)[0] = 0;
-      if (!locked.count(v)) owned.push_back(v);
+      if (!locked.count(v) && !others.count(v)) owned.push_back(v);
     }
     for (const Corners& c : cells) all.push_back(window.mesh.addCell(c.data(), 0));
     for (uint32_t c = 0; c < all.size(); ++c)
       if (sixVolumeOf(corners(c)) < 0) window.mesh.flagCell(c, kNegative);
     loaded = patch.load(owned.data(), owned.size(), all.data(), all.size(), window.liveCells());
     patch.listGone();
-    reconnector.start();
+    reconnector.start(false);
   }
   Corners corners(uint32_t c) const {
     Corners all;
@@ -318,6 +319,51 @@ TEST(Reconnect, WhatIsThereAlreadyIsNotMadeAgain) {
     EXPECT_FALSE(edgeImproves(points, {{2, 4, 6, 7}, {3, 5, 6, 7}}));  // both chords
   }
   EXPECT_GT(improved, 0);
+}
+
+// Two cells over the face 123, which makes way for the edge 04, and the cell 0456, which has that
+// edge already but none of whose corners is owned: it is in no star that the patch knows. Only
+// cells that fold, and whose corners are locked, can lie so.
+TEST(Reconnect, WhatTheStarsOfFoldedCellsMayHaveIsNotMade) {
+  const std::vector<Point> points = {{0, 0, 0.2},  {1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0},
+                                     {0, 0, -0.2}, {3, 0, 0}, {0, 3, 0}};
+  const auto makesEdge = [&](bool is_folded, const std::set<uint32_t>& others) {
+    std::set<uint32_t> locked;
+    for (uint32_t v : {0, 4, 5, 6})
+      if (!others.count(v)) locked.insert(v);
+    Pieces pieces(points, {{0, 1, 2, 3}, {4, 1, 2, 3}, {0, 4, 5, 6}}, locked, others);
+    pieces.reconnector.start(is_folded);
+    Reconnection r;
+    for (uint32_t j = 0; j < 4; ++j)
+      if (pieces.patch.slotOf(pieces.patch.vertexOf(0, j)) == 0) {
+        EXPECT_TRUE(pieces.reconnector.removeFace(0, j, r));
+        return r.improves();
+      }
+    return false;
+  };
+  EXPECT_FALSE(makesEdge(true, {}));
+  EXPECT_TRUE(makesEdge(false, {}));  // as for the caller's wish
+  EXPECT_TRUE(makesEdge(true, {0}));
+}
+
+// The same of the face 234, for which the edge 01 makes way.
+TEST(Reconnect, AFaceThatFoldedCellsMayHaveIsNotMade) {
+  std::vector<Point> points = ringPoints(3, 8);
+  points.push_back({3, 1, 1});
+  const auto makesFace = [&](bool is_folded, const std::set<uint32_t>& others) {
+    std::set<uint32_t> locked;
+    for (uint32_t v : {2, 3, 4, 5})
+      if (!others.count(v)) locked.insert(v);
+    std::vector<Corners> cells = ringCells(3);
+    cells.push_back({2, 3, 4, 5});
+    Pieces pieces(points, cells, locked, others);
+    pieces.reconnector.start(is_folded);
+    Reconnection r;
+    return pieces.removeEdge(0, 1, r) && r.improves();
+  };
+  EXPECT_FALSE(makesFace(true, {}));
+  EXPECT_TRUE(makesFace(false, {}));
+  EXPECT_TRUE(makesFace(true, {3}));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // How many cells come out, what stops a run short, what memory it takes, how it is cancelled.
 #include <cmath>
 
+#include "budget.h"
 #include "mix.h"
 #include "simplify_testing.h"
 
@@ -98,6 +99,18 @@ TEST(SimplifierTarget, IsTheNumberOfCellsAskedFor) {
                   std::min(cells, static_cast<int64_t>(mesh.cellCount())));
         expectReached(result);
       }
+}
+
+// No product of a decimal ratio is short of its whole number by rounding; of others the cell that
+// they are short of is not made.
+TEST(SimplifierTarget, OfARatioIsItsWholeNumberOfCells) {
+  for (int64_t cells : {int64_t{100}, int64_t{1000}, int64_t{187300}, int64_t{14000000000}})
+    for (int64_t percent = 1; percent <= 100; ++percent)
+      EXPECT_EQ((Target{static_cast<double>(percent) / 100, 0, 0}).cellsOf(cells),
+                cells / 100 * percent);
+  EXPECT_EQ((Target{0.1, 0, 0}).cellsOf(187395), 18739);
+  EXPECT_EQ((Target{1, 0, 0}).cellsOf(int64_t{1} << 48), int64_t{1} << 48);
+  EXPECT_EQ((Target{0.29 * (1 - 1e-14), 0, 0}).cellsOf(100), 28);
 }
 
 TEST(SimplifierTarget, AsANumberOfCellsNeedsACountedStream) {
@@ -210,6 +223,23 @@ TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
   TestMesh mesh = gridWith(6, [](double x, double y, double z) { return x * y + z; });
   mesh.addIntegerCellData("id", [](size_t c) { return static_cast<int64_t>(c); });
   for (Mode mode : kModes) expectWithinBudget(mesh, mode);
+}
+
+// Before the first window is full nobody may know the front: then the message tells of none.
+TEST(SimplifierMemory, IsAskedForWithoutAFrontThatIsNotKnown) {
+  const TestMesh mesh = gridWith(10, [](double x, double y, double z) { return x * y + z; });
+  int refused = 0;
+  for (Mode mode : kModes)
+    for (bool say_counts : {false, true})
+      for (int64_t limit = 20000; limit < 400000; limit += limit / 8) {
+        Cut cut;
+        cut.say_counts = say_counts;
+        const BudgetRun run = simplifiedWithin(mesh, toRatio(0.2, 0, mode), limit, cut);
+        if (run.status != Status::kNoMemory) continue;
+        refused += run.text.find(" should do") != std::string::npos;
+        EXPECT_EQ(run.text.find("front of 0"), std::string::npos) << run.text;
+      }
+  EXPECT_GT(refused, 5);
 }
 
 // A window that starts small and grows must not fail with more memory where it held with less.

@@ -407,6 +407,16 @@ TEST(Resolver, LocksNonManifoldPlaces) {
   EXPECT_EQ(lockedIn(apart(2)), 0);
 }
 
+// Two cells over a face, on both sides of it, on the same one, and one of them in its plane.
+TEST(Resolver, TellsOfFoldsOnly) {
+  for (const double z : {-1.0, 0.0, 0.5}) {
+    const std::vector<double> places = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.2, 0.2, 1, 0.3, 0.3, z};
+    WholeWindow<double> w(makeMesh(k64, places, {0, 1, 2, 3, 0, 2, 1, 4}));
+    EXPECT_EQ(w.core.folds, z > 0) << z;
+    EXPECT_EQ(w.core.locked.bad_cells, z > 0 ? 2 : z == 0 ? 1 : 0);
+  }
+}
+
 // A plate, all of whose vertices are on the boundary, with more corners than are listed at once:
 // as with a small one, face by face. In the form of a face each has its share of the same areas.
 TEST(Resolver, ListsTheStarsOfAnyNumberOfBoundaryVertices) {

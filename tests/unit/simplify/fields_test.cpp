@@ -3,6 +3,8 @@
 // range; walls across which a field is steep.
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 
 #include "field_error.h"
@@ -217,6 +219,31 @@ TEST(SeveralFields, LeaveTheirRangeByAQuarterAtMost) {
                    [](double x, double, double) { return std::lround(x) % 4 == 2 ? 1 : 0; });
   for (double ratio : {0.1, 0.03, 0.01})
     EXPECT_LE(excess(mesh, simplified(mesh, toRatio(ratio)).out.mesh), 0.25 + 1e-12);
+}
+
+// A field that reaches the largest numbers of its type, by a front or by what stands for no value.
+TEST(SeveralFields, AreFiniteUpToTheLargestNumbers) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  const auto steep = [](double x, double y, double) {
+    return 0.98 * static_cast<double>(kMost) * std::tanh(2 * (x + y - fieldsSide()));
+  };
+  const auto filled = [](double x, double y, double) {
+    return x + y > fieldsSide() + 1 ? static_cast<double>(kMost) : std::sin(x);
+  };
+  const int n = fieldsSide();
+  for (const auto& field : {std::function<double(double, double, double)>(steep), {filled}})
+    for (ScalarType positions : {k32, k64})
+      for (FieldRange range : {FieldRange::kFree, FieldRange::kKeep})
+        for (Mode mode : {Mode::kSweep, Mode::kPaper}) {
+          TestMesh mesh = fullGrid(n, n, n, 0.3, positions);
+          addPositionField(mesh, {"f", 1, k32}, field);
+          SimplifyOptions options = toRatio(0.2, 0, mode);
+          options.field_range = range;
+          const Result result = simplified(mesh, options);
+          EXPECT_GT(result.report.collapses, 20);
+          for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v)
+            EXPECT_TRUE(std::isfinite(result.out.mesh.field(0, v)));
+        }
 }
 
 // A header that tells half of the range: values are as those they come from.

@@ -28,9 +28,17 @@ TestMesh squeezed(int n) {
   return mesh;
 }
 
+TestMesh squeezedWithLocked(int n, uint32_t every) {
+  TestMesh mesh = squeezed(n);
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(v % every == 0);
+  return mesh;
+}
+
 struct Squeezed : WholePatch<double> {
   explicit Squeezed(const std::string& region_names = "auto")
-      : WholePatch<double>(squeezed(8), options(region_names)),
+      : Squeezed(squeezed(8), options(region_names)) {}
+  explicit Squeezed(TestMesh the_mesh, const SimplifyOptions& the_options = {})
+      : WholePatch<double>(std::move(the_mesh), the_options),
         reshaper(core, patch, core.tally, account) {
     core.poor = thinnessOfAngle(25);
     mergeSome();
@@ -57,7 +65,7 @@ struct Squeezed : WholePatch<double> {
   }
   int poorCells() {
     Reconnector<double> look(patch, account);
-    look.start();
+    look.start(false);
     int count = 0;
     for (uint32_t c = 0; c < patch.cellEnd(); ++c)
       count += patch.isLive(c) && look.thinnessOfCell(c) > core.poor;
@@ -271,6 +279,24 @@ TEST(Reshape, KeepsLockedEdges) {
   ASSERT_TRUE(locked.reshape(0, 1 << 30));
   const Edges left = edgesOf(locked);
   for (const auto& edge : kept) EXPECT_TRUE(left.count(edge));
+}
+
+// Between vertices that are not free, all of whose cells the patch need not have, edges are made in
+// meshes that do not fold only.
+TEST(Reshape, MakesNoEdgeThatFoldedCellsMayHave) {
+  const auto edgesMade = [](bool folds) {
+    Squeezed s(squeezedWithLocked(8, 2));
+    EXPECT_FALSE(s.core.folds);
+    s.core.folds = folds;
+    const Edges before = edgesOf(s);
+    EXPECT_TRUE(s.reshape(0, 1 << 30));
+    int made = 0;
+    for (const auto& edge : edgesOf(s))
+      made += edge.first >= s.patch.ownedEnd() && !before.count(edge);
+    return made;
+  };
+  EXPECT_GT(edgesMade(false), 0);
+  EXPECT_EQ(edgesMade(true), 0);
 }
 
 // What it is told suffices to follow every cell.

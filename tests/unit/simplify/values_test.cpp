@@ -99,7 +99,24 @@ TEST(SimplifierValues, OfConstantFieldsStayConstant) {
     const Result result = simplified(mesh, options);
     for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v) {
       EXPECT_EQ(result.out.mesh.field(1, v), 0.1);
-      EXPECT_NEAR(result.out.mesh.field(2, v), 0.1, 1e-15);
+      EXPECT_EQ(result.out.mesh.field(2, v), 0.1);
+    }
+  }
+}
+
+// To the last bit.
+TEST(SimplifierValues, OfCarriedFieldsStayInTheirRange) {
+  TestMesh mesh = fullGrid(5, 5, 5, 0.1);
+  addPositionField(mesh, {"a", 1, ScalarType::kFloat64}, wild);
+  addPositionField(mesh, {"share", 1, ScalarType::kFloat64},
+                   [](double x, double, double) { return x < 1.5 ? 0.3 : 1; });
+  for (Mode mode : kModes) {
+    SimplifyOptions options = toRatio(0.3, 0, mode);
+    options.fields = {{"a", 1}};
+    const Result result = simplified(mesh, options);
+    for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v) {
+      EXPECT_GE(result.out.mesh.field(1, v), 0.3);
+      EXPECT_LE(result.out.mesh.field(1, v), 1);
     }
   }
 }
