@@ -165,13 +165,21 @@ constexpr double kRoughBalance = 1.0 / 2048;
 // of thin plates, fewer lie off, to either side.
 constexpr double kMostOff = 0.75, kLeastAgainst = 0.05;
 
+// Half as many pairs tell, where all are off and to either side by more than so much.
+constexpr double kSurelyAgainst = 0.25;
+
+static bool isEnough(const RemovalCosts::Jitter& jitter) {
+  const bool tells = jitter.off == jitter.pairs && jitter.product < -kSurelyAgainst * jitter.square;
+  return jitter.pairs >= (tells ? kLeastPairs / 2 : kLeastPairs);
+}
+
 // What bends lies off its neighbours' mean to the same side as its neighbours do of theirs; of what
 // is off by chance they lie on the other side. Fields without errors would gain nothing.
 static bool areRough(const RemovalCosts& costs) {
   const RemovalCosts::Jitter& jitter = costs.jitter;
   const bool are_off =
       static_cast<double>(jitter.off) >= kMostOff * static_cast<double>(jitter.pairs);
-  if (jitter.pairs < kLeastPairs || !are_off) return false;
+  if (!isEnough(jitter) || !are_off) return false;
   if (!(jitter.product < -kLeastAgainst * jitter.square)) return false;
   double field = 0;
   for (const Removal& r : costs.interfaces.sample) field += r.field;
