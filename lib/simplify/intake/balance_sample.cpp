@@ -114,13 +114,19 @@ typename BalanceSample<S>::Bend BalanceSample<S>::bendAt(uint32_t v,
 template <class S>
 void BalanceSample<S>::addBend(uint32_t v, const std::vector<Face>& faces) {
   const Bend bend = bendAt(v, faces);
-  if (bend.is_closed) pairs_.push_back({others_.front(), bend});
+  if (bend.is_closed) pairs_.push_back({{others_.rbegin(), others_.rend()}, v, bend});
 }
 
 template <class S>
 std::vector<uint32_t> BalanceSample<S>::partners() {
   others_.clear();
-  for (const Pair& pair : pairs_) others_.push_back(pair.partner);
+  if (costs_.jitter.pairs >= kLeastPairs) return others_;
+  for (Pair& pair : pairs_) {
+    if (pair.is_met || pair.others.empty()) continue;
+    pair.partner = pair.others.back();
+    pair.others.pop_back();
+    others_.push_back(pair.partner);
+  }
   keepUnique();
   return others_;
 }
@@ -135,12 +141,13 @@ template <class S>
 void BalanceSample<S>::addPartner(uint32_t v, const std::vector<Face>& faces) {
   const Bend bend = bendAt(v, faces);
   if (!bend.is_closed) return;
-  for (const Pair& pair : pairs_) {
-    if (pair.partner != v) continue;
+  for (Pair& pair : pairs_) {
+    if (pair.partner != v || pair.is_met) continue;
     const double turn = dot(bend.normal, pair.bend.normal);
     if (std::fabs(turn) < kLeastAlong) continue;
     RemovalCosts::Jitter& jitter = costs_.jitter;
     const double square = (bend.height * bend.height + pair.bend.height * pair.bend.height) / 2;
+    pair.is_met = true;
     ++jitter.pairs;
     jitter.off += square > kLeastJitter * kLeastJitter * (bend.edges + pair.bend.edges) / 2;
     jitter.square += square;

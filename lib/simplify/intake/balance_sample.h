@@ -23,7 +23,9 @@ class BalanceSample {
   void addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind);
   // Of an interface between two regions.
   void addBend(uint32_t v, const std::vector<Face>& faces);
-  // A neighbour of each of these on the interface, each once; then the faces there.
+  // A neighbour of each of these on the interface, each once; then the faces there. Another one of
+  // those whose neighbours so far lay on rims, as long as too few pairs tell of the interface; none
+  // at last.
   std::vector<uint32_t> partners();
   void addPartner(uint32_t v, const std::vector<Face>& faces);
 
@@ -55,8 +57,10 @@ class BalanceSample {
   };
   Bend bendAt(uint32_t v, const std::vector<Face>& faces);
   struct Pair {
+    std::vector<uint32_t> others;  // that are left, the next one last
     uint32_t partner;
     Bend bend;
+    bool is_met = false;
   };
 
   Core<S>& core_;

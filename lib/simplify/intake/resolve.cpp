@@ -465,10 +465,10 @@ void Resolver<S>::sampleSheet(const std::vector<uint32_t>& vertices, SheetFace k
                 if (kind == SheetFace::kInterface && is_plain) sample.addBend(v, faces);
               });
   if (kind != SheetFace::kInterface) return;
-  forSheetsOf(sample.partners(), kind,
-              [&](uint32_t v, const std::vector<SampledFace>& faces, bool is_plain) {
-                if (is_plain) sample.addPartner(v, faces);
-              });
+  const auto add = [&](uint32_t v, const std::vector<SampledFace>& faces, bool is_plain) {
+    if (is_plain) sample.addPartner(v, faces);
+  };
+  for (auto p = sample.partners(); !p.empty(); p = sample.partners()) forSheetsOf(p, kind, add);
 }
 
 // visit(v, faces, is_plain) for those whose sheet has nothing yet of what its quadrics will have.
