@@ -59,7 +59,6 @@ TEST(BodyVolume, IsNearlyKeptBesideARidge) {
   const TestMesh mesh = rounded(16, 0.5);
   const std::pair<double, double> most_at[] = {{0.3, 1e-5}, {0.1, 5e-5}, {0.03, 2.5e-4}};
   for (const auto& [ratio, most] : most_at) {
-    if (slowRun() && ratio > 0.03) continue;
     SimplifyOptions options = toRatio(ratio);
     options.feature_angle = 20;
     EXPECT_NEAR(changeOfVolume(mesh, options), 0, most) << ratio;
