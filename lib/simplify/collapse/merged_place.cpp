@@ -160,7 +160,7 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
 }
 
 // A value that is not finite has no part in a mean: there the nearest corner's is taken, so that
-// such places do not grow. note: weights add up to 1 but for rounding, by which a mean could leave
+// such places do not grow. Weights add up to 1 but for rounding, by which a mean could leave
 // the corners' range.
 template <class Mesh>
 void MergedPlace<Mesh>::interpolateCarried(const Stars& stars) {

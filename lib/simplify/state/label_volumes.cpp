@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "status.h"
 
@@ -14,16 +15,17 @@ constexpr size_t kMostRegions = 10000;  // further ones are not looked at: memor
 
 // Null where there are too many.
 auto LabelVolumes::volumesOf(const CellLabels& labels, uint32_t cell) -> Volumes* {
-  const int64_t* const row = labels.rowOf(cell);
-  bool is_same = last_ != nullptr;
-  for (size_t i = 0; is_same && i < row_.size(); ++i) is_same = row_[i] == row[labels.columns[i]];
-  if (is_same) return last_;
-  row_.clear();
-  for (int i = 0; i < labels.count; ++i) row_.push_back(row[labels.columns[i]]);
-  auto found = all_.find(row_);
-  if (found == all_.end() && all_.size() < kMostRegions)
-    found = all_.emplace(row_, Volumes{}).first;
-  return last_ = found == all_.end() ? nullptr : &found->second;
+  const Labelled labelled = {labels, labels.rowOf(cell)};
+  if (last_ && Less::compare(last_->first, labelled) == 0) return &last_->second;
+  auto found = all_.find(labelled);
+  if (found == all_.end()) {
+    if (all_.size() == kMostRegions) return nullptr;
+    Row row;
+    for (int i = 0; i < labels.count; ++i) row.push_back(labelled.row[labels.columns[i]]);
+    found = all_.emplace(std::move(row), Volumes{}).first;
+  }
+  last_ = &*found;
+  return &found->second;
 }
 
 void LabelVolumes::add(const CellLabels& labels, uint32_t cell, double volume, Side side) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "embedded.h"
@@ -33,7 +34,6 @@ class LabelVolumes {
     bool operator()(const Row& a, const Labelled& b) const { return compare(a, b) < 0; }
     bool operator()(const Labelled& a, const Row& b) const { return compare(b, a) > 0; }
 
-   private:
     static int compare(const Row& a, const Labelled& b);
   };
   struct Volumes {
@@ -43,8 +43,7 @@ class LabelVolumes {
   Volumes* volumesOf(const CellLabels& labels, uint32_t cell);
 
   std::map<Row, Volumes, Less> all_;
-  Row row_;  // of the last cell
-  Volumes* last_ = nullptr;
+  std::pair<const Row, Volumes>* last_ = nullptr;  // that was asked for
 };
 
 }  // namespace tetstream

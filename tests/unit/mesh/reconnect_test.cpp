@@ -281,6 +281,17 @@ TEST(Reconnect, NoCellIsTurnedOver) {
   EXPECT_FALSE(r.improves());
 }
 
+// Of the first cell, the face opposite its vertex 0.
+bool improvesWithoutFace(Pieces& pieces) {
+  Reconnection r;
+  for (uint32_t j = 0; j < 4; ++j)
+    if (pieces.patch.slotOf(pieces.patch.vertexOf(0, j)) == 0) {
+      EXPECT_TRUE(pieces.reconnector.removeFace(0, j, r));
+      return r.improves();
+    }
+  return false;
+}
+
 // A mesh that folds over itself may have the new edge, or the new face, elsewhere already: then a
 // flip would make a face of three cells.
 TEST(Reconnect, WhatIsThereAlreadyIsNotMadeAgain) {
@@ -290,13 +301,7 @@ TEST(Reconnect, WhatIsThereAlreadyIsNotMadeAgain) {
     std::vector<Corners> cells = {{0, 1, 2, 3}, {4, 1, 2, 3}, {1, 2, 5, 6}};
     if (folded) cells.push_back({0, 4, 5, 6});
     Pieces pieces(points, cells);
-    Reconnection r;
-    for (uint32_t j = 0; j < 4; ++j)
-      if (pieces.patch.slotOf(pieces.patch.vertexOf(0, j)) == 0) {
-        EXPECT_TRUE(pieces.reconnector.removeFace(0, j, r));
-        return r.improves();
-      }
-    return false;
+    return improvesWithoutFace(pieces);
   };
   EXPECT_TRUE(faceImproves(false));
   EXPECT_FALSE(faceImproves(true));
@@ -333,13 +338,7 @@ TEST(Reconnect, WhatTheStarsOfFoldedCellsMayHaveIsNotMade) {
       if (!others.count(v)) locked.insert(v);
     Pieces pieces(points, {{0, 1, 2, 3}, {4, 1, 2, 3}, {0, 4, 5, 6}}, locked, others);
     pieces.reconnector.start(is_folded);
-    Reconnection r;
-    for (uint32_t j = 0; j < 4; ++j)
-      if (pieces.patch.slotOf(pieces.patch.vertexOf(0, j)) == 0) {
-        EXPECT_TRUE(pieces.reconnector.removeFace(0, j, r));
-        return r.improves();
-      }
-    return false;
+    return improvesWithoutFace(pieces);
   };
   EXPECT_FALSE(makesEdge(true, {}));
   EXPECT_TRUE(makesEdge(false, {}));  // as for the caller's wish
