@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <map>
 
 #include "completion.h"
@@ -45,13 +46,6 @@ Failure usageFailure(std::string sentence, const std::string& command) {
   return {kUsage, sentence + "; see `" + name + " --help`"};
 }
 
-constexpr const char* kCommandsText =
-    "simplify, info, convert, layout, generate, diagram, compare, help or completion";
-
-Failure unknownCommand(const std::string& word) {
-  return usageFailure("there is no command \"" + word + "\", but " + kCommandsText, "");
-}
-
 // A word that has to be there.
 void addArgument(CLI::App* command, const char* name, std::string& word, const char* text) {
   command->add_option(name, word, text)->required()->option_text(" ");
@@ -72,6 +66,8 @@ class Parser {
  private:
   struct Command;
   static const Command kCommands[];
+  static std::string namesOfCommands();
+  static Failure unknownCommand(const std::string& word);
   void addCommand(const Command& command);
   void addRemark(CLI::App* command, const std::string& remark);
   void addSimplify(CLI::App* command);
@@ -131,6 +127,21 @@ const Parser::Command Parser::kCommands[] = {
     {"help", "Show the help of a command", Arguments::Command::kText, false, &Parser::addHelp},
     {"completion", "Print a script that completes commands in a shell", Arguments::Command::kText,
      false, &Parser::addCompletion}};
+
+// "simplify, ..., help or completion".
+std::string Parser::namesOfCommands() {
+  std::string names;
+  const Command* const last = std::end(kCommands) - 1;
+  for (const Command& command : kCommands) {
+    if (!names.empty()) names += &command == last ? " or " : ", ";
+    names += command.name;
+  }
+  return names;
+}
+
+Failure Parser::unknownCommand(const std::string& word) {
+  return usageFailure("there is no command \"" + word + "\", but " + namesOfCommands(), "");
+}
 
 // Where the first word is a command that stands alone the others are left out: to tell of them
 // takes longer than to read a small mesh.
@@ -452,7 +463,7 @@ Arguments Parser::parse(int argc, const char* const* argv) {
       settleFormats();
       return arguments_;
     }
-  throw usageFailure(std::string("which command? ") + kCommandsText, "");
+  throw usageFailure("which command? " + namesOfCommands(), "");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "colour_map.h"
 #include "cut_panels.h"
+#include "histogram_panel.h"
 #include "look.h"
 #include "status.h"
 
@@ -109,7 +110,6 @@ class ComparisonPage {
   void drawBars();
   void drawBar(const Frame& bar, const Scale& scale, Colour (*colour)(double),
                const std::string& words, bool is_open);
-  void drawHistogram(const Frame& frame);
   void drawFigures(double left, double top);
 
   Canvas& canvas_;
@@ -216,75 +216,6 @@ void ComparisonPage::drawBars() {
   drawBar({c.left + 10, top, c.width - 20, kBar}, errors_, errorColour, error, true);
 }
 
-// Share of the volume by the size of the error, on a logarithmic axis.
-void ComparisonPage::drawHistogram(const Frame& f) {
-  TextStyle style = kTextStyle;
-  style.colour = kInk;
-  style.bold = true;
-  canvas_.text({f.left - 40, f.top - 12}, "d  Volume by error", style);
-  const double* volume = field_->histogram.volume;
-  constexpr int kSteps = ErrorHistogram::kSteps, kPerDecade = ErrorHistogram::kPerDecade;
-  double all = 0, most = 0;
-  for (int s = 0; s < kSteps; ++s) {
-    all += volume[s];
-    most = std::max(most, volume[s]);
-  }
-  if (!(all > 0 && std::isfinite(all) && std::isfinite(range_))) return;
-  // What is below is not shown, but for the largest error.
-  constexpr double kSeen = 2e-3;
-  int first = 0, last = kSteps - 1;
-  double below = 0;
-  while (first < last && (below += volume[first]) < kSeen * all) ++first;
-  const double unit = range_ > 0 ? range_ : 1;
-  const double largest = field_->largest / unit;
-  while (last > first && largest < ErrorHistogram::lowerEnd(last)) --last;
-  first -= first % kPerDecade;
-  last += kPerDecade - last % kPerDecade;
-  const double width = f.width / (last - first);
-  const auto across = [&](double error) {  // relative to the range
-    const double step = std::log10(error / ErrorHistogram::kLowest) * kPerDecade;
-    return f.left + std::clamp(step - first, 0.0, static_cast<double>(last - first)) * width;
-  };
-  const double top = 100 * most / all * 1.08;
-  for (int s = first; s < last; ++s) {
-    const double height = f.height * 100 * volume[s] / all / top;
-    canvas_.fill(
-        Frame{f.left + (s - first) * width + 0.4, f.bottom() - height, width - 0.8, height},
-        fieldColour(0.32));
-  }
-  canvas_.line({{f.left, f.top}, {f.left, f.bottom()}, {f.right(), f.bottom()}}, kHair, kInk);
-  style = kTextStyle;
-  style.size = 10;
-  style.anchor = 0.5;
-  const int decades = (last - first) / kPerDecade, skip = decades > 7 ? 2 : 1;
-  for (int d = 0; d <= decades; ++d) {
-    const double x = f.left + d * kPerDecade * width;
-    canvas_.line({{x, f.bottom()}, {x, f.bottom() + 3}}, kHair, kInk);
-    const int power = first / kPerDecade + d - 8;  // percent
-    if (d % skip == 0) canvas_.text({x, f.bottom() + 14}, textOf("%g", std::pow(10, power)), style);
-  }
-  canvas_.text({f.left + f.width / 2, f.bottom() + 31}, "error, percent of the range", style);
-  style.anchor = 1;
-  for (const Tick& tick : ticksBetween(0, top, 4)) {
-    const double y = f.bottom() - f.height * tick.at / top;
-    canvas_.line({{f.left - 3, y}, {f.left, y}}, kHair, kInk);
-    canvas_.text({f.left - 6, y + 3.5}, tick.label + " %", style);
-  }
-  const auto mark = [&](double error, const char* name) {
-    if (!(error > 0 && std::isfinite(error))) return;
-    if (error < ErrorHistogram::lowerEnd(first) * unit) return;  // not shown
-    const double x = across(error / unit);
-    canvas_.line({{x, f.top - 2}, {x, f.bottom()}}, 1, kAccent, true);
-    TextStyle words = kTextStyle;
-    words.size = 10;
-    words.colour = kAccent;
-    words.anchor = 0.5;
-    canvas_.text({x, f.top - 6}, name, words);
-  };
-  mark(field_->rms(), "RMS");
-  mark(field_->largest, "largest");
-}
-
 void ComparisonPage::drawFigures(double left, double top) {
   const Comparison& c = comparison_;
   const MeshFigures &a = c.original(), &b = c.simplified();
@@ -325,7 +256,7 @@ void ComparisonPage::draw(const std::string& title) {
   drawBars();
   const double top = layout_.bottom + 46;
   const double half = kWidth / 2 - kMargin;
-  if (field_) drawHistogram({kMargin + 40, top, half - 64, 120});
+  if (field_) drawHistogram(canvas_, {kMargin + 40, top, half - 64, 120}, *field_, range_);
   drawFigures(kMargin + half + 24, top - 12);
 }
 
