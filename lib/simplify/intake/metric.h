@@ -31,6 +31,7 @@ class Metric {
  private:
   void growBox(uint32_t first, uint32_t end);
   double rangeOf(size_t component) const;  // of the field it belongs to
+  ScalarType typeOf(size_t component) const;
   double weightOf(size_t component) const;
   double extent() const;
   double fieldsTogether() const;

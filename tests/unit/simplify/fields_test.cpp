@@ -124,6 +124,23 @@ TEST(SeveralFields, OfNoExtentOrWeightLeaveTheOthersAlone) {
   }
 }
 
+// Values that are one number but for rounding are as constant as that number.
+TEST(SeveralFields, ThatAreConstantButForRoundingLeaveTheOthersAlone) {
+  TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), 2 * fieldsSide(), 0.1);
+  addPositionField(mesh, {"front", 1, k64}, front);
+  const auto step = [](size_t vertex) { return static_cast<double>(vertex * 7 % 3) - 1; };
+  mesh.addField({"temperature", 1, k32}, [&](size_t v, int) { return 300 + 0x1p-15 * step(v); });
+  mesh.addField({"gravity", 3, k64},
+                [&](size_t v, int i) { return i < 2 ? 0 : -9.81 + 0x1p-44 * step(v); });
+  for (bool box : {true, false}) {
+    Cut cut;
+    cut.say_box = box;
+    const std::vector<double> all = errorsOf(mesh, measuring({}), cut),
+                              one = errorsOf(mesh, measuring({{"front", 1}}), cut);
+    EXPECT_LT(all[0], 1.1 * one[0]) << "box " << box;
+  }
+}
+
 // With a field twice all errors count twice: beside it the boundary would count half, were it not
 // for its weight.
 TEST(SeveralFields, LeaveTheBoundaryItsShare) {
