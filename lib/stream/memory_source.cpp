@@ -7,10 +7,16 @@
 
 namespace tetstream {
 
+// note: of a mesh without rows the caller may have no array of pointers either.
+static std::vector<const void*> columnsOf(const void* const* columns, size_t count, size_t rows) {
+  using Columns = std::vector<const void*>;
+  return rows > 0 ? Columns(columns, columns + count) : Columns(count);
+}
+
 MemorySource::MemorySource(const Schema& schema, const BatchView& mesh, Ids ids)
     : schema_(schema),
-      fields_(mesh.fields, mesh.fields + schema.fields.size()),
-      cell_data_(mesh.cell_data, mesh.cell_data + schema.cell_data.size()),
+      fields_(columnsOf(mesh.fields, schema.fields.size(), mesh.vertex_count)),
+      cell_data_(columnsOf(mesh.cell_data, schema.cell_data.size(), mesh.cell_count)),
       mesh_(mesh),
       locked_(account_),
       ids_(ids) {

@@ -356,6 +356,26 @@ static void meshes_in_arrays_are_checked_when_opened(void) {
   tetstream_reader_destroy(reader);
 }
 
+/* Neither has rows, so neither needs pointers to its fields and cell arrays. */
+static void a_mesh_without_cells_or_points_needs_no_arrays(void) {
+  for (int points = 0; points < 2; ++points) {
+    tetstream_stream_info info;
+    tetstream_batch batch, empty = {0};
+    const void* pointers[3];
+    tetstream_reader* reader = NULL;
+    hostile_mesh_info(mesh, &info);
+    hostile_mesh_batch(mesh, &batch, pointers);
+    empty.struct_size = sizeof empty;
+    empty.vertex_count = points ? mesh->vertex_count : 0;
+    empty.positions = points ? batch.positions : NULL;
+    empty.fields = points ? batch.fields : NULL;
+    CHECK_EQUAL(tetstream_reader_open_mesh(&info, &empty, &reader), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_OK);
+    CHECK_EQUAL(info.cell_count, 0);
+    tetstream_reader_destroy(reader);
+  }
+}
+
 /* The bytes of a .tets of the mesh; the caller frees them. */
 static void* converted(const tetstream_stream_info* info, const tetstream_batch* batch,
                        size_t* size) {
@@ -468,6 +488,7 @@ int main(void) {
   RUN_CASE(tables_of_other_sizes_are_told_apart);
   RUN_CASE(a_failed_creation_leaves_a_handle_with_a_message);
   RUN_CASE(meshes_in_arrays_are_checked_when_opened);
+  RUN_CASE(a_mesh_without_cells_or_points_needs_no_arrays);
   RUN_CASE(cells_in_an_array_may_be_int32);
   RUN_CASE(null_is_refused_everywhere);
   hostile_mesh_destroy(mesh);
