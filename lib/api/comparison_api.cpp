@@ -148,7 +148,7 @@ tetstream_status tetstream_comparison_create(const tetstream_options* options,
 }
 
 void tetstream_comparison_destroy(tetstream_comparison* comparison) {
-  delete comparison;
+  destroy(comparison);
 }
 
 tetstream_status tetstream_comparison_read(tetstream_comparison* comparison,

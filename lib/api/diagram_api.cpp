@@ -78,7 +78,7 @@ tetstream_status tetstream_diagram_create(const tetstream_options* options, int3
 }
 
 void tetstream_diagram_destroy(tetstream_diagram* diagram) {
-  delete diagram;
+  destroy(diagram);
 }
 
 tetstream_status tetstream_diagram_read(tetstream_diagram* diagram, tetstream_reader* reader,

@@ -1,5 +1,6 @@
 // api: how every function of the public header is written: one call of `guard`, which lets nothing
-// out but a status, and leaves the sentence in the handle. Depends on tetstream.h, status.h.
+// out but a status, and leaves the sentence in the handle. Depends on tetstream.h, status.h,
+// uncancelled.h.
 #pragma once
 
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "status.h"
 #include "tetstream/tetstream.h"
+#include "uncancelled.h"
 
 namespace tetstream {
 
@@ -73,6 +75,7 @@ tetstream_status statusOf(Body&& body, Arguments&... arguments) {
 // Runs body(*handle).
 template <class H, class Body>
 tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
+  const Uncancelled uncancelled;
   try {
     needPlace(handle, "the handle");
     if (handle->busy)
@@ -86,6 +89,7 @@ tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
 // For functions without a handle.
 template <class Body>
 tetstream_status guard(Body&& body) noexcept {
+  const Uncancelled uncancelled;
   try {
     return statusOf(body);
   } catch (...) {
@@ -107,6 +111,13 @@ tetstream_status guardCreate(const char* function, H** place, Body&& body) noexc
     });
     return static_cast<Status>(outcome);
   });
+}
+
+// How every handle goes.
+template <class H>
+void destroy(H* handle) noexcept {
+  const Uncancelled uncancelled;
+  delete handle;
 }
 
 template <class H>

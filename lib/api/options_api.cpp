@@ -31,7 +31,7 @@ tetstream_status tetstream_options_create(tetstream_options** options) {
 }
 
 void tetstream_options_destroy(tetstream_options* options) {
-  delete options;
+  destroy(options);
 }
 
 tetstream_status tetstream_options_set_int64(tetstream_options* options, int32_t id,

@@ -250,7 +250,7 @@ tetstream_status tetstream_reader_generate(const char* kind, int64_t cells, int6
 }
 
 void tetstream_reader_destroy(tetstream_reader* reader) {
-  delete reader;
+  destroy(reader);
 }
 
 tetstream_status tetstream_reader_get_info(tetstream_reader* reader, tetstream_stream_info* info) {

@@ -91,11 +91,12 @@ tetstream_status tetstream_simplifier_create(const tetstream_options* options,
 }
 
 void tetstream_simplifier_destroy(tetstream_simplifier* simplifier) {
+  const Uncancelled uncancelled;
   if (simplifier && simplifier->state == State::kRunning) {
     closeRun(*simplifier);
     simplifier->output->stop(State::kBroken);
   }
-  delete simplifier;
+  destroy(simplifier);
 }
 
 tetstream_status tetstream_simplifier_set_progress(tetstream_simplifier* simplifier,
