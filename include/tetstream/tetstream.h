@@ -24,7 +24,8 @@
  *   A cell's four vertices may be in either orientation; its order is kept.
  *   Creating functions give a handle that the caller destroys. destroy(NULL) does nothing. When
  *   they fail they give one, too, which can only be asked for its message and destroyed; it is NULL
- *   when there is no memory even for that, or no place to put it.
+ *   when there is no memory even for that, or no place to put it. It keeps its message: whatever
+ *   else is called with it returns BAD_STATE and leaves that as it is.
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   An indexed mesh has 2^32 - 2 points at most; streams have no limit.
  *   Nothing is printed, nothing aborts, and a write that would raise SIGPIPE or SIGXFSZ fails. (When

@@ -72,9 +72,9 @@ tetstream_status statusOf(Body&& body, Arguments&... arguments) {
   }
 }
 
-// Runs body(*handle).
+// Runs body(*handle), whatever its state.
 template <class H, class Body>
-tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
+tetstream_status guardAny(const char* function, H* handle, Body&& body) noexcept {
   const Uncancelled uncancelled;
   try {
     needPlace(handle, "the handle");
@@ -84,6 +84,13 @@ tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
   } catch (...) {
     return caught(function, handle ? &handle->message : nullptr);
   }
+}
+
+// The same for all but those that could not be created: they keep the sentence that says why.
+template <class H, class Body>
+tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
+  if (handle && handle->state == State::kFailed) return TETSTREAM_BAD_STATE;
+  return guardAny(function, handle, body);
 }
 
 // For functions without a handle.
@@ -105,7 +112,7 @@ tetstream_status guardCreate(const char* function, H** place, Body&& body) noexc
   *place = nullptr;
   return guard([&] {
     *place = new H;
-    const auto outcome = guard(function, *place, [&](H& handle) {
+    const auto outcome = guardAny(function, *place, [&](H& handle) {
       body(handle);
       handle.state = State::kReady;
     });
