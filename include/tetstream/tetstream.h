@@ -47,9 +47,9 @@
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
  * and report, and destroyed; the same holds for the readers and the writer of a failed `run`,
- * `convert`, `inspect` or `read`. A failure of any other function had no effect, nor has a call
- * that is refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too
- * small.
+ * `convert`, `layout`, `inspect` or `read`, and for a reader of callbacks that `get_info` could not
+ * open. A failure of any other function had no effect, nor has a call that is refused at once:
+ * BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too small.
  */
 #ifndef TETSTREAM_H
 #define TETSTREAM_H
@@ -448,8 +448,8 @@ TETSTREAM_API tetstream_status tetstream_reader_generate(const char *kind, int64
 /* Since 0.1. */
 TETSTREAM_API void tetstream_reader_destroy(tetstream_reader *reader);
 /* What the stream carries, as far as it is known without reading it. For callback readers: opens
- * them; if that fails, the reader can only be destroyed. The pointers in *info live as long as the
- * reader. Since 0.1. */
+ * them; if that fails, the reader can only be asked for its message, and destroyed. The pointers in
+ * *info live as long as the reader. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reader,
                                                          tetstream_stream_info *info);
 /* What the reader left out or assumed, and after tetstream_inspect which fields have values that

@@ -97,11 +97,59 @@ static void what_measures_keeps_its_message_too(void) {
   tetstream_options_destroy(options);
 }
 
+static int32_t stop(void* user, const tetstream_progress* progress) {
+  (void)user, (void)progress;
+  return 1;
+}
+
+static void what_took_part_in_a_failed_layout_is_over(void) {
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  tetstream_stream_info info = {0};
+  info.struct_size = sizeof info;
+  CHECK_EQUAL(tetstream_reader_generate("ball", 1000, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_layout(reader, writer, NULL, stop, NULL, NULL), TETSTREAM_CANCELLED);
+  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_STATE);
+  CHECK_SAYS(tetstream_reader_message(reader), "failed before");
+  CHECK_EQUAL(tetstream_writer_set(writer, "compress", "no"), TETSTREAM_BAD_STATE);
+  tetstream_writer_destroy(writer);
+  tetstream_reader_destroy(reader);
+}
+
+static int32_t not_now(void* user, tetstream_stream_info* info) {
+  (void)user, (void)info;
+  return 42;
+}
+
+static int32_t never(void* user, tetstream_batch* batch) {
+  (void)user, (void)batch;
+  CHECK(!"next is called");
+  return 0;
+}
+
+static void a_reader_of_callbacks_that_does_not_open_is_over(void) {
+  tetstream_reader* reader = NULL;
+  tetstream_reader_callbacks reads = {0};
+  tetstream_stream_info info = {0};
+  reads.struct_size = sizeof reads;
+  reads.open = not_now;
+  reads.next = never;
+  info.struct_size = sizeof info;
+  CHECK_EQUAL(tetstream_reader_create(&reads, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_CALLBACK);
+  CHECK_SAYS(tetstream_reader_message(reader), "returned 42");
+  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_STATE);
+  tetstream_reader_destroy(reader);
+}
+
 int main(void) {
   RUN_CASE(a_program_that_looks_at_the_run_alone_is_told_why);
   RUN_CASE(a_failed_reader_keeps_its_message);
   RUN_CASE(a_failed_writer_keeps_its_message);
   RUN_CASE(a_failed_simplifier_keeps_its_message);
   RUN_CASE(what_measures_keeps_its_message_too);
+  RUN_CASE(what_took_part_in_a_failed_layout_is_over);
+  RUN_CASE(a_reader_of_callbacks_that_does_not_open_is_over);
   return check_end();
 }
