@@ -390,8 +390,8 @@ TETSTREAM_API tetstream_status tetstream_reader_open_file(const char *path, cons
                                                           tetstream_reader **reader);
 /* A file descriptor, which stays the caller's to close, after the reader is destroyed; for formats
  * that must seek, a pipe is spooled to a temporary file in $TMPDIR or /tmp. What does not block is
- * waited for all the same, and a time limit of a socket's is not kept. `format` must be given.
- * Since 0.1. */
+ * waited for all the same, and a time limit of a socket's is not kept. `format` must be given. IO
+ * for a descriptor that is not open for reading. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *format,
                                                         tetstream_reader **reader);
 /* The bytes of a file in memory, which must stay as they are until the reader is destroyed.
@@ -517,7 +517,7 @@ TETSTREAM_API tetstream_status tetstream_writer_create(const tetstream_writer_ca
 TETSTREAM_API tetstream_status tetstream_writer_create_file(const char *path, const char *format,
                                                             tetstream_writer **writer);
 /* A file descriptor, which stays the caller's to close. `format` must be given, here and for
- * memory. Since 0.1. */
+ * memory. IO for a descriptor that is not open for writing. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_writer_create_fd(int32_t fd, const char *format,
                                                           tetstream_writer **writer);
 /* Memory: the bytes of a file of that format. Since 0.1. */
@@ -665,8 +665,8 @@ TETSTREAM_API tetstream_status tetstream_simplifier_set_map_file(tetstream_simpl
                                                                  const char *path,
                                                                  const char *format);
 
-/* The same to a file descriptor, which stays the caller's to close. `format` must be given. Since
- * 0.1. */
+/* The same to a file descriptor, which stays the caller's to close. `format` must be given. IO for
+ * a descriptor that is not open for writing. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_set_map_fd(tetstream_simplifier *simplifier,
                                                                int32_t fd, const char *format);
 
