@@ -456,7 +456,8 @@ TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reade
  * are not finite, as sentences: note `index`, or NULL if there are fewer.
  * Lives as long as the reader. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_note(const tetstream_reader *reader, int32_t index);
-/* The sentence for the last failure with this handle. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_message(const tetstream_reader *reader);
 
 /* What the front of a stream is like (Vo et al. 2007, section 3.1). */
@@ -535,9 +536,11 @@ TETSTREAM_API tetstream_status tetstream_writer_set(tetstream_writer *writer, co
                                                     const char *value);
 /* Since 0.1. */
 TETSTREAM_API void tetstream_writer_destroy(tetstream_writer *writer);
-/* What the format could not hold and was left out: note `index`, or NULL. Since 0.1. */
+/* What the format could not hold and was left out: note `index`, or NULL. Lives as long as the
+ * writer. Since 0.1. */
 TETSTREAM_API const char *tetstream_writer_note(const tetstream_writer *writer, int32_t index);
-/* The sentence for the last failure with this handle. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_writer_message(const tetstream_writer *writer);
 
 /* ----------------------------------------------------------------------------- simplifier */
@@ -606,7 +609,8 @@ TETSTREAM_API tetstream_status tetstream_simplifier_finish(tetstream_simplifier 
 /* What was done so far; complete after run or finish. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_get_report(
     const tetstream_simplifier *simplifier, tetstream_report *report);
-/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifier *simplifier);
 
 /* --------------------------------------------------------------- where the vertices went */
@@ -829,7 +833,8 @@ TETSTREAM_API tetstream_status tetstream_diagram_write(tetstream_diagram *diagra
  * return. For those who have much to do before; allowed at any time. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_diagram_check_path(const tetstream_diagram *diagram,
                                                             const char *path);
-/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *diagram);
 
 /* --------------------------------------------------------------------------- comparing meshes */
@@ -990,7 +995,8 @@ TETSTREAM_API tetstream_status tetstream_comparison_write(tetstream_comparison *
  * any time. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_comparison_check_path(
     const tetstream_comparison *comparison, const char *path);
-/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_comparison_message(const tetstream_comparison *comparison);
 
 /* ------------------------------------------------------------------------------ file formats */
