@@ -162,10 +162,12 @@ typedef struct tetstream_option_info {
   int32_t type;             /* TETSTREAM_OPTION_IS_... */
   const char *name;         /* "boundary-weight"; static */
   const char *text;         /* one line; static */
-  double minimum, maximum;  /* of numbers, both included unless the text says otherwise */
+  double minimum, maximum;  /* of numbers, both included unless the text says otherwise; of
+                               integers rounded, for show: the largest int64 is none of a double */
   const char *default_text; /* static */
   const char *choices;      /* of texts, blank-separated; NULL: anything; static */
   int32_t scope;            /* TETSTREAM_SCOPE_..., added up */
+  int64_t lowest, highest;  /* of integers, both included; 0 of others. Since 0.1 */
 } tetstream_option_info;
 
 /* The number of options. Since 0.1. */

@@ -22,6 +22,8 @@ tetstream_status tetstream_option_at(int32_t index, tetstream_option_info* info)
     out.default_text = row.default_text;
     out.choices = row.choices;
     out.scope = row.scope;
+    out.lowest = row.lowest;
+    out.highest = row.highest;
     writeStruct(info, out);
   });
 }

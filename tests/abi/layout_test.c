@@ -6,7 +6,7 @@
 #define MEMBER(type, member, offset) CHECK_EQUAL(offsetof(type, member), offset)
 
 static void structs_keep_their_layout(void) {
-  CHECK_EQUAL(sizeof(tetstream_option_info), 72);
+  CHECK_EQUAL(sizeof(tetstream_option_info), 88);
   MEMBER(tetstream_option_info, struct_size, 0);
   MEMBER(tetstream_option_info, id, 8);
   MEMBER(tetstream_option_info, type, 12);
@@ -17,6 +17,8 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_option_info, default_text, 48);
   MEMBER(tetstream_option_info, choices, 56);
   MEMBER(tetstream_option_info, scope, 64);
+  MEMBER(tetstream_option_info, lowest, 72);
+  MEMBER(tetstream_option_info, highest, 80);
   CHECK_EQUAL(sizeof(tetstream_column), 16);
   MEMBER(tetstream_column, name, 0);
   MEMBER(tetstream_column, components, 8);
