@@ -289,8 +289,6 @@ typedef struct tetstream_label_name {
 
 #define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
                                       and ordered by the library before it is streamed */
-#define TETSTREAM_STREAM_INT32_CELLS 2 /* of tetstream_reader_open_mesh alone: `cells` of the batch
-                                          points to int32_t. Since 0.1 */
 #define TETSTREAM_STREAM_FROM_ONE 4 /* of tetstream_reader_open_mesh alone: the ids in `cells`, `faces`
                                        and `locked_edges` count from 1, as in Fortran, and so does
                                        the message that refuses one; ids of the output are from 0.
@@ -350,6 +348,8 @@ typedef struct tetstream_batch {
   int64_t locked_edge_count;
   const int64_t *locked_edges;  /* [locked_edge_count][2] vertex ids; neither end moves, which is
                                    enough: an edge changes only with its ends */
+  const int32_t *cells32;       /* [cell_count][4] vertex ids in place of `cells`, which is then NULL:
+                                   of tetstream_reader_open_mesh alone. Since 0.1 */
 } tetstream_batch;
 
 /* -------------------------------------------------------------------------------- reader */

@@ -67,7 +67,7 @@ void MemorySource::readField(size_t column, uint64_t first, size_t count, void* 
 
 void MemorySource::readCells(uint64_t first, size_t count, int64_t* out) {
   if (ids_.narrow_cells) {
-    const auto* const narrow = reinterpret_cast<const int32_t*>(mesh_.cells) + 4 * first;
+    const int32_t* const narrow = ids_.narrow_cells + 4 * first;
     std::copy(narrow, narrow + 4 * count, out);
   } else {
     copyRows(mesh_.cells, first, count, 4 * sizeof(int64_t), out);

@@ -45,7 +45,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_label_name, name, 0);
   MEMBER(tetstream_label_name, cell_array, 8);
   MEMBER(tetstream_label_name, label, 16);
-  CHECK_EQUAL(sizeof(tetstream_batch), 136);
+  CHECK_EQUAL(sizeof(tetstream_batch), 144);
   MEMBER(tetstream_batch, struct_size, 0);
   MEMBER(tetstream_batch, vertex_count, 8);
   MEMBER(tetstream_batch, positions, 16);
@@ -63,6 +63,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_batch, locked_faces, 112);
   MEMBER(tetstream_batch, locked_edge_count, 120);
   MEMBER(tetstream_batch, locked_edges, 128);
+  MEMBER(tetstream_batch, cells32, 136);
 
   CHECK_EQUAL(sizeof(tetstream_pool_callbacks), 32);
   MEMBER(tetstream_pool_callbacks, struct_size, 0);

@@ -405,8 +405,8 @@ static void cells_in_an_array_may_be_int32(void) {
   int32_t* cells = malloc(4 * sizeof(int32_t) * (size_t)mesh->cell_count);
   CHECK(cells != NULL);
   for (int64_t i = 0; i < 4 * mesh->cell_count; ++i) cells[i] = (int32_t)mesh->cells[i];
-  batch.cells = (const int64_t*)(const void*)cells;
-  info.flags |= TETSTREAM_STREAM_INT32_CELLS;
+  batch.cells = NULL;
+  batch.cells32 = cells;
   void* narrow = converted(&info, &batch, &narrow_size);
   CHECK_EQUAL(narrow_size, wide_size);
   CHECK(memcmp(narrow, wide, wide_size) == 0);
@@ -420,14 +420,18 @@ static void cells_in_an_array_may_be_int32(void) {
   CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
   CHECK_SAYS(tetstream_reader_message(reader), "cell 1: vertex -1");
   tetstream_reader_destroy(reader);
-  free(cells);
   tetstream_writer* writer = NULL;
   tetstream_simplifier* simplifier = NULL;
   CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_simplifier_create(NULL, writer, &simplifier), TETSTREAM_OK);
   hostile_mesh_info(mesh, &info);
-  info.flags |= TETSTREAM_STREAM_INT32_CELLS;
-  CHECK_EQUAL(tetstream_simplifier_begin(simplifier, &info), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_simplifier_begin(simplifier, &info), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_push(simplifier, &batch), TETSTREAM_BAD_DATA);
+  CHECK_SAYS(tetstream_simplifier_message(simplifier), "cells32");
+  batch.cells = mesh->cells;
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_BAD_ARGUMENT);
+  tetstream_reader_destroy(reader);
+  free(cells);
   tetstream_simplifier_destroy(simplifier);
   tetstream_writer_destroy(writer);
 }
