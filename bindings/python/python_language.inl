@@ -3,9 +3,11 @@
 #define NPY_NO_DEPRECATED_API NPY_1_7_API_VERSION
 #include <numpy/arrayobject.h>
 
+#include <chrono>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <thread>
 
 #include "failure.h"
 #include "handles.h"
@@ -14,10 +16,23 @@ namespace tetstream::swig {
 
 // ------------------------------------------------------------------------- the lock, functions
 
+// Runs a call that may wait for the interpreter's lock. Before 3.14 Python ends a thread that waits
+// for it while the interpreter ends: a daemon's, when the program is over. Where that unwinds the
+// thread, it would come to frames that let nothing out, and the process be aborted.
+// note: as from 3.14 on, such a thread waits for the end of the process. Nothing else is thrown.
+template <class Call>
+auto waiting(Call&& call) noexcept {
+  try {
+    return call();
+  } catch (...) {
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
+}
+
 // The interpreter's lock, whether or not this thread has it.
 class Locked {
  public:
-  Locked() : state_(PyGILState_Ensure()) {}
+  Locked() : state_(waiting([] { return PyGILState_Ensure(); })) {}
   Locked(const Locked&) = delete;
   Locked& operator=(const Locked&) = delete;
   ~Locked() { PyGILState_Release(state_); }
@@ -29,7 +44,7 @@ class Locked {
 Unlocked::Unlocked() : state_(PyEval_SaveThread()) {}
 
 Unlocked::~Unlocked() {
-  PyEval_RestoreThread(static_cast<PyThreadState*>(state_));
+  waiting([this] { PyEval_RestoreThread(static_cast<PyThreadState*>(state_)); });
 }
 
 // An exception of Python's on its way through C++: type, value, traceback. It is the last of its
@@ -50,9 +65,11 @@ class Raised {
   };
   static void drop(Parts* parts) {
     const Locked locked;
-    Py_XDECREF(parts->type);
-    Py_XDECREF(parts->value);
-    Py_XDECREF(parts->traceback);
+    waiting([parts] {
+      Py_XDECREF(parts->type);
+      Py_XDECREF(parts->value);
+      Py_XDECREF(parts->traceback);
+    });
     delete parts;
   }
 
@@ -68,24 +85,27 @@ Function::Function(const Function& other) : Function(other.object_) {}
 Function::~Function() {
   if (!object_) return;
   const Locked locked;
-  Py_DECREF(static_cast<PyObject*>(object_));
+  waiting([this] { Py_DECREF(static_cast<PyObject*>(object_)); });
 }
 
 void Function::operator()(const char* type, void* object) const {
   const Locked locked;
   swig_type_info* const wrapped_as = SWIG_TypeQuery(type);
-  PyObject* const argument = SWIG_NewPointerObj(object, wrapped_as, 0);
-  PyObject* const result =
-      argument ? PyObject_CallFunctionObjArgs(static_cast<PyObject*>(object_), argument, nullptr)
-               : nullptr;
-  Py_XDECREF(argument);
-  if (!result) throw Raised();
-  Py_DECREF(result);
+  const bool is_done = waiting([&] {
+    PyObject* const argument = SWIG_NewPointerObj(object, wrapped_as, 0);
+    PyObject* const result =
+        argument ? PyObject_CallFunctionObjArgs(static_cast<PyObject*>(object_), argument, nullptr)
+                 : nullptr;
+    Py_XDECREF(argument);
+    Py_XDECREF(result);
+    return result != nullptr;
+  });
+  if (!is_done) throw Raised();
 }
 
 void checkInterrupt() {
   const Locked locked;
-  if (PyErr_CheckSignals() != 0) throw Raised();
+  if (waiting([] { return PyErr_CheckSignals(); }) != 0) throw Raised();
 }
 
 // ---------------------------------------------------------------------------------- exceptions

@@ -131,8 +131,11 @@ tetstream_batch StreamBatch::batch(const StreamInfo& info, int32_t cell_type) {
                            announced.fields);
   out.locked = needFlags(locked_, "locked", positions_.rows);
   out.cell_count = cells_.rows;
-  // note: for int32 cells the pointer stands for another type; tetstream.h says where that may be.
-  out.cells = static_cast<const int64_t*>(need(cells_, "cells", cell_type, -1, 4));
+  const void* const cells = need(cells_, "cells", cell_type, -1, 4);
+  if (cell_type == TETSTREAM_TYPE_INT32)
+    out.cells32 = static_cast<const int32_t*>(cells);
+  else
+    out.cells = static_cast<const int64_t*>(cells);
   out.last_uses = needFlags(last_uses_, "last_uses", cells_.rows);
   out.cell_data = needColumns(cell_data_, cell_data_pointers_, cells_.rows, info.cellDataCount(),
                               "cell array", announced.cell_data);

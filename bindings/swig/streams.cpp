@@ -64,7 +64,6 @@ Reader* Reader::openMemory(const ArrayView& bytes, const char* format, const Opt
 Reader* Reader::openMesh(const StreamInfo& info, StreamBatch& mesh, bool from_one) {
   tetstream_stream_info announced = info.info();
   if (from_one) announced.flags |= TETSTREAM_STREAM_FROM_ONE;
-  if (mesh.cellType() == TETSTREAM_TYPE_INT32) announced.flags |= TETSTREAM_STREAM_INT32_CELLS;
   const tetstream_batch batch = mesh.batch(info, mesh.cellType());
   return made(std::unique_ptr<Reader>(new Reader), [&](tetstream_reader** handle) {
     return tetstream_reader_open_mesh(&announced, &batch, handle);

@@ -24,7 +24,8 @@
  *   A cell's four vertices may be in either orientation; its order is kept.
  *   Creating functions give a handle that the caller destroys. destroy(NULL) does nothing. When
  *   they fail they give one, too, which can only be asked for its message and destroyed; it is NULL
- *   when there is no memory even for that, or no place to put it.
+ *   when there is no memory even for that, or no place to put it. It keeps its message: whatever
+ *   else is called with it returns BAD_STATE and leaves that as it is.
  *   Pointers that the library hands out belong to it; each comment says how long they live.
  *   An indexed mesh has 2^32 - 2 points at most; streams have no limit.
  *   Nothing is printed, nothing aborts, and a write that would raise SIGPIPE or SIGXFSZ fails. (When
@@ -40,13 +41,15 @@
  *   one thread or the option `memory` the caller's thread does everything.
  *   Callbacks are called on the caller's thread alone, and pipes are written there. With three
  *   threads and more, a pipe is read ahead by another one.
+ *   A thread that is cancelled (pthread_cancel) inside a call ends after it: until then, in its
+ *   callbacks, too, it cannot be cancelled. Nor may a callback end it.
  *
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message
  * and report, and destroyed; the same holds for the readers and the writer of a failed `run`,
- * `convert`, `inspect` or `read`. A failure of any other function had no effect, nor has a call
- * that is refused at once: BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too
- * small.
+ * `convert`, `layout`, `inspect` or `read`, and for a reader of callbacks that `get_info` could not
+ * open. A failure of any other function had no effect, nor has a call that is refused at once:
+ * BAD_STATE, or BAD_ARGUMENT for a NULL or a struct_size that is too small.
  */
 #ifndef TETSTREAM_H
 #define TETSTREAM_H
@@ -159,10 +162,12 @@ typedef struct tetstream_option_info {
   int32_t type;             /* TETSTREAM_OPTION_IS_... */
   const char *name;         /* "boundary-weight"; static */
   const char *text;         /* one line; static */
-  double minimum, maximum;  /* of numbers, both included unless the text says otherwise */
+  double minimum, maximum;  /* of numbers, both included unless the text says otherwise; of
+                               integers rounded, for show: the largest int64 is none of a double */
   const char *default_text; /* static */
   const char *choices;      /* of texts, blank-separated; NULL: anything; static */
   int32_t scope;            /* TETSTREAM_SCOPE_..., added up */
+  int64_t lowest, highest;  /* of integers, both included; 0 of others. Since 0.1 */
 } tetstream_option_info;
 
 /* The number of options. Since 0.1. */
@@ -284,8 +289,6 @@ typedef struct tetstream_label_name {
 
 #define TETSTREAM_STREAM_INDEXED 1 /* nothing is finalized: an indexed mesh in any order, collected
                                       and ordered by the library before it is streamed */
-#define TETSTREAM_STREAM_INT32_CELLS 2 /* of tetstream_reader_open_mesh alone: `cells` of the batch
-                                          points to int32_t. Since 0.1 */
 #define TETSTREAM_STREAM_FROM_ONE 4 /* of tetstream_reader_open_mesh alone: the ids in `cells`, `faces`
                                        and `locked_edges` count from 1, as in Fortran, and so does
                                        the message that refuses one; ids of the output are from 0.
@@ -345,6 +348,8 @@ typedef struct tetstream_batch {
   int64_t locked_edge_count;
   const int64_t *locked_edges;  /* [locked_edge_count][2] vertex ids; neither end moves, which is
                                    enough: an edge changes only with its ends */
+  const int32_t *cells32;       /* [cell_count][4] vertex ids in place of `cells`, which is then NULL:
+                                   of tetstream_reader_open_mesh alone. Since 0.1 */
 } tetstream_batch;
 
 /* -------------------------------------------------------------------------------- reader */
@@ -387,8 +392,8 @@ TETSTREAM_API tetstream_status tetstream_reader_open_file(const char *path, cons
                                                           tetstream_reader **reader);
 /* A file descriptor, which stays the caller's to close, after the reader is destroyed; for formats
  * that must seek, a pipe is spooled to a temporary file in $TMPDIR or /tmp. What does not block is
- * waited for all the same, and a time limit of a socket's is not kept. `format` must be given.
- * Since 0.1. */
+ * waited for all the same, and a time limit of a socket's is not kept. `format` must be given. IO
+ * for a descriptor that is not open for reading. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_open_fd(int32_t fd, const char *format,
                                                         tetstream_reader **reader);
 /* The bytes of a file in memory, which must stay as they are until the reader is destroyed.
@@ -445,15 +450,16 @@ TETSTREAM_API tetstream_status tetstream_reader_generate(const char *kind, int64
 /* Since 0.1. */
 TETSTREAM_API void tetstream_reader_destroy(tetstream_reader *reader);
 /* What the stream carries, as far as it is known without reading it. For callback readers: opens
- * them; if that fails, the reader can only be destroyed. The pointers in *info live as long as the
- * reader. Since 0.1. */
+ * them; if that fails, the reader can only be asked for its message, and destroyed. The pointers in
+ * *info live as long as the reader. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reader,
                                                          tetstream_stream_info *info);
 /* What the reader left out or assumed, and after tetstream_inspect which fields have values that
  * are not finite, as sentences: note `index`, or NULL if there are fewer.
  * Lives as long as the reader. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_note(const tetstream_reader *reader, int32_t index);
-/* The sentence for the last failure with this handle. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_message(const tetstream_reader *reader);
 
 /* What the front of a stream is like (Vo et al. 2007, section 3.1). */
@@ -465,7 +471,8 @@ typedef struct tetstream_front_info {
   double mean_life;             /* cells read while a vertex is active, over the vertices */
   int64_t longest_life;         /* cells */
   int64_t window_cells;         /* room of the window, in cells, of a simplification that knows this
-                                   front beforehand, to a quarter of the cells or fewer */
+                                   front beforehand, to a quarter of the cells or fewer, without
+                                   the option `window` */
 } tetstream_front_info;
 
 /* The front as `inspect` found it. BAD_STATE before. Since 0.1. */
@@ -513,7 +520,7 @@ TETSTREAM_API tetstream_status tetstream_writer_create(const tetstream_writer_ca
 TETSTREAM_API tetstream_status tetstream_writer_create_file(const char *path, const char *format,
                                                             tetstream_writer **writer);
 /* A file descriptor, which stays the caller's to close. `format` must be given, here and for
- * memory. Since 0.1. */
+ * memory. IO for a descriptor that is not open for writing. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_writer_create_fd(int32_t fd, const char *format,
                                                           tetstream_writer **writer);
 /* Memory: the bytes of a file of that format. Since 0.1. */
@@ -531,9 +538,11 @@ TETSTREAM_API tetstream_status tetstream_writer_set(tetstream_writer *writer, co
                                                     const char *value);
 /* Since 0.1. */
 TETSTREAM_API void tetstream_writer_destroy(tetstream_writer *writer);
-/* What the format could not hold and was left out: note `index`, or NULL. Since 0.1. */
+/* What the format could not hold and was left out: note `index`, or NULL. Lives as long as the
+ * writer. Since 0.1. */
 TETSTREAM_API const char *tetstream_writer_note(const tetstream_writer *writer, int32_t index);
-/* The sentence for the last failure with this handle. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_writer_message(const tetstream_writer *writer);
 
 /* ----------------------------------------------------------------------------- simplifier */
@@ -602,7 +611,8 @@ TETSTREAM_API tetstream_status tetstream_simplifier_finish(tetstream_simplifier 
 /* What was done so far; complete after run or finish. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_get_report(
     const tetstream_simplifier *simplifier, tetstream_report *report);
-/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_simplifier_message(const tetstream_simplifier *simplifier);
 
 /* --------------------------------------------------------------- where the vertices went */
@@ -661,8 +671,8 @@ TETSTREAM_API tetstream_status tetstream_simplifier_set_map_file(tetstream_simpl
                                                                  const char *path,
                                                                  const char *format);
 
-/* The same to a file descriptor, which stays the caller's to close. `format` must be given. Since
- * 0.1. */
+/* The same to a file descriptor, which stays the caller's to close. `format` must be given. IO for
+ * a descriptor that is not open for writing. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_simplifier_set_map_fd(tetstream_simplifier *simplifier,
                                                                int32_t fd, const char *format);
 
@@ -825,7 +835,8 @@ TETSTREAM_API tetstream_status tetstream_diagram_write(tetstream_diagram *diagra
  * return. For those who have much to do before; allowed at any time. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_diagram_check_path(const tetstream_diagram *diagram,
                                                             const char *path);
-/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_diagram_message(const tetstream_diagram *diagram);
 
 /* --------------------------------------------------------------------------- comparing meshes */
@@ -986,7 +997,8 @@ TETSTREAM_API tetstream_status tetstream_comparison_write(tetstream_comparison *
  * any time. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_comparison_check_path(
     const tetstream_comparison *comparison, const char *path);
-/* The sentence for the last failure with this handle, "" if there was none. Since 0.1. */
+/* The sentence for the last failure with this handle, "" if there was none. Lives until the next
+ * call with the handle. Since 0.1. */
 TETSTREAM_API const char *tetstream_comparison_message(const tetstream_comparison *comparison);
 
 /* ------------------------------------------------------------------------------ file formats */

@@ -148,7 +148,7 @@ tetstream_status tetstream_comparison_create(const tetstream_options* options,
 }
 
 void tetstream_comparison_destroy(tetstream_comparison* comparison) {
-  delete comparison;
+  destroy(comparison);
 }
 
 tetstream_status tetstream_comparison_read(tetstream_comparison* comparison,
@@ -229,9 +229,8 @@ tetstream_status tetstream_comparison_write(tetstream_comparison* comparison, co
 
 tetstream_status tetstream_comparison_check_path(const tetstream_comparison* comparison,
                                                  const char* path) {
-  return guard(__func__, comparison, [&](const tetstream_comparison& c) {
+  return guard(__func__, comparison, [&](const tetstream_comparison&) {
     needPlace(path, "path");
-    if (c.state == State::kFailed) failState(c.kNoun, c.state);
     checkPicture(path);
   });
 }

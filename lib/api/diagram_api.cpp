@@ -78,7 +78,7 @@ tetstream_status tetstream_diagram_create(const tetstream_options* options, int3
 }
 
 void tetstream_diagram_destroy(tetstream_diagram* diagram) {
-  delete diagram;
+  destroy(diagram);
 }
 
 tetstream_status tetstream_diagram_read(tetstream_diagram* diagram, tetstream_reader* reader,
@@ -118,9 +118,8 @@ tetstream_status tetstream_diagram_write(tetstream_diagram* diagram, int32_t pag
 }
 
 tetstream_status tetstream_diagram_check_path(const tetstream_diagram* diagram, const char* path) {
-  return guard(__func__, diagram, [&](const tetstream_diagram& d) {
+  return guard(__func__, diagram, [&](const tetstream_diagram&) {
     needPlace(path, "path");
-    if (d.state == State::kFailed) failState(d.kNoun, d.state);
     checkPicture(path);
   });
 }

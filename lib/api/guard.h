@@ -1,5 +1,6 @@
 // api: how every function of the public header is written: one call of `guard`, which lets nothing
-// out but a status, and leaves the sentence in the handle. Depends on tetstream.h, status.h.
+// out but a status, and leaves the sentence in the handle. Depends on tetstream.h, status.h,
+// uncancelled.h.
 #pragma once
 
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "status.h"
 #include "tetstream/tetstream.h"
+#include "uncancelled.h"
 
 namespace tetstream {
 
@@ -70,9 +72,10 @@ tetstream_status statusOf(Body&& body, Arguments&... arguments) {
   }
 }
 
-// Runs body(*handle).
+// Runs body(*handle), whatever its state.
 template <class H, class Body>
-tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
+tetstream_status guardAny(const char* function, H* handle, Body&& body) noexcept {
+  const Uncancelled uncancelled;
   try {
     needPlace(handle, "the handle");
     if (handle->busy)
@@ -83,9 +86,17 @@ tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
   }
 }
 
+// The same for all but those that could not be created: they keep the sentence that says why.
+template <class H, class Body>
+tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
+  if (handle && handle->state == State::kFailed) return TETSTREAM_BAD_STATE;
+  return guardAny(function, handle, body);
+}
+
 // For functions without a handle.
 template <class Body>
 tetstream_status guard(Body&& body) noexcept {
+  const Uncancelled uncancelled;
   try {
     return statusOf(body);
   } catch (...) {
@@ -101,12 +112,19 @@ tetstream_status guardCreate(const char* function, H** place, Body&& body) noexc
   *place = nullptr;
   return guard([&] {
     *place = new H;
-    const auto outcome = guard(function, *place, [&](H& handle) {
+    const auto outcome = guardAny(function, *place, [&](H& handle) {
       body(handle);
       handle.state = State::kReady;
     });
     return static_cast<Status>(outcome);
   });
+}
+
+// How every handle goes.
+template <class H>
+void destroy(H* handle) noexcept {
+  const Uncancelled uncancelled;
+  delete handle;
 }
 
 template <class H>

@@ -86,7 +86,7 @@ ProgressFunction progressOf(tetstream_progress_callback callback, void* user) {
 
 RunOptions runOptionsOf(const tetstream_options* options) {
   if (!options) return OptionValues().runOptions();
-  needState(*options, State::kReady);
+  needCreated(*options);
   return options->values->runOptions();
 }
 

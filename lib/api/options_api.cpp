@@ -22,6 +22,8 @@ tetstream_status tetstream_option_at(int32_t index, tetstream_option_info* info)
     out.default_text = row.default_text;
     out.choices = row.choices;
     out.scope = row.scope;
+    out.lowest = row.lowest;
+    out.highest = row.highest;
     writeStruct(info, out);
   });
 }
@@ -31,7 +33,7 @@ tetstream_status tetstream_options_create(tetstream_options** options) {
 }
 
 void tetstream_options_destroy(tetstream_options* options) {
-  delete options;
+  destroy(options);
 }
 
 tetstream_status tetstream_options_set_int64(tetstream_options* options, int32_t id,

@@ -224,15 +224,16 @@ tetstream_status tetstream_reader_open_mesh(const tetstream_stream_info* info,
   return guardCreate(__func__, reader, [&](tetstream_reader& r) {
     tetstream_stream_info stream = readStruct(info, "info");
     MemorySource::Ids ids;
-    ids.narrow_cells = (stream.flags & TETSTREAM_STREAM_INT32_CELLS) != 0;
     ids.first = (stream.flags & TETSTREAM_STREAM_FROM_ONE) != 0 ? 1 : 0;
-    stream.flags &=
-        ~static_cast<uint32_t>(TETSTREAM_STREAM_INT32_CELLS | TETSTREAM_STREAM_FROM_ONE);
+    stream.flags &= ~static_cast<uint32_t>(TETSTREAM_STREAM_FROM_ONE);
     const Schema schema = schemaOf(stream);
     tetstream_batch batch = readStruct(mesh, "mesh");
     batch.last_uses = nullptr;
     batch.finalized_count = 0;
-    const BatchView view = BatchChecker(schema).view(batch);
+    if (batch.cells && batch.cells32)
+      fail(Status::kBadArgument, "mesh: of cells and cells32 both are given");
+    ids.narrow_cells = batch.cells32;
+    const BatchView view = BatchChecker(schema).viewMesh(batch);
     r.input.indexed = std::make_unique<MemorySource>(schema, view, ids);
     r.input.stays_with_caller = false;
     openReader(r);
@@ -250,7 +251,7 @@ tetstream_status tetstream_reader_generate(const char* kind, int64_t cells, int6
 }
 
 void tetstream_reader_destroy(tetstream_reader* reader) {
-  delete reader;
+  destroy(reader);
 }
 
 tetstream_status tetstream_reader_get_info(tetstream_reader* reader, tetstream_stream_info* info) {

@@ -91,11 +91,12 @@ tetstream_status tetstream_simplifier_create(const tetstream_options* options,
 }
 
 void tetstream_simplifier_destroy(tetstream_simplifier* simplifier) {
+  const Uncancelled uncancelled;
   if (simplifier && simplifier->state == State::kRunning) {
     closeRun(*simplifier);
     simplifier->output->stop(State::kBroken);
   }
-  delete simplifier;
+  destroy(simplifier);
 }
 
 tetstream_status tetstream_simplifier_set_progress(tetstream_simplifier* simplifier,
@@ -194,7 +195,6 @@ tetstream_status tetstream_simplifier_get_report(const tetstream_simplifier* sim
                                                  tetstream_report* report) {
   return guard(__func__, simplifier, [&](const tetstream_simplifier& s) {
     checkStruct(report, "report");
-    if (s.state == State::kFailed) failState(s.kNoun, s.state);
     // What it points to stays while the stream does not go on.
     if (s.run && !s.reported) s.report = s.run->report();
     s.reported = true;

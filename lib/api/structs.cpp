@@ -186,6 +186,13 @@ static void checkLastUses(const uint8_t* last_uses, size_t count, const Place& p
 }
 
 BatchView BatchChecker::view(const tetstream_batch& batch) {
+  if (batch.cells32)
+    fail(Status::kBadData, "batch %llu: the cells of a stream are in cells, not in cells32",
+         static_cast<unsigned long long>(batches_));
+  return viewMesh(batch);
+}
+
+BatchView BatchChecker::viewMesh(const tetstream_batch& batch) {
   const Place place{batches_};
   BatchView v;
   v.first_vertex = vertices_;
@@ -198,7 +205,7 @@ BatchView BatchChecker::view(const tetstream_batch& batch) {
   place.need(batch.face_labels, "labels of faces", batch.face_count);
   place.need(batch.locked_edges, "locked edges", batch.locked_edge_count);
   place.need(batch.positions, "positions", batch.vertex_count);
-  place.need(batch.cells, "cells", batch.cell_count);
+  if (!batch.cells32) place.need(batch.cells, "cells", batch.cell_count);
   place.need(batch.finalized, "finalized vertices", batch.finalized_count);
   checkColumns(batch.fields, fields_, batch.vertex_count, "field", place);
   checkColumns(batch.cell_data, cell_data_, batch.cell_count, "cell array", place);

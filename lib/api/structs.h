@@ -91,6 +91,8 @@ class BatchChecker {
       : fields_(schema.fields.size()), cell_data_(schema.cell_data.size()) {}
   // Borrows the batch's arrays.
   BatchView view(const tetstream_batch& batch);
+  // The same for a whole mesh, whose cells may be in cells32: the view has none then.
+  BatchView viewMesh(const tetstream_batch& batch);
 
  private:
   size_t fields_, cell_data_;

@@ -58,8 +58,9 @@ tetstream_status tetstream_writer_set(tetstream_writer* writer, const char* prop
 }
 
 void tetstream_writer_destroy(tetstream_writer* writer) {
+  const Uncancelled uncancelled;
   if (writer && writer->output) writer->output->stop(State::kDestroyed);
-  delete writer;
+  destroy(writer);
 }
 
 const char* tetstream_writer_note(const tetstream_writer* writer, int32_t index) {

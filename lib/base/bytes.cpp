@@ -29,6 +29,14 @@ static void widenPipe(int fd, const struct stat& info) {
 #endif
 }
 
+// Refuses a descriptor that is closed, or open for what it is not wanted for (O_RDONLY, O_WRONLY):
+// a long run would come to that at its end.
+static void needOpen(int fd, int unwanted, const std::string& name, const char* what) {
+  const int flags = ::fcntl(fd, F_GETFL);
+  if (flags >= 0 && (flags & O_ACCMODE) == unwanted) errno = EBADF;
+  if (flags < 0 || (flags & O_ACCMODE) == unwanted) failIo(name, what);
+}
+
 // `waiting` may be null.
 static size_t readSome(int fd, void* out, size_t size, const Waiting* waiting,
                        const std::string& name) {
@@ -100,9 +108,7 @@ class DescriptorSource final : public ByteSource {
     }
     widenPipe(fd, info);
     const bool is_file = S_ISREG(info.st_mode);
-    // What is only written to has never anything to read, which a read tells at once.
-    if (!is_file && (::fcntl(fd, F_GETFL) & O_ACCMODE) != O_WRONLY)
-      waiting_ = std::make_shared<Waiting>();
+    if (!is_file) waiting_ = std::make_shared<Waiting>();
     seekable_ = is_file && ::lseek(fd, 0, SEEK_CUR) == 0;
     size_ = seekable_ ? static_cast<uint64_t>(info.st_size) : 0;
   }
@@ -225,6 +231,7 @@ std::unique_ptr<ByteSource> openFile(const std::string& path) {
 }
 
 std::unique_ptr<ByteSource> openDescriptor(int fd, const std::string& name) {
+  needOpen(fd, O_WRONLY, name, "read");
   return std::make_unique<DescriptorSource>(fd, false, name);
 }
 
@@ -330,6 +337,7 @@ class MemorySink final : public ByteSink {
 
 std::unique_ptr<ByteSink> createFile(const std::string& path, JointFiles* joint) {
   if (const int own = finalPlaceOf(path).descriptor; own >= 0) {
+    needOpen(own, O_RDONLY, path, "write");
     const int fd = ::fcntl(own, F_DUPFD_CLOEXEC, 0);
     if (fd < 0) failIo(path, "open");
     return std::make_unique<DescriptorSink>(fd, true, path);
@@ -344,6 +352,7 @@ std::unique_ptr<ByteSink> createFile(const std::string& path, JointFiles* joint)
 }
 
 std::unique_ptr<ByteSink> createDescriptor(int fd, const std::string& name) {
+  needOpen(fd, O_RDONLY, name, "write");
   return std::make_unique<DescriptorSink>(fd, false, name);
 }
 

@@ -230,8 +230,7 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
           [&](const BatchView& batch, Progress&) { facts.put(batch); });
   facts.finish();
   const Schema schema = facts.schema();
-  SimplifyOptions simplify;
-  simplify.window_cells = options.simplify.window_cells;
+  SimplifyOptions simplify;  // the option `window` is one of simplifying alone
   simplify.memory_bytes = options.simplify.memory_bytes;
   return {schema, facts.figures(), Simplifier::windowCells(schema, simplify), facts.notFinite(),
           facts.faceLabels()};

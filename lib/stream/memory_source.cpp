@@ -7,10 +7,16 @@
 
 namespace tetstream {
 
+// note: of a mesh without rows the caller may have no array of pointers either.
+static std::vector<const void*> columnsOf(const void* const* columns, size_t count, size_t rows) {
+  using Columns = std::vector<const void*>;
+  return rows > 0 ? Columns(columns, columns + count) : Columns(count);
+}
+
 MemorySource::MemorySource(const Schema& schema, const BatchView& mesh, Ids ids)
     : schema_(schema),
-      fields_(mesh.fields, mesh.fields + schema.fields.size()),
-      cell_data_(mesh.cell_data, mesh.cell_data + schema.cell_data.size()),
+      fields_(columnsOf(mesh.fields, schema.fields.size(), mesh.vertex_count)),
+      cell_data_(columnsOf(mesh.cell_data, schema.cell_data.size(), mesh.cell_count)),
       mesh_(mesh),
       locked_(account_),
       ids_(ids) {
@@ -61,7 +67,7 @@ void MemorySource::readField(size_t column, uint64_t first, size_t count, void* 
 
 void MemorySource::readCells(uint64_t first, size_t count, int64_t* out) {
   if (ids_.narrow_cells) {
-    const auto* const narrow = reinterpret_cast<const int32_t*>(mesh_.cells) + 4 * first;
+    const int32_t* const narrow = ids_.narrow_cells + 4 * first;
     std::copy(narrow, narrow + 4 * count, out);
   } else {
     copyRows(mesh_.cells, first, count, 4 * sizeof(int64_t), out);

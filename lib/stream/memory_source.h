@@ -15,7 +15,7 @@ class MemorySource : public IndexedSource {
  public:
   // How the ids are written.
   struct Ids {
-    bool narrow_cells = false;  // those of cells are int32
+    const int32_t* narrow_cells = nullptr;  // those of cells, in place of the mesh's
     int64_t first = 0;  // the id of the first vertex: from there rows count in messages, too
   };
   MemorySource(const Schema& schema, const BatchView& mesh, Ids ids);

@@ -6,7 +6,7 @@
 #define MEMBER(type, member, offset) CHECK_EQUAL(offsetof(type, member), offset)
 
 static void structs_keep_their_layout(void) {
-  CHECK_EQUAL(sizeof(tetstream_option_info), 72);
+  CHECK_EQUAL(sizeof(tetstream_option_info), 88);
   MEMBER(tetstream_option_info, struct_size, 0);
   MEMBER(tetstream_option_info, id, 8);
   MEMBER(tetstream_option_info, type, 12);
@@ -17,6 +17,8 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_option_info, default_text, 48);
   MEMBER(tetstream_option_info, choices, 56);
   MEMBER(tetstream_option_info, scope, 64);
+  MEMBER(tetstream_option_info, lowest, 72);
+  MEMBER(tetstream_option_info, highest, 80);
   CHECK_EQUAL(sizeof(tetstream_column), 16);
   MEMBER(tetstream_column, name, 0);
   MEMBER(tetstream_column, components, 8);
@@ -43,7 +45,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_label_name, name, 0);
   MEMBER(tetstream_label_name, cell_array, 8);
   MEMBER(tetstream_label_name, label, 16);
-  CHECK_EQUAL(sizeof(tetstream_batch), 136);
+  CHECK_EQUAL(sizeof(tetstream_batch), 144);
   MEMBER(tetstream_batch, struct_size, 0);
   MEMBER(tetstream_batch, vertex_count, 8);
   MEMBER(tetstream_batch, positions, 16);
@@ -61,6 +63,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_batch, locked_faces, 112);
   MEMBER(tetstream_batch, locked_edge_count, 120);
   MEMBER(tetstream_batch, locked_edges, 128);
+  MEMBER(tetstream_batch, cells32, 136);
 
   CHECK_EQUAL(sizeof(tetstream_pool_callbacks), 32);
   MEMBER(tetstream_pool_callbacks, struct_size, 0);

@@ -86,6 +86,27 @@ static void check_facts(tetstream_reader* reader) {
   tetstream_reader_destroy(reader);
 }
 
+/* What inspect tells of the window is what a simplification takes by itself: the option counts
+ * where one is done. */
+static void the_window_that_is_told_is_not_the_option(void) {
+  tetstream_options* options = NULL;
+  tetstream_front_info front[2] = {{0}, {0}};
+  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_int64(options, TETSTREAM_OPTION_WINDOW, 5000), TETSTREAM_OK);
+  for (int i = 0; i < 2; ++i) {
+    tetstream_reader* reader = NULL;
+    tetstream_stream_info info = {0};
+    CHECK_EQUAL(tetstream_reader_generate("fluid", 20000, 1, &reader), TETSTREAM_OK);
+    info.struct_size = sizeof info;
+    front[i].struct_size = sizeof front[i];
+    CHECK_EQUAL(tetstream_inspect(reader, i ? options : NULL, NULL, NULL, &info), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_reader_get_front(reader, &front[i]), TETSTREAM_OK);
+    tetstream_reader_destroy(reader);
+  }
+  CHECK_EQUAL(front[1].window_cells, front[0].window_cells);
+  tetstream_options_destroy(options);
+}
+
 /* In every order all cells come, and the report tells the front that comes with them. */
 static void a_layout_tells_its_order_and_its_front(void) {
   static const char* const orders[] = {"auto",    "none",    "spatial",       "brick",
@@ -221,6 +242,7 @@ int main(void) {
   mesh = hostile_mesh_create(3, 4, 5);
   CHECK(mesh != NULL);
   RUN_CASE(every_format_takes_and_gives_all_cells);
+  RUN_CASE(the_window_that_is_told_is_not_the_option);
   RUN_CASE(a_layout_tells_its_order_and_its_front);
   RUN_CASE(a_layout_refuses_what_it_cannot_fill);
   RUN_CASE(inspection_finds_the_same_however_the_mesh_comes);

@@ -325,10 +325,9 @@ static void ids_may_count_from_one(void) {
   batch.faces = corners;
   batch.locked_edges = ends;
   for (int kind = 0; kind < 2; ++kind) {
-    batch.cells = kind == 0 ? cells : (const int64_t*)(const void*)narrow;
-    const uint32_t more = kind == 0 ? 0 : TETSTREAM_STREAM_INT32_CELLS;
-    tetstream_writer* again =
-        converted(&batch, more | TETSTREAM_STREAM_FROM_ONE, &same, &same_size);
+    batch.cells = kind == 0 ? cells : NULL;
+    batch.cells32 = kind == 0 ? NULL : narrow;
+    tetstream_writer* again = converted(&batch, TETSTREAM_STREAM_FROM_ONE, &same, &same_size);
     CHECK_EQUAL(same_size, size);
     CHECK(same_size == size && memcmp(same, bytes, size) == 0);
     tetstream_writer_destroy(again);

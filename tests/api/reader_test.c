@@ -1,4 +1,4 @@
-/* Readers: callbacks that behave badly, meshes in arrays, files that are none. */
+/* Readers: callbacks that behave badly, files that are none. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -327,91 +327,6 @@ static void a_failed_creation_leaves_a_handle_with_a_message(void) {
   tetstream_reader_destroy(reader);
 }
 
-static void meshes_in_arrays_are_checked_when_opened(void) {
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
-  tetstream_reader* reader = NULL;
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  info.vertex_count = info.cell_count = 123456789;
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
-  CHECK_EQUAL(info.vertex_count, mesh->vertex_count);
-  CHECK_EQUAL(info.cell_count, mesh->cell_count);
-  CHECK_EQUAL(info.flags, TETSTREAM_STREAM_INDEXED);
-  tetstream_reader_destroy(reader);
-
-  hostile_mesh_info(mesh, &info);
-  batch.cell_count = -1;
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_BAD_DATA);
-  tetstream_reader_destroy(reader);
-  batch.cell_count = mesh->cell_count;
-  batch.cells = NULL;
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_BAD_DATA);
-  tetstream_reader_destroy(reader);
-  batch.cells = mesh->cells;
-  batch.fields = NULL;
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_BAD_DATA);
-  tetstream_reader_destroy(reader);
-}
-
-/* The bytes of a .tets of the mesh; the caller frees them. */
-static void* converted(const tetstream_stream_info* info, const tetstream_batch* batch,
-                       size_t* size) {
-  tetstream_reader* reader = NULL;
-  tetstream_writer* writer = NULL;
-  const void* bytes = NULL;
-  CHECK_EQUAL(tetstream_reader_open_mesh(info, batch, &reader), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_writer_get_memory(writer, &bytes, size), TETSTREAM_OK);
-  void* copy = malloc(*size);
-  CHECK(copy != NULL);
-  memcpy(copy, bytes, *size);
-  tetstream_writer_destroy(writer);
-  tetstream_reader_destroy(reader);
-  return copy;
-}
-
-static void cells_in_an_array_may_be_int32(void) {
-  tetstream_stream_info info;
-  tetstream_batch batch;
-  const void* pointers[3];
-  hostile_mesh_info(mesh, &info);
-  hostile_mesh_batch(mesh, &batch, pointers);
-  size_t wide_size = 0, narrow_size = 0;
-  void* wide = converted(&info, &batch, &wide_size);
-  int32_t* cells = malloc(4 * sizeof(int32_t) * (size_t)mesh->cell_count);
-  CHECK(cells != NULL);
-  for (int64_t i = 0; i < 4 * mesh->cell_count; ++i) cells[i] = (int32_t)mesh->cells[i];
-  batch.cells = (const int64_t*)(const void*)cells;
-  info.flags |= TETSTREAM_STREAM_INT32_CELLS;
-  void* narrow = converted(&info, &batch, &narrow_size);
-  CHECK_EQUAL(narrow_size, wide_size);
-  CHECK(memcmp(narrow, wide, wide_size) == 0);
-  free(narrow);
-  free(wide);
-
-  /* An id is checked as it is, and no other stream has such cells. */
-  tetstream_reader* reader = NULL;
-  cells[5] = -1;
-  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_inspect(reader, NULL, NULL, NULL, &info), TETSTREAM_BAD_DATA);
-  CHECK_SAYS(tetstream_reader_message(reader), "cell 1: vertex -1");
-  tetstream_reader_destroy(reader);
-  free(cells);
-  tetstream_writer* writer = NULL;
-  tetstream_simplifier* simplifier = NULL;
-  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_simplifier_create(NULL, writer, &simplifier), TETSTREAM_OK);
-  hostile_mesh_info(mesh, &info);
-  info.flags |= TETSTREAM_STREAM_INT32_CELLS;
-  CHECK_EQUAL(tetstream_simplifier_begin(simplifier, &info), TETSTREAM_BAD_ARGUMENT);
-  tetstream_simplifier_destroy(simplifier);
-  tetstream_writer_destroy(writer);
-}
-
 static void null_is_refused_everywhere(void) {
   hostile_reader hostile = {0};
   const tetstream_reader_callbacks reads = hostile_reader_callbacks(&hostile);
@@ -467,8 +382,6 @@ int main(void) {
   RUN_CASE(a_reader_that_was_never_opened_is_not_closed);
   RUN_CASE(tables_of_other_sizes_are_told_apart);
   RUN_CASE(a_failed_creation_leaves_a_handle_with_a_message);
-  RUN_CASE(meshes_in_arrays_are_checked_when_opened);
-  RUN_CASE(cells_in_an_array_may_be_int32);
   RUN_CASE(null_is_refused_everywhere);
   hostile_mesh_destroy(mesh);
   return check_end();

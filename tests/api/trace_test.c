@@ -181,6 +181,7 @@ static void tables_may_be_minimal_and_must_not_be_less(void) {
   map.struct_size = 8;
   CHECK_EQUAL(tetstream_simplifier_set_map(r.simplifier, &map), TETSTREAM_BAD_ARGUMENT);
   CHECK_EQUAL(tetstream_simplifier_set_map(NULL, &map), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_simplifier_set_map_fd(r.simplifier, -1, "csv"), TETSTREAM_IO);
   tetstream_reader* reader = arrays_of(mesh);
   CHECK_EQUAL(tetstream_simplifier_run(r.simplifier, reader), TETSTREAM_OK);
   CHECK_EQUAL(t->count, mesh->vertex_count); /* the first table still held */

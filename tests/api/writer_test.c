@@ -242,6 +242,24 @@ static void a_descriptor_gets_the_bytes_that_memory_gets(void) {
   tetstream_writer_destroy(file);
 }
 
+static void a_descriptor_for_the_other_way_is_refused_at_once(void) {
+  tetstream_reader* reader = NULL;
+  int ends[2];
+  CHECK_EQUAL(pipe(ends), 0);
+  const int wrong[] = {ends[0], -1};
+  for (int i = 0; i < 2; ++i) {
+    tetstream_writer* writer = NULL;
+    CHECK_EQUAL(tetstream_writer_create_fd(wrong[i], "vtu", &writer), TETSTREAM_IO);
+    CHECK_SAYS(tetstream_writer_message(writer), "cannot write");
+    tetstream_writer_destroy(writer);
+  }
+  CHECK_EQUAL(tetstream_reader_open_fd(ends[1], "tets", &reader), TETSTREAM_IO);
+  CHECK_SAYS(tetstream_reader_message(reader), "cannot read");
+  tetstream_reader_destroy(reader);
+  close(ends[0]);
+  close(ends[1]);
+}
+
 static void a_pipe_can_be_written_and_read(void) {
   tetstream_writer* writer = NULL;
   tetstream_reader* reader = NULL;
@@ -460,6 +478,7 @@ int main(void) {
   RUN_CASE(a_failed_creation_leaves_a_handle_with_a_message);
   RUN_CASE(memory_is_given_only_when_complete);
   RUN_CASE(a_descriptor_gets_the_bytes_that_memory_gets);
+  RUN_CASE(a_descriptor_for_the_other_way_is_refused_at_once);
   RUN_CASE(a_pipe_can_be_written_and_read);
   RUN_CASE(properties_belong_to_formats);
   RUN_CASE(what_a_format_cannot_hold_is_noted);

@@ -31,4 +31,10 @@ tetstream info - <&- >"$logs/out" 2>"$logs/err" || code=$?
 code=0
 tetstream convert named.tets - >&- 2>"$logs/err" || code=$?
 [[ $code == 3 ]] || fail "closed output: exit code $code"
+# So is one that is open for reading alone, whatever name it has.
+for name in - /dev/stdout; do
+  code=0
+  tetstream convert named.tets "$name" --format vtu 1<named.tets 2>"$logs/err" || code=$?
+  [[ $code == 3 ]] || fail "output to what is read, $name: exit code $code"
+done
 only_files a.tets b.tets named.tets piped.tets small.vtu

@@ -92,16 +92,18 @@ contains
     type(tetstream_option_info) :: row
     type(tetstream_format) :: format
     integer :: i, stat
-    logical :: has_ratio, writes_vtu
+    logical :: has_ratio, has_cells, writes_vtu
     character(200) :: errmsg
 
     has_ratio = .false.
+    has_cells = .false.
     do i = 1, tetstream_option_count()
       call tetstream_option_at(i, row)
       if (row%id == TETSTREAM_OPTION_RATIO) has_ratio = row%name == "ratio" .and. row%maximum == 1 .and. &
         row%type == TETSTREAM_OPTION_IS_DOUBLE .and. len(row%text) > 20
+      if (row%id == TETSTREAM_OPTION_CELLS) has_cells = row%lowest == 0 .and. row%highest == huge(row%highest)
     end do
-    call check(i > 12 .and. has_ratio, "options are listed from 1 on")
+    call check(i > 12 .and. has_ratio .and. has_cells, "options are listed from 1 on")
     call tetstream_option_at(0, row, stat)
     call check_equal(stat, TETSTREAM_BAD_ARGUMENT, "there is no row 0")
     call tetstream_option_at(i, row, stat, errmsg)

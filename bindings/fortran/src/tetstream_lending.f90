@@ -37,7 +37,11 @@ contains
     batch%vertex_count = points%rows
     batch%positions = points%values
     batch%cell_count = cells%rows
-    batch%cells = cells%values
+    if (cells%type == TETSTREAM_TYPE_INT32) then
+      batch%cells32 = cells%values
+    else
+      batch%cells = cells%values
+    end if
     this%description%info%position_type = points%type
     this%description%info%indexed = .true.
     if (present(fields)) &
@@ -48,7 +52,6 @@ contains
     if (present(marks)) call mark(this, marks, batch, status, refusal)
     call this%description%fill(info)
     info%flags = ior(info%flags, TETSTREAM_STREAM_FROM_ONE)
-    if (cells%type == TETSTREAM_TYPE_INT32) info%flags = ior(info%flags, TETSTREAM_STREAM_INT32_CELLS)
   end subroutine
 
   ! "WHAT is COUNT, not WANTED", unless it is so.

@@ -1,0 +1,95 @@
+/* A thread that is cancelled inside a call ends when the call has returned, whatever the call does
+ * meanwhile: it reads, writes, calls back, waits for its threads, destroys what has them. */
+#include <pthread.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "check.h"
+#include "tetstream/tetstream.h"
+
+typedef struct job {
+  pthread_t thread;
+  int32_t threads;
+  char path[64];
+  int is_cancelled, has_run, has_ended;
+  tetstream_status status;
+} job;
+
+/* Nothing is asked for sooner than the first batch is out, so that files and threads are there. */
+static int32_t cancel_myself(void* user, const tetstream_progress* progress) {
+  job* j = user;
+  if (progress->cells_read == 0 || j->is_cancelled) return 0;
+  j->is_cancelled = 1;
+  CHECK_EQUAL(pthread_cancel(j->thread), 0);
+  pthread_testcancel();
+  return 0;
+}
+
+static void* work(void* argument) {
+  job* j = argument;
+  tetstream_options* options = NULL;
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  j->thread = pthread_self();
+  CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_set_int64(options, TETSTREAM_OPTION_THREADS, j->threads),
+              TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_generate("fluid", 100000, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_file(j->path, NULL, &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_create(options, writer, &simplifier), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_set_progress(simplifier, cancel_myself, j), TETSTREAM_OK);
+  j->status = tetstream_simplifier_run(simplifier, reader);
+  tetstream_simplifier_destroy(simplifier);
+  tetstream_writer_destroy(writer);
+  tetstream_reader_destroy(reader);
+  tetstream_options_destroy(options);
+  j->has_run = 1;
+  pthread_testcancel();
+  j->has_ended = 1;
+  return NULL;
+}
+
+static void a_cancelled_thread_ends_after_its_call(void) {
+  for (int32_t threads = 1; threads <= 4; threads += 3) {
+    job j = {0};
+    pthread_t thread;
+    void* result = NULL;
+    j.threads = threads;
+    snprintf(j.path, sizeof j.path, "/tmp/tetstream_cancel_%ld_%d.vtu", (long)getpid(), threads);
+    CHECK_EQUAL(pthread_create(&thread, NULL, work, &j), 0);
+    CHECK_EQUAL(pthread_join(thread, &result), 0);
+    CHECK_EQUAL(j.is_cancelled, 1);
+    CHECK(j.status >= 0);
+    CHECK_EQUAL(j.has_run, 1);
+    CHECK_EQUAL(j.has_ended, 0);
+    CHECK(result == PTHREAD_CANCELED);
+    CHECK_EQUAL(unlink(j.path), 0);
+  }
+}
+
+static void* work_that_may_be_cancelled(void* argument) {
+  const int* may = argument;
+  int before = -1;
+  tetstream_reader* reader = NULL;
+  if (!*may) pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, NULL);
+  CHECK_EQUAL(tetstream_reader_open_file("nowhere.vtu", NULL, &reader), TETSTREAM_IO);
+  tetstream_reader_destroy(reader);
+  CHECK_EQUAL(pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &before), 0);
+  CHECK_EQUAL(before == PTHREAD_CANCEL_ENABLE, *may);
+  return NULL;
+}
+
+static void a_call_leaves_the_thread_as_it_was(void) {
+  for (int may = 0; may < 2; ++may) {
+    pthread_t thread;
+    CHECK_EQUAL(pthread_create(&thread, NULL, work_that_may_be_cancelled, &may), 0);
+    CHECK_EQUAL(pthread_join(thread, NULL), 0);
+  }
+}
+
+int main(void) {
+  RUN_CASE(a_cancelled_thread_ends_after_its_call);
+  RUN_CASE(a_call_leaves_the_thread_as_it_was);
+  return check_end();
+}
