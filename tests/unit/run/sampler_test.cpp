@@ -348,7 +348,10 @@ TEST(Sampler, PaysWhereABudgetLeavesManyWindowsOfSomeFronts) {
   options.ratio = 0.01;
   EXPECT_TRUE(Sampler::pays(schema, options)) << "large samples do at any ratio";
   options.memory_bytes = 8000000;
-  EXPECT_FALSE(Sampler::pays(schema, options));
+  EXPECT_FALSE(Sampler::pays(schema, options)) << "small ones only where more is left";
+  options.memory_bytes = 64000000;
+  EXPECT_TRUE(Sampler::pays(schema, options)) << "nor are they small in a large budget";
+  options.memory_bytes = 8000000;
   options.ratio = 0.1;
   EXPECT_TRUE(Sampler::pays(schema, options));
   options.error = 1;
