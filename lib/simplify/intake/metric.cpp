@@ -43,6 +43,9 @@ constexpr double kShareOfWalls = 0.05, kShareBetweenRegions = 0.001;
 constexpr int64_t kLeastForWalls = 400;
 // A prime: cells often come in patterns of 5, 6, 12 or 24, a hexahedron after the other.
 constexpr int64_t kCellsPerSample = 17;
+// Of fewer cells more, for their angles: of 11,000 Delaunay cells the share below a degree would be
+// known by a few of them, and their order decide whether a solver's shapes can be had.
+constexpr int64_t kEveryCell = 1 << 14, kCellsPerSampleOfSome = 7;
 
 // Scales follow a growing box in steps: smaller ones would redo the quadrics at every window.
 constexpr double kRescaleStep = 1.25;
@@ -293,14 +296,20 @@ bool Metric<S>::isRegular(uint32_t cell) const {
   return regularity(p, static_cast<double>(core_.scale[0])) > 1.01 * shape;
 }
 
+static int64_t stepOf(const Schema& schema) {
+  if (schema.cell_count < 0 || schema.cell_count > kCellsPerSampleOfSome * kEveryCell)
+    return kCellsPerSample;
+  return schema.cell_count > kEveryCell ? kCellsPerSampleOfSome : 1;
+}
+
 // Counts cells, not windows: the floor depends on what was read, not on how.
 template <class S>
 void Metric<S>::sampleAngles(uint32_t first, uint32_t end) {
   const Topology& mesh = core_.window.mesh;
-  const int64_t before = seen_ - first;
+  const int64_t before = seen_ - first, step = stepOf(core_.plan.schema);
   seen_ += end - first;
   for (uint32_t c = first; c < end; ++c) {
-    if ((before + c) % kCellsPerSample != 0 || (mesh.cellFlags(c) & kFlat)) continue;
+    if ((before + c) % step != 0 || (mesh.cellFlags(c) & kFlat)) continue;
     ++sampled_;
     if (isRegular(c)) continue;
     const StarCell cell = mesh.starCell(4 * c);

@@ -1,9 +1,11 @@
 // Meshes whose cells are nearly all as thin as each other: the floor of their angles does not stand
 // against what is asked for, so that domain and field stay what they are.
+#include <algorithm>
 #include <cmath>
 
 #include "simplify_testing.h"
 #include "thin_cells.h"
+#include "window_testing.h"
 
 namespace tetstream::test {
 namespace {
@@ -143,6 +145,46 @@ TEST(Stretched, MeshesHaveTheirFloorInWhateverOrderTheirCellsCome) {
     expectUnharmed(mesh, result, 1);
     EXPECT_EQ(shareBelow(result.out.mesh, 0.49), 0) << first;
   }
+}
+
+// Whether the cell has an angle below 3 degrees.
+bool isThin(const TestMesh& mesh, size_t cell) {
+  std::vector<double> positions;
+  for (size_t j = 0; j < 4; ++j)
+    for (int i = 0; i < 3; ++i)
+      positions.push_back(mesh.position(static_cast<size_t>(mesh.cells[4 * cell + j]), i));
+  return shareBelow(makeMesh(k64, positions, {0, 1, 2, 3}), 3) > 0;
+}
+
+// Cells that are thin come first, and then as each 17th, as long as there are some.
+TestMesh withThinAtSeventeenths(const TestMesh& mesh) {
+  std::vector<size_t> thin, others;
+  for (size_t c = 0; c < mesh.cellCount(); ++c) (isThin(mesh, c) ? thin : others).push_back(c);
+  TestMesh ordered = mesh;
+  for (size_t c = 0, t = 0; c < mesh.cellCount(); ++c) {
+    const bool takes_thin = c % 17 == 0 && t < thin.size();
+    const size_t from = takes_thin ? thin[t++] : others[c - t];
+    std::copy_n(&mesh.cells[4 * from], 4, &ordered.cells[4 * c]);
+  }
+  return inStreamOrder(ordered);
+}
+
+// Fewer than one in a hundred is thin, but all that would be looked at where there are many cells:
+// of so few all are.
+TEST(Stretched, MeshesOfFewCellsHaveTheirFloorWhereverThinOnesCome) {
+  const TestMesh grid = fullGrid(10, 10, 10);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v)
+    for (int i = 0; i < 3; ++i) positions.push_back(grid.position(v, i));
+  for (size_t k = 3; k <= 7; k += 2) {  // inside, pulled next to the vertex behind it
+    const size_t v = k * (121 + 11 + 1);
+    for (size_t i = 0; i < 3; ++i)
+      positions[3 * v + i] += 0.99 * (positions[3 * (v + 1) + i] - positions[3 * v + i]);
+  }
+  const TestMesh mesh = withThinAtSeventeenths(makeMesh(k64, positions, grid.cells));
+  ASSERT_GT(shareBelow(mesh, 1), 0.002);
+  ASSERT_LT(shareBelow(mesh, 3), 0.009);
+  EXPECT_EQ(WholeWindow<double>(mesh, SimplifyOptions{}).core.thin.degrees, 3);
 }
 
 // A field that bends across the layers wants cells that are thinner still: where nearly all edges
