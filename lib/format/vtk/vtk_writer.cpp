@@ -148,11 +148,11 @@ class VtkWriter final : public Sink {
   // Calls take(corners) for each cell.
   template <class Take>
   void forCells(Take take) {
-    int64_t corners[4 * kVtkCellsAtOnce];
+    std::vector<int64_t> corners(4 * kVtkCellsAtOnce);
     for (uint64_t done = 0; done < cell_count_;) {
       const size_t n = static_cast<size_t>(std::min<uint64_t>(cell_count_ - done, kVtkCellsAtOnce));
-      cells_->readAt(done * 4 * sizeof(int64_t), corners, n * 4 * sizeof(int64_t));
-      for (size_t i = 0; i < n; ++i) take(corners + 4 * i);
+      cells_->readAt(done * 4 * sizeof(int64_t), corners.data(), n * 4 * sizeof(int64_t));
+      for (size_t i = 0; i < n; ++i) take(corners.data() + 4 * i);
       done += n;
     }
   }
