@@ -33,13 +33,13 @@ class NamedTemporary {
   const std::string& path() const { return path_; }
 
  private:
-  void create(const std::string& stem);
+  void create(const std::string& stem, unsigned mode);
   enum class Before { kUnknown, kNone, kKept };
 
   std::string path_, target_, temporary_, old_, spare_, left_;
   int fd_ = -1;
   Before before_ = Before::kUnknown;  // what the name was of
-  bool renamed_ = false;
+  bool replaces_ = false, renamed_ = false;
 };
 
 }  // namespace tetstream

@@ -1,0 +1,81 @@
+// A file that replaces another one: who may read it meanwhile.
+#include "named_temporary.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "folder.h"
+#include "thrown_by.h"
+
+namespace {
+
+// What the library calls comes here first.
+mode_t mode_before_chmod = 0;
+int chmod_fails_with = 0;
+
+}  // namespace
+
+extern "C" int fchmod(int fd, mode_t mode) {
+  struct stat made = {};
+  ::fstat(fd, &made);
+  mode_before_chmod = made.st_mode & 0777;
+  errno = chmod_fails_with;
+  return chmod_fails_with ? -1 : static_cast<int>(::syscall(SYS_fchmod, fd, mode));
+}
+
+namespace tetstream::test {
+namespace {
+
+mode_t modeOf(const std::string& path) {
+  struct stat is = {};
+  ::stat(path.c_str(), &is);
+  return is.st_mode & 07777;
+}
+
+class NamedTemporaryTest : public ::testing::Test {
+ protected:
+  NamedTemporaryTest() : mask_(::umask(0)) {
+    mode_before_chmod = 0;
+    chmod_fails_with = 0;
+    writeFile(old, "old");
+    ::chmod(old.c_str(), 0640);
+  }
+  ~NamedTemporaryTest() override { ::umask(mask_); }
+
+  // The status of replacing the old file, and of committing that.
+  Status replace() {
+    return thrownBy([&] { writeFile(old, "new"); }).first;
+  }
+
+  Folder folder;
+  const std::string old = folder.file("a");
+
+ private:
+  mode_t mask_;
+};
+
+TEST_F(NamedTemporaryTest, IsNeverOpenerThanWhatItReplaces) {
+  EXPECT_EQ(replace(), Status::kOk);
+  EXPECT_EQ(mode_before_chmod, 0640u);
+  EXPECT_EQ(modeOf(old), 0640u);
+}
+
+TEST_F(NamedTemporaryTest, KeepsBitsThatTheMaskWouldTake) {
+  ::umask(077);
+  EXPECT_EQ(replace(), Status::kOk);
+  EXPECT_EQ(modeOf(old), 0640u);
+}
+
+// As on file systems that have no modes.
+TEST_F(NamedTemporaryTest, IsWrittenWhereModesCannotBeSet) {
+  chmod_fails_with = EPERM;
+  EXPECT_EQ(replace(), Status::kOk);
+  EXPECT_EQ(contents(old), "new");
+}
+
+}  // namespace
+}  // namespace tetstream::test
