@@ -113,11 +113,16 @@ void NamedTemporary::commit() {
 }
 
 void NamedTemporary::sync() {
-  if (::fsync(fd_) != 0) failIo(path_, "write");
+  if (::fdatasync(fd_) != 0 && errno != EINVAL) failIo(path_, "write");
+  synced_ = true;
 }
 
 // Closing may tell that writing failed; a second descriptor keeps the lock until the name is there.
+// What replaces a file is on the disk before: of a rename without that, a system that stops may
+// leave an empty file, and the old one is gone. It takes what the disk takes to write it, which it
+// has begun (0.1 s of 100 MB on a fast one); a new file has nothing to lose and does not wait.
 void NamedTemporary::close() {
+  if (replaces_ && !synced_) sync();
   const int lock = ::dup(fd_), written = fd_;
   fd_ = lock;
   if (::close(written) != 0) failIo(path_, "write");

@@ -1,4 +1,4 @@
-// A file that replaces another one: who may read it meanwhile.
+// A file that replaces another one: who may read it meanwhile, and that it is on the disk before.
 #include "named_temporary.h"
 
 #include <fcntl.h>
@@ -15,7 +15,7 @@ namespace {
 
 // What the library calls comes here first.
 mode_t mode_before_chmod = 0;
-int chmod_fails_with = 0;
+int chmod_fails_with = 0, sync_fails_with = 0, syncs = 0;
 
 }  // namespace
 
@@ -25,6 +25,12 @@ extern "C" int fchmod(int fd, mode_t mode) {
   mode_before_chmod = made.st_mode & 0777;
   errno = chmod_fails_with;
   return chmod_fails_with ? -1 : static_cast<int>(::syscall(SYS_fchmod, fd, mode));
+}
+
+extern "C" int fdatasync(int fd) {
+  ++syncs;
+  errno = sync_fails_with;
+  return sync_fails_with ? -1 : static_cast<int>(::syscall(SYS_fdatasync, fd));
 }
 
 namespace tetstream::test {
@@ -40,7 +46,7 @@ class NamedTemporaryTest : public ::testing::Test {
  protected:
   NamedTemporaryTest() : mask_(::umask(0)) {
     mode_before_chmod = 0;
-    chmod_fails_with = 0;
+    chmod_fails_with = sync_fails_with = syncs = 0;
     writeFile(old, "old");
     ::chmod(old.c_str(), 0640);
   }
@@ -75,6 +81,21 @@ TEST_F(NamedTemporaryTest, IsWrittenWhereModesCannotBeSet) {
   chmod_fails_with = EPERM;
   EXPECT_EQ(replace(), Status::kOk);
   EXPECT_EQ(contents(old), "new");
+}
+
+TEST_F(NamedTemporaryTest, IsOnTheDiskBeforeItReplacesAFile) {
+  EXPECT_EQ(syncs, 0);  // of a new one
+  EXPECT_EQ(replace(), Status::kOk);
+  EXPECT_EQ(syncs, 1);
+}
+
+TEST_F(NamedTemporaryTest, LeavesTheOldFileWhereTheDiskFails) {
+  sync_fails_with = EIO;
+  EXPECT_EQ(replace(), Status::kIo);
+  EXPECT_EQ(contents(old), "old");
+  EXPECT_EQ(folder.names(), Names{"a"});
+  sync_fails_with = EINVAL;  // a file system that has nothing to do
+  EXPECT_EQ(replace(), Status::kOk);
 }
 
 }  // namespace
