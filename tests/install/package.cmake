@@ -112,6 +112,21 @@ foreach(linkage shared static any)
   endif()
 endforeach()
 
+# Where it is told to be built with what is not there, or among its sources, it says so.
+function(refuses text)
+  execute_process(COMMAND ${CMAKE_COMMAND} ${ARGN} RESULT_VARIABLE result OUTPUT_QUIET
+    ERROR_VARIABLE words)
+  string(REGEX REPLACE "[ \n]+" " " words "${words}")
+  string(FIND "${words}" "${text}" found)
+  if(result EQUAL 0 OR found EQUAL -1)
+    string(JOIN " " line ${ARGN})
+    message(FATAL_ERROR "cmake ${line}\nshould fail with \"${text}\", not (${result}):\n${words}")
+  endif()
+endfunction()
+refuses("TETSTREAM_ZSTD needs libzstd" -S ${SOURCE} -B ${WORK}/refused -G ${GENERATOR}
+  -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DTETSTREAM_ZSTD=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
+
 # A version that is not compatible is not found.
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${here}/project -B ${WORK}/other -G ${GENERATOR}
   "-DCMAKE_PREFIX_PATH=${prefix}" -DLINKAGE=shared -DWANTED=0.0
