@@ -112,6 +112,10 @@ foreach(linkage shared static any)
   endif()
 endforeach()
 
+# As a part of another project: nothing of that one's is changed, and the library alone is built.
+must(${CMAKE_COMMAND} -S ${here}/parent -B ${WORK}/parent -G ${GENERATOR} -DTETSTREAM=${SOURCE}
+  -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON)
+
 # Where it is told to be built with what is not there, or among its sources, it says so.
 function(refuses text)
   execute_process(COMMAND ${CMAKE_COMMAND} ${ARGN} RESULT_VARIABLE result OUTPUT_QUIET
