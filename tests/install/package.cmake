@@ -130,6 +130,8 @@ endfunction()
 refuses("TETSTREAM_ZSTD needs libzstd" -S ${SOURCE} -B ${WORK}/refused -G ${GENERATOR}
   -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DTETSTREAM_ZSTD=ON
   -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
+file(COPY ${SOURCE}/CMakeLists.txt DESTINATION ${WORK}/sources)
+refuses("Build in a folder of its own" -S ${WORK}/sources -B ${WORK}/sources -G ${GENERATOR})
 
 # A version that is not compatible is not found.
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${here}/project -B ${WORK}/other -G ${GENERATOR}
