@@ -14,6 +14,10 @@ install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../tests/examples/
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development
   FILES_MATCHING PATTERN "*.c" PATTERN "README.md")
 
+# In no Debian package: these have it by another name.
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/../LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT license)
+
 # A program in C that links the static library needs the C++ library, too.
 target_link_libraries(tetstream_static INTERFACE $<INSTALL_INTERFACE:stdc++>
                                                  $<INSTALL_INTERFACE:m>)
