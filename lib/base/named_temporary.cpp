@@ -97,8 +97,13 @@ NamedTemporary::NamedTemporary(const std::string& path)
   removeAbandoned(stem);
   // It keeps its mode, and never has a wider one, not even until the next line.
   create(stem, replaces_ ? old.st_mode & 0777 : 0666);
-  if (replaces_ && ::fchmod(fd_, old.st_mode & 07777) != 0 && isOpenerThan(old, fd_))
-    failIo(path_, "keep the mode of");
+  if (!replaces_ || ::fchmod(fd_, old.st_mode & 07777) == 0) return;
+  const int why = errno;
+  if (!isOpenerThan(old, fd_)) return;
+  ::unlink(temporary_.c_str());
+  ::close(fd_);
+  errno = why;
+  failIo(path_, "keep the mode of");
 }
 
 NamedTemporary::~NamedTemporary() {

@@ -15,6 +15,7 @@ namespace {
 
 // What the library calls comes here first.
 mode_t mode_before_chmod = 0;
+bool all_are_open = false;
 int chmod_fails_with = 0, sync_fails_with = 0, syncs = 0;
 
 }  // namespace
@@ -25,6 +26,12 @@ extern "C" int fchmod(int fd, mode_t mode) {
   mode_before_chmod = made.st_mode & 0777;
   errno = chmod_fails_with;
   return chmod_fails_with ? -1 : static_cast<int>(::syscall(SYS_fchmod, fd, mode));
+}
+
+extern "C" int fstat(int fd, struct stat* is) {
+  const int result = ::fstatat(fd, "", is, AT_EMPTY_PATH);
+  if (all_are_open) is->st_mode |= 0777;
+  return result;
 }
 
 extern "C" int fdatasync(int fd) {
@@ -46,6 +53,7 @@ class NamedTemporaryTest : public ::testing::Test {
  protected:
   NamedTemporaryTest() : mask_(::umask(0)) {
     mode_before_chmod = 0;
+    all_are_open = false;
     chmod_fails_with = sync_fails_with = syncs = 0;
     writeFile(old, "old");
     ::chmod(old.c_str(), 0640);
@@ -81,6 +89,14 @@ TEST_F(NamedTemporaryTest, IsWrittenWhereModesCannotBeSet) {
   chmod_fails_with = EPERM;
   EXPECT_EQ(replace(), Status::kOk);
   EXPECT_EQ(contents(old), "new");
+}
+
+TEST_F(NamedTemporaryTest, IsNotWrittenWhereOthersCouldReadWhatTheyCouldNot) {
+  chmod_fails_with = EPERM;
+  all_are_open = true;
+  EXPECT_EQ(replace(), Status::kIo);
+  EXPECT_EQ(contents(old), "old");
+  EXPECT_EQ(folder.names(), Names{"a"});
 }
 
 TEST_F(NamedTemporaryTest, IsOnTheDiskBeforeItReplacesAFile) {
