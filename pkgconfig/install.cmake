@@ -14,9 +14,18 @@ install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../tests/examples/
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development
   FILES_MATCHING PATTERN "*.c" PATTERN "README.md")
 
-# A program in C that links the static library needs the C++ library, too.
-target_link_libraries(tetstream_static INTERFACE $<INSTALL_INTERFACE:stdc++>
-                                                 $<INSTALL_INTERFACE:m>)
+# In no Debian package: these have it by another name.
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/../LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT license)
+
+# A program in C that links the static library needs the compiler's C++ library, too.
+set(cxx_runtime ${CMAKE_CXX_IMPLICIT_LINK_LIBRARIES})
+list(REMOVE_ITEM cxx_runtime ${CMAKE_C_IMPLICIT_LINK_LIBRARIES} m)
+list(REMOVE_DUPLICATES cxx_runtime)
+list(APPEND cxx_runtime m)
+foreach(library IN LISTS cxx_runtime)
+  target_link_libraries(tetstream_static INTERFACE $<INSTALL_INTERFACE:${library}>)
+endforeach()
 
 # -------------------------------------------------------------------------------- pkg-config
 # The prefix is found from the place of the file itself, however deep the library folder is.
@@ -45,6 +54,8 @@ foreach(codec IN LISTS TETSTREAM_LINKED)
 endforeach()
 # Cairo and HDF5 are loaded, not linked: what that takes is the loader, where that is no part of the C library.
 list(TRANSFORM CMAKE_DL_LIBS PREPEND " -l" OUTPUT_VARIABLE pc_dl)
+list(TRANSFORM cxx_runtime PREPEND "-l")
+list(JOIN cxx_runtime " " pc_cxx_runtime)
 configure_file(${CMAKE_CURRENT_LIST_DIR}/tetstream.pc.in ${PROJECT_BINARY_DIR}/tetstream.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/tetstream.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT development)

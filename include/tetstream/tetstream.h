@@ -34,8 +34,10 @@
  *   the run uses.
  *
  * Threads
- *   There is no global state. A handle is used by one thread at a time; different handles may be
- *   used at once, also a reader and a writer of different simplifiers.
+ *   There is no global state but that of libhdf5, where files of its formats are read or written:
+ *   an application that uses it, too, does not call H5close() while such a reader or writer is open.
+ *   A handle is used by one thread at a time; different handles may be used at once, also a reader
+ *   and a writer of different simplifiers.
  *   Simplifiers, comparisons and readers of some formats work with threads of their own (option
  *   `threads`), which end with the handle, or with the caller's (tetstream_options_set_pool). With
  *   one thread or the option `memory` the caller's thread does everything.

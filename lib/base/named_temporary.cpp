@@ -61,11 +61,11 @@ static bool isStillThere(int fd, const std::string& path) {
 
 constexpr unsigned kAttempts = 1000;
 
-void NamedTemporary::create(const std::string& stem) {
+void NamedTemporary::create(const std::string& stem, unsigned mode) {
   // note: not mkstemp, which would not give the file the mode that the user's umask allows.
   for (unsigned attempt = 0; attempt < kAttempts; ++attempt) {
     temporary_ = textOf("%s%s%lx-%x", stem.c_str(), kMark, static_cast<long>(::getpid()), attempt);
-    fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    fd_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     if (fd_ < 0 && errno == EEXIST) continue;
     if (fd_ < 0) failIo(path_, "create");
     const bool taken = ::flock(fd_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
@@ -77,6 +77,13 @@ void NamedTemporary::create(const std::string& stem) {
   fail(Status::kIo, "%s: no temporary file beside it stays there", path_.c_str());
 }
 
+// Whether somebody may do with it what he could not with the old one. Where modes cannot be set, as
+// on file systems that have none, all files have the same, and writing goes on.
+static bool isOpenerThan(const struct stat& old, int fd) {
+  struct stat made;
+  return ::fstat(fd, &made) != 0 || (made.st_mode & 0777 & ~old.st_mode) != 0;
+}
+
 NamedTemporary::NamedTemporary(const std::string& path)
     : path_(path), target_(finalPlaceOf(path).path) {
   // A name has 255 bytes at most: a long one leaves no room for a suffix.
@@ -84,12 +91,19 @@ NamedTemporary::NamedTemporary(const std::string& path)
   const std::string stem =
       target_.size() - slash > 220 ? target_.substr(0, slash) + ".longer" : target_;
   struct stat old;
-  const bool replaces = ::stat(target_.c_str(), &old) == 0;
-  if (replaces && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
+  replaces_ = ::stat(target_.c_str(), &old) == 0;
+  if (replaces_ && ::faccessat(AT_FDCWD, target_.c_str(), W_OK, AT_EACCESS) != 0)
     failIo(path_, "write");
   removeAbandoned(stem);
-  create(stem);
-  if (replaces) ::fchmod(fd_, old.st_mode & 07777);  // it keeps its mode
+  // It keeps its mode, and never has a wider one, not even until the next line.
+  create(stem, replaces_ ? old.st_mode & 0777 : 0666);
+  if (!replaces_ || ::fchmod(fd_, old.st_mode & 07777) == 0) return;
+  const int why = errno;
+  if (!isOpenerThan(old, fd_)) return;
+  ::unlink(temporary_.c_str());
+  ::close(fd_);
+  errno = why;
+  failIo(path_, "keep the mode of");
 }
 
 NamedTemporary::~NamedTemporary() {
@@ -104,11 +118,16 @@ void NamedTemporary::commit() {
 }
 
 void NamedTemporary::sync() {
-  if (::fsync(fd_) != 0) failIo(path_, "write");
+  if (::fdatasync(fd_) != 0 && errno != EINVAL) failIo(path_, "write");
+  synced_ = true;
 }
 
 // Closing may tell that writing failed; a second descriptor keeps the lock until the name is there.
+// What replaces a file is on the disk before: of a rename without that, a system that stops may
+// leave an empty file, and the old one is gone. It takes what the disk takes to write it, which it
+// has begun (0.1 s of 100 MB on a fast one); a new file has nothing to lose and does not wait.
 void NamedTemporary::close() {
+  if (replaces_ && !synced_) sync();
   const int lock = ::dup(fd_), written = fd_;
   fd_ = lock;
   if (::close(written) != 0) failIo(path_, "write");

@@ -22,7 +22,7 @@ class NamedTemporary {
 
   // The steps of it, for files that get their names together (joint_files.h): each throws kIo.
   void sync();     // to the disk
-  void close();    // nothing is written any more
+  void close();    // nothing is written any more; synced if it replaces a file
   void keepOld();  // what has the name now stays beside, as long as this does
   void rename();
   // The name is as it was before the rename. Where that cannot be, what had it stays beside, as
@@ -33,13 +33,13 @@ class NamedTemporary {
   const std::string& path() const { return path_; }
 
  private:
-  void create(const std::string& stem);
+  void create(const std::string& stem, unsigned mode);
   enum class Before { kUnknown, kNone, kKept };
 
   std::string path_, target_, temporary_, old_, spare_, left_;
   int fd_ = -1;
   Before before_ = Before::kUnknown;  // what the name was of
-  bool renamed_ = false;
+  bool replaces_ = false, synced_ = false, renamed_ = false;
 };
 
 }  // namespace tetstream

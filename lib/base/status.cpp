@@ -1,18 +1,30 @@
 #include "status.h"
 
+#include <locale.h>
+
 #include <cstdarg>
 #include <cstdio>
 #include <utility>
 
 namespace tetstream {
 
+// As vsnprintf, with a point before decimals and nothing between thousands, whatever the locale of
+// the process or of its thread is.
+static int print(char* out, size_t size, const char* format, va_list args) {
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);  // as long as the process
+  const locale_t before = ::uselocale(plain);
+  const int length = std::vsnprintf(out, size, format, args);
+  ::uselocale(before);
+  return length;
+}
+
 static std::string vtext(const char* format, va_list args) {
   va_list again;
   va_copy(again, args);
-  const int length = std::vsnprintf(nullptr, 0, format, again);
+  const int length = print(nullptr, 0, format, again);
   va_end(again);
   std::string text(length > 0 ? static_cast<size_t>(length) : 0, '\0');
-  if (length > 0) std::vsnprintf(text.data(), text.size() + 1, format, args);
+  if (length > 0) print(text.data(), text.size() + 1, format, args);
   return text;
 }
 

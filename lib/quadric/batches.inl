@@ -10,9 +10,14 @@ template <class Layout, class S, int N>
 S solveEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n_given, S* z) {
   const int n = dimension<N>(n_given);
   EdgeSolver<Layout, S, S, N> edge;
-  for (int i = 0; i < Layout::size(n); ++i) {
-    edge.a1[i] = q1[i];
-    edge.a2[i] = q2[i];
+  if constexpr (kFitsStack<Layout, N>) {
+    for (int i = 0; i < Layout::size(n); ++i) {
+      edge.a1[i] = q1[i];
+      edge.a2[i] = q2[i];
+    }
+  } else {
+    edge.a1 = q1;
+    edge.a2 = q2;
   }
   for (int i = 0; i < n; ++i) edge.h[i] = S(0.5) * ((x2[i] - x1[i]) * scale[i]);
   edge.solve(n);
@@ -21,10 +26,6 @@ S solveEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, 
   for (int i = 0; i < n; ++i) z[i] = edge.z[i];
   return error;
 }
-
-// Eight large triangles would need a large stack.
-template <class Layout, int N>
-constexpr bool kFitsLanes = N > 0 || Layout::size(kMaxDimension) < 1000;
 
 // Half of the edges from one vertex to eight.
 [[gnu::always_inline]] inline void halfEdges(const float* from, const float* const to[8],
@@ -48,7 +49,7 @@ constexpr bool kFitsLanes = N > 0 || Layout::size(kMaxDimension) < 1000;
 template <class Layout, class S, int N>
 void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others, int count,
                 const S* scale, int n_given, S* errors) {
-  if constexpr (!kFitsLanes<Layout, N>) {
+  if constexpr (!kFitsStack<Layout, N>) {
     S z[kMaxDimension];
     for (int i = 0; i < count; ++i)
       errors[i] =
@@ -81,7 +82,7 @@ void edgeErrors(const VertexTable<S>& table, uint32_t u, const uint32_t* others,
 template <class Layout, class S, int N>
 void solveEdges(const VertexTable<S>& table, const uint32_t* ends, int count, const S* scale,
                 int n_given, S* z, S* errors) {
-  if constexpr (!kFitsLanes<Layout, N>) {
+  if constexpr (!kFitsStack<Layout, N>) {
     for (int k = 0; k < count; ++k) {
       const uint32_t u = ends[2 * k], v = ends[2 * k + 1];
       errors[k] = solveEdge<Layout, S, N>(table.quadric(u), table.value(u), table.quadric(v),

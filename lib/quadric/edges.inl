@@ -11,11 +11,21 @@ namespace {
 template <class Layout, class S, class V, int N>
 struct EdgeSolver;
 
+// A quadric's numbers, or where they are.
+template <class V, int Size, bool Fits>
+struct HeldQuadric {
+  using Type = V[Size];
+};
+template <class V, int Size>
+struct HeldQuadric<V, Size, false> {
+  using Type = const V*;
+};
+
 template <class S, class V, int N>
 struct EdgeSolver<Full, S, V, N> {
   static constexpr int kSize = kQuadricRoom<Full, N>;
-  V a1[kSize], a2[kSize];           // the quadrics: A, then e
-  V h[kValueRoom<N>], z[kRoom<N>];  // half the edge, the minimizer
+  typename HeldQuadric<V, kSize, kFitsStack<Full, N>>::Type a1, a2;  // A, then e
+  V h[kValueRoom<N>], z[kRoom<N>];                                   // half the edge, the minimizer
 
   // (A1 + A2) z = (A2 - A1) h, the condition of a minimum written from the midpoint. The last
   // variables go first. What is left in space may be rounding alone, of the size of what was

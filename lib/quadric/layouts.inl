@@ -35,6 +35,10 @@ struct Fields {
   }
 };
 
+// Whether copies of its quadrics go onto the stack; large triangles would need a large one.
+template <class Layout, int N>
+constexpr bool kFitsStack = N > 0 || Layout::size(kMaxDimension) < 1000;
+
 // Numbers of A and e, and of values, with room for reading four at a time.
 template <class Layout, int N>
 constexpr int kQuadricRoom = (Layout::size(kRoom<N>) + 3) / 4 * 4;

@@ -56,18 +56,19 @@ template <class Layout, class S, int N>
 S minimizeEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scale, int n_given,
                S* z) {
   const int n = dimension<N>(n_given);
-  S h[kRoom<N>], r[kRoom<N>], d[kRoom<N>], q[kRoom<N>], a[Layout::size(kRoom<N>)];
+  constexpr bool kHeld = kFitsStack<Layout, N>;
+  S h[kRoom<N>], r[kRoom<N>], d[kRoom<N>], q[kRoom<N>], a[kHeld ? Layout::size(kRoom<N>) : 1];
   halfEdge(x1, x2, scale, n, h);
   S trace = 0;
   for (int i = 0; i < n; ++i) r[i] = d[i] = z[i] = 0;
   Layout::each(n, [&](int i, int j, int k) {
-    a[k] = q1[k] + q2[k];
-    const S b = q2[k] - q1[k];
+    const S b = q2[k] - q1[k], sum = q1[k] + q2[k];
+    if constexpr (kHeld) a[k] = sum;
     r[i] += b * h[j];
     if (j < i)
       r[j] += b * h[i];
     else
-      trace += a[k];
+      trace += sum;
   });
   const S limit = trace / S(n * kMaxCondition);
   for (int step = 0; step < n; ++step) {
@@ -77,8 +78,9 @@ S minimizeEdge(const S* q1, const S* x1, const S* q2, const S* x2, const S* scal
     for (int i = 0; i < n; ++i) d[i] += r[i] / s;
     for (int i = 0; i < n; ++i) q[i] = 0;
     Layout::each(n, [&](int i, int j, int k) {
-      q[i] += a[k] * d[j];
-      if (j < i) q[j] += a[k] * d[i];
+      const S entry = kHeld ? a[kHeld ? k : 0] : q1[k] + q2[k];
+      q[i] += entry * d[j];
+      if (j < i) q[j] += entry * d[i];
     });
     for (int i = 0; i < n; ++i) t += d[i] * q[i];
     if (!(s * t > limit)) break;

@@ -152,8 +152,8 @@ int close(int fd) {
   errno = kept;
   return -1;
 }
-int fsync(int fd) {
-  NEXT(fsync);
+int fdatasync(int fd) {
+  NEXT(fdatasync);
   return fails(SYNC) > 0 ? -1 : next(fd);
 }
 int rename(const char* from, const char* to) {

@@ -16,6 +16,9 @@ file(REMOVE_RECURSE ${WORK})
 must(${CMAKE_COMMAND} --install ${BUILD} --prefix "${WORK}/first place")
 file(RENAME "${WORK}/first place" "${WORK}/pre fix")
 set(prefix "${WORK}/pre fix")
+if(NOT EXISTS "${prefix}/${DOCDIR}/LICENSE")
+  message(FATAL_ERROR "the licence is not installed")
+endif()
 file(GLOB_RECURSE texts "${prefix}/*.pc" "${prefix}/*.cmake")
 list(LENGTH texts count)
 if(count LESS 5)
@@ -111,6 +114,27 @@ foreach(linkage shared static any)
     must("${build}/client_fortran")
   endif()
 endforeach()
+
+# As a part of another project: nothing of that one's is changed, and the library alone is built.
+must(${CMAKE_COMMAND} -S ${here}/parent -B ${WORK}/parent -G ${GENERATOR} -DTETSTREAM=${SOURCE}
+  -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON)
+
+# Where it is told to be built with what is not there, or among its sources, it says so.
+function(refuses text)
+  execute_process(COMMAND ${CMAKE_COMMAND} ${ARGN} RESULT_VARIABLE result OUTPUT_QUIET
+    ERROR_VARIABLE words)
+  string(REGEX REPLACE "[ \n]+" " " words "${words}")
+  string(FIND "${words}" "${text}" found)
+  if(result EQUAL 0 OR found EQUAL -1)
+    string(JOIN " " line ${ARGN})
+    message(FATAL_ERROR "cmake ${line}\nshould fail with \"${text}\", not (${result}):\n${words}")
+  endif()
+endfunction()
+refuses("TETSTREAM_ZSTD needs libzstd" -S ${SOURCE} -B ${WORK}/refused -G ${GENERATOR}
+  -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DTETSTREAM_ZSTD=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
+file(COPY ${SOURCE}/CMakeLists.txt DESTINATION ${WORK}/sources)
+refuses("Build in a folder of its own" -S ${WORK}/sources -B ${WORK}/sources -G ${GENERATOR})
 
 # A version that is not compatible is not found.
 execute_process(COMMAND ${CMAKE_COMMAND} -S ${here}/project -B ${WORK}/other -G ${GENERATOR}

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 #include <tuple>
+#include <vector>
 
 #include "exodus_blocks.h"
 #include "face_key.h"
@@ -43,14 +44,14 @@ class FaceRows {
 
 // Returns how many are left out.
 uint64_t addFaces(MeshSpool& mesh, FaceRows& rows, PointSet& points) {
-  int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
+  std::vector<int64_t> corners(3 * kRowsAtOnce), labels(kRowsAtOnce);
   uint64_t left_out = 0;
   std::set<int64_t> known;
   for (uint64_t at = 0; at < mesh.faceCount(); at += kRowsAtOnce) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh.faceCount() - at));
-    mesh.readFaces(at, n, corners, labels);
+    mesh.readFaces(at, n, corners.data(), labels.data());
     for (size_t i = 0; i < n; ++i) {
-      const int64_t* face = corners + 3 * i;
+      const int64_t* face = corners.data() + 3 * i;
       const bool may_be_set = ExodusSides::isId(labels[i]) &&
                               (known.size() < kMostGroups || known.count(labels[i]) > 0);
       if (!may_be_set) {

@@ -24,7 +24,8 @@ CellKind needKind(MshMesh& mesh, int64_t number) {
 }
 
 void readTextElements(MshMesh& mesh, uint64_t count) {
-  int64_t tags[kMostTags], nodes[kMostMshNodes];
+  std::vector<int64_t> tags(static_cast<size_t>(kMostTags));
+  int64_t nodes[kMostMshNodes];
   // Integers, of which nobody knows how many there are: most elements have fewer.
   constexpr uint64_t kMostExpected = 32;
   mesh.file.expectRows(count, {{{false, kMostExpected}}});
@@ -36,9 +37,9 @@ void readTextElements(MshMesh& mesh, uint64_t count) {
       mesh.file.failBad(textOf("element %lld has %lld tags", static_cast<long long>(head[0]),
                                static_cast<long long>(head[2])));
     const int64_t tag = head[0], tag_count = head[2];
-    mesh.file.integers(tags, static_cast<size_t>(tag_count), "a tag of an element");
+    mesh.file.integers(tags.data(), static_cast<size_t>(tag_count), "a tag of an element");
     mesh.file.integers(nodes, static_cast<size_t>(kind.nodes), "a node of an element");
-    addElement(mesh, kind, tag, tags, static_cast<size_t>(tag_count), nodes);
+    addElement(mesh, kind, tag, tags.data(), static_cast<size_t>(tag_count), nodes);
   }
   mesh.file.endRows();
 }

@@ -26,11 +26,11 @@ class MshElements {
   // In the order of the stream: visit(number, volume, corners)
   template <class Visit>
   void forEachInStream(Visit visit) {
-    int64_t corners[4 * kRowsAtOnce];
+    std::vector<int64_t> corners(4 * kRowsAtOnce);
     labels_.forEachCell([&](uint64_t cell, const MshVolume& volume) {
       const size_t at = cell % kRowsAtOnce;
-      if (at == 0) mesh_.readCells(cell, rowsFrom(cell), corners);
-      visit(cell, volume, corners + 4 * at);
+      if (at == 0) mesh_.readCells(cell, rowsFrom(cell), corners.data());
+      visit(cell, volume, corners.data() + 4 * at);
     });
   }
 

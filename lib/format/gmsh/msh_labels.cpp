@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <vector>
 
 #include "rows_at_once.h"
 
@@ -114,11 +115,11 @@ void MshLabels::groupZero() {
 }
 
 void MshLabels::findSurfaces() {
-  int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
+  std::vector<int64_t> corners(3 * kRowsAtOnce), labels(kRowsAtOnce);
   const auto count = mesh_.faceCount();
   for (uint64_t first = 0; first < count; first += kRowsAtOnce) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - first));
-    mesh_.readFaces(first, n, corners, labels);
+    mesh_.readFaces(first, n, corners.data(), labels.data());
     for (size_t i = 0; i < n; ++i) {
       const bool known =
           isGroup(labels[i]) && (surfaces_.size() < kMostGroups || surfaces_.count(labels[i]) > 0);

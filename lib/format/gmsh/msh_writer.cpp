@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <vector>
 
 #include "gmsh_format.h"
 #include "grouped_rows.h"
@@ -277,11 +278,11 @@ class MshWriter final : public MeshCollector {
   // nothing, and labels may change from each to the next.
   void groupFaces() {
     faces_ = std::make_unique<GroupedRows<Face>>(labels_->surfaces(), options().temp_dir);
-    int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
+    std::vector<int64_t> corners(3 * kRowsAtOnce), labels(kRowsAtOnce);
     for (uint64_t first = 0; first < mesh_->faceCount(); first += kRowsAtOnce) {
       const auto n =
           static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->faceCount() - first));
-      mesh_->readFaces(first, n, corners, labels);
+      mesh_->readFaces(first, n, corners.data(), labels.data());
       for (size_t i = 0; i < n; ++i)
         if (labels_->surfaces().count(labels[i]) > 0)
           faces_->add(labels[i], {{corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]}});

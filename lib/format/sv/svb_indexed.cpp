@@ -117,10 +117,10 @@ class SvbIndexed final : public IndexedSource {
 
   template <class Take>
   void readElements(uint64_t first, size_t count, Take take) {
-    unsigned char buffer[64 * (4 + kSvbBlock * kSvbElementBytes)];
+    unsigned char buffer[32 * (4 + kSvbBlock * kSvbElementBytes)];
     while (count > 0) {
       const uint64_t begin = placeOf(first);
-      const size_t part = std::min(count, 63 * kSvbBlock);
+      const size_t part = std::min(count, 31 * kSvbBlock);
       const size_t size = placeOf(first + part - 1) + kSvbElementBytes - begin;
       if (bytes_.readAt(begin, buffer, size) != size)
         failAt(first, "the file has become shorter while it was read");

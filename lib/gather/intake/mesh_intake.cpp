@@ -333,11 +333,11 @@ void MeshIntake::checkCorners() {
 // visit(its three points) for all faces.
 template <class Visit>
 void MeshIntake::forFaces(Visit visit) {
-  int64_t corners[3 * kRowsAtOnce], labels[kRowsAtOnce];
+  std::vector<int64_t> corners(3 * kRowsAtOnce), labels(kRowsAtOnce);
   for (uint64_t at = 0; at < mesh_->faceCount(); at += kRowsAtOnce) {
     const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, mesh_->faceCount() - at));
-    mesh_->readFaces(at, n, corners, labels);
-    for (size_t i = 0; i < n; ++i) visit(corners + 3 * i);
+    mesh_->readFaces(at, n, corners.data(), labels.data());
+    for (size_t i = 0; i < n; ++i) visit(&corners[3 * i]);
   }
 }
 

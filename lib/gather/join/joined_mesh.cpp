@@ -79,13 +79,13 @@ class JoinedPoints final : public IndexedSource {
 
   // Both cells beside a face may have labelled it.
   void joinFaces() {
-    int64_t corners[3 * kRowsOfMesh], labels[kRowsOfMesh];
+    std::vector<int64_t> corners(3 * kRowsOfMesh), labels(kRowsOfMesh);
     faces_ = std::make_unique<SideFaces>(points_->plan().temp_dir);
     const auto count = static_cast<uint64_t>(schema_.face_count);
     for (uint64_t at = 0; at < count; at += kRowsOfMesh) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsOfMesh, count - at));
-      readAllFaces(at, n, corners, labels);
-      for (size_t i = 0; i < n; ++i) faces_->add(corners + 3 * i, labels[i]);
+      readAllFaces(at, n, corners.data(), labels.data());
+      for (size_t i = 0; i < n; ++i) faces_->add(&corners[3 * i], labels[i]);
     }
     const uint64_t again = faces_->finish();
     schema_.face_count = static_cast<int64_t>(faces_->count());
@@ -114,12 +114,12 @@ class JoinedPoints final : public IndexedSource {
 
   // Those of cells that are left out, ghosts for example, do not count.
   void findUsed() {
-    int64_t corners[4 * kRowsOfMesh];
+    std::vector<int64_t> corners(4 * kRowsOfMesh);
     used_.emplace(account_, static_cast<uint64_t>(mesh_->schema().vertex_count));
     const auto cells = static_cast<uint64_t>(schema_.cell_count);
     for (uint64_t at = 0; at < cells; at += kRowsOfMesh) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsOfMesh, cells - at));
-      mesh_->readCells(at, n, corners);
+      mesh_->readCells(at, n, corners.data());
       for (size_t i = 0; i < 4 * n; ++i) used_->add(static_cast<uint64_t>(corners[i]));
     }
   }

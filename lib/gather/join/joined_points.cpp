@@ -71,10 +71,11 @@ class JoinFinder {
   }
 
   double largestCoordinate(uint64_t points) {
-    double places[3 * kAtOnce], largest = 0;
+    std::vector<double> places(3 * kAtOnce);
+    double largest = 0;
     for (uint64_t at = 0; at < points; at += kAtOnce) {
       const size_t n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, points - at));
-      readPlaces(at, n, places);
+      readPlaces(at, n, places.data());
       for (size_t i = 0; i < 3 * n; ++i)
         if (std::isfinite(places[i])) largest = std::max(largest, std::fabs(places[i]));
     }
@@ -84,16 +85,16 @@ class JoinFinder {
   bool isFound(uint64_t point) const { return found_ && found_->has(point); }
 
   void addKeys(Buckets<Keyed>& keyed, uint64_t points) {
-    double places[3 * kAtOnce];
+    std::vector<double> places(3 * kAtOnce);
     for (uint64_t at = 0; at < points; at += kAtOnce) {
       const size_t n = static_cast<size_t>(std::min<uint64_t>(kAtOnce, points - at));
-      plan_.global_ids < 0 ? readPlaces(at, n, places) : readIds(at, n, places);
+      plan_.global_ids < 0 ? readPlaces(at, n, places.data()) : readIds(at, n, places.data());
       for (size_t i = 0; i < 3 * n && grain_ > 0; ++i)
         places[i] = std::floor(places[i] / grain_ + shift_) + 0.0;
       for (size_t i = 0; i < n; ++i) {
-        if (plan_.everywhere && (isFound(at + i) || !isPlace(places + 3 * i))) continue;
+        if (plan_.everywhere && (isFound(at + i) || !isPlace(&places[3 * i]))) continue;
         Keyed row{{}, at + i};
-        std::memcpy(row.key.data(), places + 3 * i, sizeof row.key);
+        std::memcpy(row.key.data(), &places[3 * i], sizeof row.key);
         keyed.add(bucketOf(row, keyed.count()), row);
       }
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "mesh_pieces.h"
 
@@ -14,7 +15,7 @@ class IntegerWindow {
   static constexpr size_t kMost = 2048;
 
   IntegerWindow(const MeshArray& array, uint64_t count)
-      : values_(count > 0 ? array.open(count) : nullptr), count_(count) {}
+      : values_(count > 0 ? array.open(count) : nullptr), count_(count), held_(kMost) {}
   uint64_t count() const { return count_; }
   // `n` values, at most kMost, from `first` on, which never goes back: they live until the next
   // call. There must be so many.
@@ -22,9 +23,9 @@ class IntegerWindow {
     if (first + n > begin_ + filled_) {
       begin_ = first;
       filled_ = static_cast<size_t>(std::min<uint64_t>(kMost, count_ - first));
-      values_->read(first, filled_, held_, ScalarType::kInt64);
+      values_->read(first, filled_, held_.data(), ScalarType::kInt64);
     }
-    return held_ + (first - begin_);
+    return held_.data() + (first - begin_);
   }
   // One after the other.
   bool hasEnded() const { return next_ == count_; }
@@ -34,7 +35,7 @@ class IntegerWindow {
   std::unique_ptr<Values> values_;
   uint64_t count_, begin_ = 0, next_ = 0;
   size_t filled_ = 0;
-  int64_t held_[kMost];
+  std::vector<int64_t> held_;
 };
 
 }  // namespace tetstream

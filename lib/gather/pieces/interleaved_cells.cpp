@@ -1,6 +1,7 @@
 #include "interleaved_cells.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "rows_at_once.h"
 #include "status.h"
@@ -18,7 +19,8 @@ class TetrahedronPoints final : public Values {
 
   // Whole rows only, as columns ask for them.
   void read(uint64_t first, size_t count, void* out, ScalarType) override {
-    int64_t rows[kRow * kRowsAtOnce];
+    rows_read_.resize(kRow * kRowsAtOnce);
+    int64_t* const rows = rows_read_.data();
     int64_t* to = static_cast<int64_t*>(out);
     uint64_t row = first / 4;
     for (size_t left = count / 4; left > 0;) {
@@ -42,6 +44,7 @@ class TetrahedronPoints final : public Values {
   std::unique_ptr<Values> rows_;
   std::string name_;
   uint64_t first_cell_;
+  std::vector<int64_t> rows_read_;  // kept off the stack, of which callers' threads may have little
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace tetstream {
 
 constexpr size_t kHeldBytes = 1 << 16;  // of every array of a mesh
-constexpr size_t kCopyBytes = 1 << 15;
+constexpr size_t kCopyBytes = 1 << 14;  // on the stack
 
 ColumnSpool::ColumnSpool(const std::string& temp_dir) : file_(temp_dir) {
   held_.reserve(kHeldBytes);
