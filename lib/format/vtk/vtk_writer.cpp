@@ -1,9 +1,6 @@
 // Writes legacy VTK files, binary, which is big-endian. Version 4.2, which readers old and new
-// understand, has cells of 32 bits; where they do not suffice it is version 5.1. So it is where
-// values have 64: in version 4.2 these are of the type long, which has 4 bytes where VTK was
-// compiled for Windows, and vtktypeint64, which has 8 everywhere, meshio knows in version 5.1
-// alone. The counts that stand in front are known only at the end, so the arrays go through
-// temporary files.
+// understand, has cells of 32 bits; where they do not suffice it is version 5.1. The counts that
+// stand in front are known only at the end, so the arrays go through temporary files.
 #include "vtk_writer.h"
 
 #include <algorithm>
@@ -33,7 +30,7 @@ const char* vtkNameOf(ScalarType type) {
     case ScalarType::kInt32:
       return "int";
     case ScalarType::kInt64:
-      return "vtktypeint64";
+      return "long";
   }
   return "";
 }
@@ -104,8 +101,7 @@ class VtkWriter final : public Sink {
 
   void finish() override {
     BufferedSink sink(*bytes_);
-    const bool wide = 5 * cell_count_ > most_int32_ || vertex_count_ > most_int32_ ||
-                      hasInt64(schema_.fields) || hasInt64(schema_.cell_data);
+    const bool wide = 5 * cell_count_ > most_int32_ || vertex_count_ > most_int32_;
     writeText(sink, std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") +
                         "\ntetrahedra, written by tetstream\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
     writeText(sink, "POINTS " + std::to_string(vertex_count_) + " " +
@@ -217,11 +213,6 @@ class VtkWriter final : public Sink {
                           std::to_string(rows) + " " + vtkNameOf(columns[i].type) + "\n");
       writeSpool(sink, *spools[i]);
     }
-  }
-
-  static bool hasInt64(const std::vector<Column>& columns) {
-    return std::any_of(columns.begin(), columns.end(),
-                       [](const Column& column) { return column.type == ScalarType::kInt64; });
   }
 
   static size_t firstFloats(const std::vector<Column>& columns, int components) {
