@@ -10,12 +10,17 @@ install(TARGETS tetstream_static EXPORT tetstreamStaticTargets
 install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../include/tetstream
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development FILES_MATCHING PATTERN "*.h")
 
+# CMAKE_INSTALL_DOCDIR is that of the project of which this may be a part.
+set(doc_dir ${CMAKE_INSTALL_DOCDIR})
+if(NOT PROJECT_IS_TOP_LEVEL)
+  set(doc_dir ${CMAKE_INSTALL_DATAROOTDIR}/doc/tetstream)
+endif()
 install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../tests/examples/
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT development
+  DESTINATION ${doc_dir}/examples COMPONENT development
   FILES_MATCHING PATTERN "*.c" PATTERN "README.md")
 
 # In no Debian package: these have it by another name.
-install(FILES ${CMAKE_CURRENT_LIST_DIR}/../LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
+install(FILES ${CMAKE_CURRENT_LIST_DIR}/../LICENSE DESTINATION ${doc_dir}
   COMPONENT license)
 
 # A program in C that links the static library needs the compiler's C++ library, too.

@@ -43,8 +43,8 @@
  *   one thread or the option `memory` the caller's thread does everything.
  *   Callbacks are called on the caller's thread alone, and pipes are written there. With three
  *   threads and more, a pipe is read ahead by another one.
- *   A thread that is cancelled (pthread_cancel) inside a call ends after it: until then, in its
- *   callbacks, too, it cannot be cancelled. Nor may a callback end it.
+ *   A thread that is cancelled (pthread_cancel, deferred as it is by default) inside a call ends
+ *   after it: until then, in its callbacks, too, it cannot be cancelled. Nor may a callback end it.
  *
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message

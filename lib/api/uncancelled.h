@@ -6,7 +6,8 @@
 namespace tetstream {
 
 // While this lives, cancelling the thread waits. glibc unwinds a cancelled thread by an exception
-// that may not be kept, as all others are at the boundary, nor leave a destructor.
+// that may not be kept, as all others are at the boundary, nor leave a destructor; so of a thread
+// whose cancellation is asynchronous nothing can be promised.
 // note: systems without cancellation lack the macro.
 class Uncancelled {
  public:

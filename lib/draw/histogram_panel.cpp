@@ -101,7 +101,7 @@ void HistogramPanel::drawErrors() {
     const double x = left(first_ + d * kPerDecade), y = frame_.bottom();
     canvas_.line({{x, y}, {x, y + 3}}, kHair, kInk);
     const double percent = 100 * ErrorHistogram::lowerEnd(first_ + d * kPerDecade);
-    if (d % skip == 0) canvas_.text({x, y + 14}, textOf("%.3g", percent), style);
+    if (d % skip == 0) canvas_.text({x, y + 14}, textOf("%.4g", percent), style);
   }
   const double middle = frame_.left + frame_.width / 2;
   canvas_.text({middle, frame_.bottom() + 31}, "error, percent of the range", style);

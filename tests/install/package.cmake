@@ -118,6 +118,10 @@ endforeach()
 # As a part of another project: nothing of that one's is changed, and the library alone is built.
 must(${CMAKE_COMMAND} -S ${here}/parent -B ${WORK}/parent -G ${GENERATOR} -DTETSTREAM=${SOURCE}
   -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_DISABLE_FIND_PACKAGE_CLI11=ON)
+file(STRINGS ${WORK}/parent/tetstream/cmake_install.cmake docs REGEX "doc/parent")
+if(docs)
+  message(FATAL_ERROR "documents are installed among the other project's: ${docs}")
+endif()
 
 # Where it is told to be built with what is not there, or among its sources, it says so.
 function(refuses text)

@@ -108,32 +108,45 @@ double Metric<S>::extent() const {
   return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
 }
 
-// What spans no more than this part of its values is constant but for rounding, as are a density of
-// 1000, a gravity of 9.81 or weights that add up to 1: as a field it would be noise of the size of
-// the cells, which no mesh follows but the input. Five neighbouring float32; of float64, which have
-// come through more sums, some hundreds, of which no measurement has as many.
-constexpr double kRounding32 = 4 * 0x1p-23, kRounding64 = 512 * 0x1p-52;
+// What differs by no more units in its last place is one number but for rounding, as are a density
+// of 1000, a gravity of 9.81 or weights that add up to 1: as a field it would be noise of the size
+// of the cells, which no mesh follows but the input. Five neighbouring float32; of float64, which
+// have come through more sums, some hundreds: no measurement has as many digits.
+constexpr double kRounding32 = 4, kRounding64 = 512;
+
+static double lastPlace(double value, ScalarType type) {
+  const int digits = type == ScalarType::kFloat32 ? 23 : 52;
+  return value == 0 ? 0 : std::ldexp(1.0, std::ilogb(value) - digits);
+}
+
+// Of a field each component is told by its own size; beside a larger one it may be what rounding
+// leaves of that, as a turned gravity has it, and no more.
+static bool isOneNumber(double low, double high, double largest, ScalarType type) {
+  const double units = type == ScalarType::kFloat32 ? kRounding32 : kRounding64;
+  const double own = std::max(std::fabs(low), std::fabs(high));
+  return high - low <= std::max(units * lastPlace(own, type), lastPlace(largest, type));
+}
 
 // Of all components of the field; 0 of one that is constant.
 template <class S>
 double Metric<S>::rangeOf(size_t component) const {
   const std::vector<int>& column = core_.plan.measured_column;
-  double largest = 0;  // scaled by it, so that no square overflows
-  double magnitude = 0;
+  double widest = 0, largest = 0;  // the first scales, so that no square overflows
   for (size_t i = 3; i < low_.size(); ++i)
     if (column[i - 3] == column[component - 3]) {
-      largest = std::max(largest, high_[i] - low_[i]);
-      magnitude = std::max({magnitude, std::fabs(low_[i]), std::fabs(high_[i])});
+      widest = std::max(widest, high_[i] - low_[i]);
+      largest = std::max({largest, std::fabs(low_[i]), std::fabs(high_[i])});
     }
-  const double rounding = typeOf(component) == ScalarType::kFloat32 ? kRounding32 : kRounding64;
-  if (!(largest > rounding * magnitude)) return 0;
+  if (!(widest > 0)) return 0;
   double sum = 0;
+  bool is_constant = true;
   for (size_t i = 3; i < low_.size(); ++i)
     if (column[i - 3] == column[component - 3]) {
-      const double r = (high_[i] - low_[i]) / largest;
+      const double r = (high_[i] - low_[i]) / widest;
       sum += r * r;
+      is_constant &= isOneNumber(low_[i], high_[i], largest, typeOf(component));
     }
-  return largest * std::sqrt(sum);
+  return is_constant ? 0 : widest * std::sqrt(sum);
 }
 
 template <class S>
@@ -206,11 +219,20 @@ void Metric<S>::updateScales() {
     core_.inverse_scale[i] = usable ? inverse : scale;
   }
   used_range_ = range;
+  noteRounded();
   fields_together_ = fieldsTogether();
   core_.extent = extent() > 0 ? extent() / length_unit_ : 1;
   const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;
   core_.error_unit = unit_share * unit_share * unit_share * unit_share * unit_share;
   if (!first_time) rescaleQuadrics(factor);
+}
+
+template <class S>
+void Metric<S>::noteRounded() {
+  core_.balance.rounded.assign(core_.plan.schema.fields.size(), false);
+  for (size_t i = 3; i < low_.size(); ++i)
+    if (high_[i] > low_[i] && used_range_[i] == 0)
+      core_.balance.rounded[static_cast<size_t>(core_.plan.measured_column[i - 3])] = true;
 }
 
 // Old quadrics get the units of new ones, and the weight that they would have there: that of the

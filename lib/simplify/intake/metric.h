@@ -39,6 +39,7 @@ class Metric {
   std::vector<double> ranges() const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
+  void noteRounded();
   void keepRange();
   double slackOf(size_t component) const;
   double largestNumberOf(size_t component) const;

@@ -242,11 +242,21 @@ static std::string fieldsInWords(const Balance& balance, const std::vector<Colum
   return text + textOf(" and %zu other%s", heavier - kNamed, heavier == kNamed + 1 ? "" : "s");
 }
 
+// The names of those that do not count at all.
+static std::string roundedInWords(const Balance& balance, const std::vector<Column>& fields) {
+  std::string names;
+  for (size_t f = 0; f < balance.rounded.size(); ++f)
+    if (balance.rounded[f]) names += (names.empty() ? "" : ", ") + fields[f].name;
+  return names.empty() ? names : "constant but for rounding: " + names;
+}
+
 std::string inWords(const Balance& balance, bool has_interfaces,
                     const std::vector<Column>& fields) {
-  const std::string sheets = sheetsInWords(balance, has_interfaces),
-                    smooth = fieldsInWords(balance, fields);
-  return sheets + (sheets.empty() || smooth.empty() ? "" : "; ") + smooth;
+  std::string text;
+  for (const std::string& part : {sheetsInWords(balance, has_interfaces),
+                                  fieldsInWords(balance, fields), roundedInWords(balance, fields)})
+    if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+  return text;
 }
 
 }  // namespace tetstream

@@ -29,6 +29,7 @@ namespace tetstream {
 struct Balance {
   double outer = 1, interfaces = 1;
   std::vector<double> fields;  // times each one's weight (field_weights.h); or none
+  std::vector<bool> rounded;   // fields that are constant but for rounding; or none
   bool knows_outer = false, knows_interfaces = false;
   bool rough_interfaces = false;
 };

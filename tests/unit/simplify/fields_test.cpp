@@ -141,6 +141,22 @@ TEST(SeveralFields, ThatAreConstantButForRoundingLeaveTheOthersAlone) {
   }
 }
 
+// A component counts however large and constant another one is, and so do more than a few units.
+TEST(SeveralFields, ThatAreSmallBesideAConstantAreMeasured) {
+  for (const bool is_wide : {false, true}) {
+    TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), 2 * fieldsSide(), 0.1);
+    mesh.addField({"b", 2, k32}, [&](size_t v, int i) {
+      const double f = std::tanh(mesh.position(v, 2) - static_cast<double>(fieldsSide()));
+      return is_wide ? 300 + 64 * 0x1p-15 * f : i == 0 ? 1000 : 1e-4 * f;
+    });
+    SimplifyOptions options = toRatio(0.001);
+    options.error = 1;
+    const Result result = simplified(mesh, options);
+    EXPECT_GT(result.out.mesh.cellCount(), 20u) << is_wide;
+    EXPECT_GT(result.report.estimated_error, 0.1) << is_wide;
+  }
+}
+
 // With a field twice all errors count twice: beside it the boundary would count half, were it not
 // for its weight.
 TEST(SeveralFields, LeaveTheBoundaryItsShare) {
