@@ -29,10 +29,11 @@ constexpr double kCellsPerCollapse = 5.5;
 constexpr int64_t kGridPart = 6, kAnyFront = 1 << 20;
 constexpr double kFilled = 0.8, kGrowth = 2, kCellsOfVertex = 3;
 constexpr size_t kNotedBytes = 16;  // of a vertex
-// Cells in over cells out: by more than this a sample misleads that a budget makes smaller (fluid of
-// 6e5 cells in 3 to 5 MB: at a ratio of 0.02 up to 1.5 times the error, at 0.01 2.6 times; at 0.05
-// it helps). Without any, a stream that begins with nothing gives its boundary too much: a plume and
-// a shock of 2e6 cells at 0.02 in 16 and 64 MB had 5 and 3 times the error that they have with one.
+// Cells in over cells out: by more than this a sample misleads that a budget makes smaller (fluid
+// of 6e5 cells in 3 to 5 MB: at a ratio of 0.02 up to 1.5 times the error, at 0.01 2.6 times; at
+// 0.05 it helps). Without any, a stream that begins with nothing gives its boundary too much: a
+// plume and a shock of 2e6 cells at 0.02 in 16 and 64 MB had 5 and 3 times the error that they have
+// with one.
 constexpr int64_t kSampledReduction = 20;
 constexpr double kLeastWorth = 8000;  // cells: of less nothing is learnt
 // A sample is simplified to this share of its free vertices: between the cuts, which are locked,
