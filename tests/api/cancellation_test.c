@@ -35,7 +35,7 @@ static void* work(void* argument) {
   CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_options_set_int64(options, TETSTREAM_OPTION_THREADS, j->threads),
               TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_reader_generate("fluid", 100000, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_generate("fluid", 20000, 1, &reader), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_writer_create_file(j->path, NULL, &writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_simplifier_create(options, writer, &simplifier), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_simplifier_set_progress(simplifier, cancel_myself, j), TETSTREAM_OK);

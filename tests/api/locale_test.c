@@ -53,7 +53,7 @@ static void the_report_has_points(void) {
   memset(&report, 0, sizeof report);
   report.struct_size = sizeof report;
   CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
-  CHECK_EQUAL(tetstream_options_parse(options, "ratio", "0.5"), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_options_parse(options, "ratio", "0.9"), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_reader_open_file(BRACKET, NULL, &reader), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
   CHECK_EQUAL(tetstream_simplifier_create(options, writer, &simplifier), TETSTREAM_OK);

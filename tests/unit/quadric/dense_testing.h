@@ -94,9 +94,14 @@ inline Matrix randomForm(Random& r, QuadricLayout layout, size_t n, double floor
   const size_t dense = is_full ? rank : rank < 3 ? rank : 3;
   for (size_t k = 0; k < 2 * dense; ++k) {
     const Vector v = randomVector(r, dense);
-    for (size_t i = 0; i < dense; ++i)
-      for (size_t j = 0; j < dense; ++j) a[i][j] += v[i] * v[j] / static_cast<double>(dense);
+    for (size_t i = 0; i < dense; ++i) {
+      const double part = v[i] / static_cast<double>(dense);
+      double* const row = a[i].data();
+      for (size_t j = 0; j <= i; ++j) row[j] += part * v[j];
+    }
   }
+  for (size_t i = 0; i < dense; ++i)
+    for (size_t j = 0; j < i; ++j) a[j][i] = a[i][j];
   for (size_t i = 0; i < dense; ++i) a[i][i] += floor;
   if (is_full || rank <= 3) return a;
   for (int cell = 0; cell < 4; ++cell) {
