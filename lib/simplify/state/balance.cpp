@@ -187,6 +187,17 @@ static bool areRough(const RemovalCosts& costs) {
   return field * costs.interfaces.vertices > costs.least_field * sampled;
 }
 
+// A stream may begin far from where its fields change: as long as their errors count as none
+// nothing is told of what the boundary would leave them.
+constexpr double kNoErrors = 2;  // as `least_field`, which is in what is foretold
+
+static bool hasFields(Model& model, const RemovalCosts& costs, double ratio,
+                      const Balance& balance) {
+  if (costs.is_whole || !(costs.least_field > 0)) return true;
+  return model.foretell(balance, ratio, costs.outer).field >
+         std::log(kNoErrors * costs.least_field);
+}
+
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
   if (!balance->knows_interfaces && areRough(costs)) {
     balance->interfaces = kRoughBalance;
@@ -195,7 +206,7 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
   const bool is_wall = costs.is_whole && kOfWalls * costs.inside.vertices < costs.outer.vertices;
   if (!is_wall && costs.inside.vertices < kLeastVertices) return;
   Model model(costs);
-  if (!balance->knows_outer && isEnough(costs.outer)) {
+  if (!balance->knows_outer && isEnough(costs.outer) && hasFields(model, costs, ratio, *balance)) {
     if (costs.touching < kTouching && is_wall)
       lowerInWalls(model, ratio, costs.outer, balance);
     else if (costs.touching < kTouching)

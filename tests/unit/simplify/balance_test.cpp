@@ -66,6 +66,20 @@ TEST(Balance, KnowsNothingOfTooFewVertices) {
   EXPECT_FALSE(chosen(costs, 0.1).knows_outer);
 }
 
+// Where a stream begins with fields that have no errors yet, what comes next is to tell.
+TEST(Balance, WaitsForFieldsThatHaveErrors) {
+  RemovalCosts costs = costsOf({1e-12, 0}, 500, {1e-12, 1}, 500);
+  costs.least_field = 1e-4;
+  const Balance early = chosen(costs, 0.1);
+  EXPECT_FALSE(early.knows_outer);
+  EXPECT_EQ(early.outer, 1);
+  costs.inside.sample.assign(64, {1e-4, 0});
+  EXPECT_TRUE(chosen(costs, 0.1).knows_outer);
+  costs.inside.sample.assign(64, {1e-12, 0});
+  costs.is_whole = true;
+  EXPECT_TRUE(chosen(costs, 0.1).knows_outer) << "nothing is to come";
+}
+
 // Nothing is inside: down to where what it adds is no more than so many times the field's. What is
 // to come of a stream may have an inside.
 TEST(Balance, LowersTheBoundaryOfAWallWhereItDrownsTheField) {
