@@ -35,7 +35,7 @@
  *
  * Threads
  *   There is no global state but that of libhdf5, where files of its formats are read or written:
- *   an application that uses it, too, does not call H5close() while such a reader or writer is open.
+ *   after an application has called H5close() none of them can be opened any more.
  *   A handle is used by one thread at a time; different handles may be used at once, also a reader
  *   and a writer of different simplifiers.
  *   Simplifiers, comparisons and readers of some formats work with threads of their own (option

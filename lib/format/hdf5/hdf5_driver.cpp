@@ -102,10 +102,8 @@ herr_t truncateDriver(H5FD_t* file, hid_t, hbool_t) {
   return 0;
 }
 
-// note: for each file, which keeps it: one for all would be gone, or its number another's, after
-// the application has called H5close().
-Hdf5Id registerDriver() {
-  H5FD_class_t driver = {};
+hid_t registerDriver() {
+  static H5FD_class_t driver;
 #if H5_VERSION_GE(1, 13, 0)
   driver.version = H5FD_CLASS_VERSION;
   driver.value = static_cast<H5FD_class_value_t>(H5FD_CLASS_VALUE_RESERVED_END + 1);
@@ -125,13 +123,13 @@ Hdf5Id registerDriver() {
   driver.truncate = truncateDriver;
   const H5FD_mem_t map[H5FD_MEM_NTYPES] = H5FD_FLMAP_DICHOTOMY;
   std::memcpy(driver.fl_map, map, sizeof map);
-  return Hdf5Id(hdf5().FDregister(&driver), hdf5().FDunregister);
+  return hdf5().FDregister(&driver);
 }
 
 }  // namespace
 
 Hdf5Id hdf5AccessOf(Hdf5File& file) {
-  const Hdf5Id driver = registerDriver();
+  static const hid_t driver = registerDriver();
   Hdf5Id access(hdf5().Pcreate(hdf5().P_CLS_FILE_ACCESS_ID), hdf5().Pclose);
   const DriverInfo info = {&file.link()};
   if (driver < 0 || access < 0 || hdf5().Pset_driver(access, driver, &info) < 0 ||

@@ -26,11 +26,16 @@ static Hdf5Functions load() {
   Hdf5Functions found;
 #define HDF5_FUNCTION(name) \
   found.name = reinterpret_cast<decltype(found.name)>(symbol(library, "H5" #name));
-#define HDF5_NUMBER(name) found.name = Hdf5Number(symbol(library, "H5" #name "_g"));
+#define HDF5_NUMBER(name)
 #include "hdf5_functions.def"
 #undef HDF5_FUNCTION
 #undef HDF5_NUMBER
   if (found.open() < 0) fail(Status::kNoMemory, "HDF5 could not be started");
+#define HDF5_FUNCTION(name)
+#define HDF5_NUMBER(name) found.name = *static_cast<const hid_t*>(symbol(library, "H5" #name "_g"));
+#include "hdf5_functions.def"
+#undef HDF5_FUNCTION
+#undef HDF5_NUMBER
   return found;
 }
 
@@ -46,8 +51,6 @@ static std::recursive_mutex& turns() {
 }
 
 Hdf5Turn::Hdf5Turn() : lock_(turns()) {
-  hdf5()
-      .open();  // the application may have ended the library, whose types are no longer there then
   hdf5().Eget_auto2(H5E_DEFAULT, &print_, &print_data_);
   hdf5().Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }

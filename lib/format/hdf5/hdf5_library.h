@@ -12,22 +12,9 @@
 
 namespace tetstream {
 
-// Where the library keeps the number of one of its own types. To be read in a turn.
-// note: read each time. After the application has called H5close() the library begins anew at its
-// next use, with other numbers.
-class Hdf5Number {
- public:
-  Hdf5Number() = default;
-  explicit Hdf5Number(const void* at) : at_(static_cast<const hid_t*>(at)) {}
-  operator hid_t() const { return *at_; }
-
- private:
-  const hid_t* at_ = nullptr;
-};
-
 struct Hdf5Functions {
 #define HDF5_FUNCTION(name) decltype(&::H5##name) name;
-#define HDF5_NUMBER(name) Hdf5Number name;
+#define HDF5_NUMBER(name) hid_t name;
 #include "hdf5_functions.def"
 #undef HDF5_FUNCTION
 #undef HDF5_NUMBER

@@ -162,16 +162,6 @@ TEST(VtkHdf, WrittenGivesBackEveryArrayInTheSameBytes) {
   }
 }
 
-TEST(VtkHdf, IsReadAndWrittenAfterTheApplicationHasEndedTheLibrary) {
-  const VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
-  const std::string file = writtenAs("vtkhdf", mesh, false);
-  for (int round = 0; round < 2; ++round) {
-    EXPECT_GE(Hdf5Library().call<herr_t()>("H5close")(), 0);
-    EXPECT_TRUE(readAs("vtkhdf", file) == mesh);
-    EXPECT_TRUE(writtenAs("vtkhdf", mesh, false) == file);
-  }
-}
-
 TEST(VtkHdf, ReadsColumnsOfManyChunks) {
   VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
   const int64_t copies = 20000;  // a chunk holds 65536 ids
