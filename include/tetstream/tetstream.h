@@ -312,8 +312,8 @@ typedef struct tetstream_stream_info {
   int64_t front_cells;               /* cells that touch a vertex not yet finalized, at most. It
                                         sets the window. */
   const double *box_min; /* x y z and each component of each field, in order, of what is finite (of a
-                            component that has nothing finite infinity, in box_max -infinity); NULL:
-                            not known */
+                            component that has nothing finite infinity, in box_max -infinity), or of
+                            a whole of which this is a part; NULL: not known */
   const double *box_max;
   int64_t face_count;    /* labelled faces; with the option `memory` their place is kept free */
   int64_t label_name_count;

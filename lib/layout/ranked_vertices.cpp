@@ -85,8 +85,10 @@ std::vector<PieceColumn> columnsOf(const Schema& schema, const std::vector<bool>
 void RankedVertices::sortPoints(const Survey& survey, const VertexKey& key, ExternalSort& sort,
                                 const std::vector<bool>& measured, Schema& schema,
                                 const Tell& tell) {
-  schema.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
-  schema.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
+  if (!schema.hasBox()) {  // else that of a mesh of which this is a part
+    schema.box_min.assign(schema.boxSize(), std::numeric_limits<double>::infinity());
+    schema.box_max.assign(schema.boxSize(), -std::numeric_limits<double>::infinity());
+  }
   std::vector<PieceColumn> columns = columnsOf(schema, measured);
   const uint64_t number = source_.firstNumber();
   std::vector<int64_t> origins(source_.hasOrigins() ? kRowsOfPiece : 0);

@@ -18,9 +18,9 @@ class RankedVertices {
     Account& account;
     std::string temp_dir;
   };
-  // Reads the points once. Fills the box of `schema`, which is the source's, over the used points;
-  // values of `measured` fields (empty: of none) that are not finite are kBadData. Equal keys rank
-  // as the points do.
+  // Reads the points once. Fills the box of `schema`, which is the source's, over the used points,
+  // or widens the one that it has; values of `measured` fields (empty: of none) that are not finite
+  // are kBadData. Equal keys rank as the points do.
   RankedVertices(IndexedSource& source, const Survey& survey, const VertexKey& key, Budget budget,
                  const std::vector<bool>& measured, Schema& schema, const Tell& tell);
 

@@ -116,12 +116,54 @@ static void cells_in_an_array_may_be_int32(void) {
   tetstream_writer_destroy(writer);
 }
 
+enum { BOX = 3 + 1 + 3 };
+
+/* Of the error, for a mesh that comes with this box. */
+static double estimate(const double* low, const double* high) {
+  tetstream_stream_info info;
+  tetstream_batch batch;
+  const void* pointers[3];
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  tetstream_simplifier* simplifier = NULL;
+  tetstream_report report = {.struct_size = sizeof report};
+  hostile_mesh_info(mesh, &info);
+  hostile_mesh_batch(mesh, &batch, pointers);
+  info.box_min = low;
+  info.box_max = high;
+  CHECK_EQUAL(tetstream_reader_open_mesh(&info, &batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_simplifier_create(NULL, writer, &simplifier), TETSTREAM_OK);
+  CHECK(tetstream_simplifier_run(simplifier, reader) >= 0);
+  CHECK_EQUAL(tetstream_simplifier_get_report(simplifier, &report), TETSTREAM_OK);
+  tetstream_simplifier_destroy(simplifier);
+  tetstream_writer_destroy(writer);
+  tetstream_reader_destroy(reader);
+  return report.estimated_error;
+}
+
+/* Then errors are in percent of its ranges. A box that is too small is widened. */
+static void a_part_may_have_the_box_of_the_whole(void) {
+  double middle[BOX], low[BOX], high[BOX];
+  for (int i = 0; i < BOX; ++i) {
+    const double more = i < 3 ? 0 : 50 * (mesh->box_max[i] - mesh->box_min[i]);
+    middle[i] = (mesh->box_min[i] + mesh->box_max[i]) / 2;
+    low[i] = mesh->box_min[i] - more;
+    high[i] = mesh->box_max[i] + more;
+  }
+  const double alone = estimate(NULL, NULL), as_part = estimate(low, high);
+  CHECK(as_part > 0 && as_part < alone / 10);
+  CHECK(estimate(middle, middle) == alone);
+  CHECK(estimate(mesh->box_min, mesh->box_max) == alone);
+}
+
 int main(void) {
   mesh = hostile_mesh_create(3, 4, 5);
   CHECK(mesh != NULL);
   RUN_CASE(meshes_in_arrays_are_checked_when_opened);
   RUN_CASE(a_mesh_without_cells_or_points_needs_no_arrays);
   RUN_CASE(cells_in_an_array_may_be_int32);
+  RUN_CASE(a_part_may_have_the_box_of_the_whole);
   hostile_mesh_destroy(mesh);
   return check_end();
 }

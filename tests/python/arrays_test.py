@@ -1,4 +1,5 @@
 """simplify on arrays: types, shapes, what is copied and what is refused."""
+import collections
 import gc
 import sys
 import unittest
@@ -8,6 +9,16 @@ import numpy
 from meshes import box, halves, volume
 
 import tetstream
+
+
+def _renumbered(cells):
+    return numpy.unique(cells, return_inverse=True)[1].reshape(-1, 4)
+
+
+def _faces(corners):
+    """How many cells each face has, by its places, from the places of the cells' corners."""
+    return collections.Counter(frozenset(map(tuple, numpy.delete(cell, j, axis=0)))
+                               for cell in corners for j in range(4))
 
 
 class Arrays(unittest.TestCase):
@@ -124,6 +135,30 @@ class Arrays(unittest.TestCase):
         result = tetstream.simplify(points, cells, {"f": field}, locked=locked, ratio=0.3)
         kept = result.points[result.locked]
         self.assertEqual({tuple(p) for p in kept}, {tuple(p) for p in points[locked]})
+
+    def test_parts_whose_seams_are_locked_fit_together(self):
+        points, cells, field = box(6)
+        part = 3 * numpy.arange(len(cells)) // len(cells)  # seams are ragged
+        users = numpy.zeros((3, len(points)), bool)
+        for k in range(3):
+            users[k, cells[part == k]] = True
+        shared = users.sum(axis=0) > 1
+        of_parts = [set(_faces(points[cells[part == k]])) for k in range(3)]
+        seams = of_parts[0] & of_parts[1] | of_parts[1] & of_parts[2] | of_parts[0] & of_parts[2]
+        for options in ({}, {"shape": "solver"}, {"mode": "queue"}, {"effort": "high"}):
+            with self.subTest(options):
+                results = [tetstream.simplify(points[users[k]], _renumbered(cells[part == k]),
+                                              {"f": field[users[k]]}, locked=shared[users[k]],
+                                              ratio=0.5, **options) for k in range(3)]
+                # As places, of which there is one of each in each part.
+                corners = numpy.concatenate([r.points[r.cells] for r in results])
+                faces = _faces(corners)
+                self.assertLessEqual(max(faces.values()), 2)
+                self.assertEqual({faces[face] for face in seams}, {2})
+                self.assertLess(len(corners), 0.55 * len(cells))
+                self.assertAlmostEqual(volume(corners.reshape(-1, 3),
+                                              numpy.arange(4 * len(corners)).reshape(-1, 4)), 2,
+                                       places=3)
 
     def test_edges_of_locked_points_are_not_tried(self):
         points, cells, field = box(5)
