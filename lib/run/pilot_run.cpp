@@ -44,6 +44,7 @@ std::optional<Pilot> PilotRun::simplifyAll() {
   Source& source = before ? *before : *again;
   SimplifyOptions whole = options_.simplify;
   whole.window_cells = source.schema().cell_count;
+  whole.eases_in = false;
   Nowhere nowhere;
   Simplifier pilot(whole, nowhere, [this](Progress p) {
     p.phase = "pilot";

@@ -299,6 +299,7 @@ Pilot Sampler::simplify() {
   whole.window_cells = static_cast<int64_t>(all.cell_count);
   whole.cells = 0;
   whole.ratio = ratioFor(kLeft);
+  whole.eases_in = false;
   whole.balance_ratio = static_cast<double>(Simplifier::targetCells(schema_, options_)) /
                         static_cast<double>(schema_.cell_count);
   Survivors survivors(*this);

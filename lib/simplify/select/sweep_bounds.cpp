@@ -26,7 +26,14 @@ constexpr int64_t kFewCells = 1000, kFewest = 48;
 // Both with high effort: the smaller they are, the more nearly edges are taken in the order of
 // their errors, and the more often quadrics are made anew.
 constexpr double kCarefulStep = 2;
-// The same for the first pass, which still finds all cells that cost next to nothing.
+// Towards the goal, of a mesh held whole of which less than a third is left: passes cost little
+// then, and each renews the quadrics. With it meshes at 0.1 and 0.02 had 0.97 and 0.93 times the
+// error, in 1.03 times the time; steps of 2 gain little, and from a larger part on they take up to
+// twice the time.
+constexpr double kNearStep = 1.5;
+constexpr int64_t kNearGoals = 6, kPartNear = 3;
+// The same as kCarefulStep for the first pass, which still finds all cells that cost next to
+// nothing.
 constexpr double kLargestStart = 40;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
 // of what is learnt from a pass for the next.
@@ -107,6 +114,14 @@ double SweepBounds<S>::onTheWay(double bound, const Goal& goal) const {
 }
 
 template <class S>
+bool SweepBounds<S>::isNear(const Goal& goal) const {
+  const int64_t live = core_.window.liveCells();
+  return core_.options.eases_in && core_.holdsAll() && !core_.interfaces &&
+         core_.options.memory_bytes == 0 && live < kNearGoals * goal.cells &&
+         kPartNear * live < core_.plan.schema.cell_count;
+}
+
+template <class S>
 double SweepBounds<S>::wanted(double bound, const Goal& goal) const {
   const auto cells = static_cast<double>(core_.window.liveCells() - goal.cells);
   const double by_count = boundToTake(std::max(cells, 0.0)) / bound;
@@ -115,6 +130,7 @@ double SweepBounds<S>::wanted(double bound, const Goal& goal) const {
   double step = std::min({by_count, by_error, is_careful ? kCarefulStep : kLargestStep});
   if (!is_careful && !std::isfinite(core_.error_limit))
     step = std::max(step, std::min({distance(1, goal), by_error, kLargestStride}));
+  if (isNear(goal)) step = std::min(step, kNearStep);
   return std::min(bound * std::max(step, kLeastStep), kLargestBound);
 }
 

@@ -48,6 +48,7 @@ class SweepBounds {
   static constexpr Reach kFree = {1, 2}, kWorth = {10, 4}, kWorthBeside = {20, 4},
                          kLastWorth = {100, 4};
 
+  bool isNear(const Goal& goal) const;
   double errorIn(const Reach& reach) const;
   const Reach* widest(const Goal& goal, const Refused& refused) const;
   double boundToTake(double cells) const;

@@ -58,6 +58,8 @@ struct SimplifyOptions {
   bool uniform_ratio = false;  // all along the stream, whatever the mode
   int64_t tile_vertices = 0;   // of a patch, at most; 0: what fits the cache and the memory budget
   bool renews = true;          // mode sweep: quadrics, from the cells that are there (renewal.h)
+  bool eases_in = true;        // mode sweep: small steps to the goal where few cells are left; a
+                               // pilot tells what the steps of a stream come to
   bool tries_again = true;     // mode queue: edges that were refused, once the window has changed
   // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
   bool last_resort = true;

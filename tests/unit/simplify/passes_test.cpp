@@ -65,7 +65,8 @@ int passesTo(double ratio, const TestMesh& mesh) {
   return told - 1;
 }
 
-// From errors that are millions of times smaller. Fewer than two would leave the first one's seams.
+// From errors that are millions of times smaller. Fewer than two would leave the first one's seams;
+// more, and small ones, are worth their time where less than a third of the cells is left.
 TEST(SweepBounds, AreFoundInFewPasses) {
   for (ScalarType type : {ScalarType::kFloat32, ScalarType::kFloat64}) {
     if (slowRun() && type == ScalarType::kFloat32) continue;
@@ -74,7 +75,7 @@ TEST(SweepBounds, AreFoundInFewPasses) {
     for (double ratio : {0.5, 0.2, 0.1, 0.02}) {
       const int passes = passesTo(ratio, mesh);
       EXPECT_GE(passes, 2) << ratio;
-      EXPECT_LE(passes, 8) << ratio;
+      EXPECT_LE(passes, ratio < 0.05 ? 12 : 8) << ratio;
     }
   }
 }

@@ -264,10 +264,10 @@ TEST(SimplifierValues, OfSmallRangesAreNotRoundedByEveryMerge) {
     return 101325 + 0.1 * std::sin(6 * x / n) * std::cos(5 * y / n + z / n);
   };
   addPositionField(mesh, {"p", 1, ScalarType::kFloat32}, wave);
-  const double unknown = fieldErrors(mesh, simplified(mesh, toRatio(0.1)).out.mesh)[0];
+  const double unknown = fieldErrors(mesh, simplified(mesh, toRatio(0.2)).out.mesh)[0];
   mesh.schema.box_min = {0, 0, 0, 101324.9};
   mesh.schema.box_max = {n + 0.0, n + 0.0, n + 0.0, 101325.1};
-  const Result known = simplified(mesh, toRatio(0.1));
+  const Result known = simplified(mesh, toRatio(0.2));
   EXPECT_EQ(known.out.mesh.schema.fields[0].type, ScalarType::kFloat32);
   EXPECT_LT(fieldErrors(mesh, known.out.mesh)[0], (slowRun() ? 0.9 : 0.75) * unknown);
 }
