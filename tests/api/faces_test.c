@@ -242,9 +242,13 @@ static void comparisons_tell_areas(void) {
     tetstream_face_label_comparison label = {0};
     tetstream_reader* first = in_memory();
     tetstream_reader* second = with_labels ? in_memory() : arrays_of(mesh);
+    tetstream_options* options = getenv("TETSTREAM_SLOW") ? options_of(1) : NULL;
+    if (options)
+      CHECK_EQUAL(tetstream_options_parse(options, "boundary-samples", "2000"), TETSTREAM_OK);
     info.struct_size = sizeof info;
     label.struct_size = sizeof label;
-    CHECK_EQUAL(tetstream_comparison_create(NULL, &comparison), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);
+    tetstream_options_destroy(options);
     CHECK_EQUAL(tetstream_comparison_get_face_label(comparison, 0, &label), TETSTREAM_BAD_STATE);
     CHECK_EQUAL(tetstream_comparison_read(comparison, first, second, NULL, NULL), TETSTREAM_OK);
     CHECK_EQUAL(tetstream_comparison_get_info(comparison, &info), TETSTREAM_OK);

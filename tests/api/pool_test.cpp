@@ -106,7 +106,7 @@ int32_t progress(void*, const tetstream_progress*) {
 }
 
 int64_t cellCount() {
-  return std::getenv("TETSTREAM_SLOW") ? 12000 : 60000;
+  return std::getenv("TETSTREAM_SLOW") ? 6000 : 60000;
 }
 
 // NULL if it cannot be made. Nothing is counted here: runs are on several threads.
@@ -114,7 +114,7 @@ tetstream_options* optionsWith(const tetstream_pool_callbacks* pool, int64_t thr
   tetstream_options* options = nullptr;
   if (tetstream_options_create(&options) < 0 ||
       tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, 0.5) < 0 ||
-      tetstream_options_set_int64(options, TETSTREAM_OPTION_WINDOW, 4000) < 0 ||
+      tetstream_options_set_int64(options, TETSTREAM_OPTION_WINDOW, cellCount() / 15) < 0 ||
       tetstream_options_set_int64(options, TETSTREAM_OPTION_THREADS, threads) < 0 ||
       (pool && tetstream_options_set_pool(options, pool) < 0)) {
     tetstream_options_destroy(options);
@@ -187,6 +187,8 @@ void a_pool_stays_with_what_was_made_with_it() {
   Pool pool(Pool::kAtOnce, 2);
   const tetstream_pool_callbacks table = tableOf(pool, 2);
   tetstream_options* options = optionsWith(&table, 0);
+  if (std::getenv("TETSTREAM_SLOW"))
+    CHECK_EQUAL(tetstream_options_parse(options, "boundary-samples", "20000"), TETSTREAM_OK);
   tetstream_comparison* comparison = nullptr;
   tetstream_diagram* diagram = nullptr;
   CHECK_EQUAL(tetstream_comparison_create(options, &comparison), TETSTREAM_OK);

@@ -13,6 +13,10 @@ typedef struct job {
   size_t size;
 } job;
 
+static int64_t cell_count(void) {
+  return getenv("TETSTREAM_SLOW") ? 3000 : 6000;
+}
+
 static tetstream_status simplify(job* j) {
   tetstream_options* options = NULL;
   tetstream_reader* reader = NULL;
@@ -21,7 +25,7 @@ static tetstream_status simplify(job* j) {
   const void* data = NULL;
   tetstream_status status = tetstream_options_create(&options);
   if (status >= 0) status = tetstream_options_set_double(options, TETSTREAM_OPTION_RATIO, 0.3);
-  if (status >= 0) status = tetstream_reader_generate("fluid", 6000, j->seed, &reader);
+  if (status >= 0) status = tetstream_reader_generate("fluid", cell_count(), j->seed, &reader);
   if (status >= 0) status = tetstream_writer_create_memory("tets", &writer);
   if (status >= 0) status = tetstream_simplifier_create(options, writer, &simplifier);
   if (status >= 0) status = tetstream_simplifier_run(simplifier, reader);
@@ -95,7 +99,7 @@ static int32_t push_there(void* user, const tetstream_batch* batch) {
 
 /* What is put into the file meanwhile, by another thread, is not pulled away from under it. */
 static void a_writer_may_go_while_its_stream_is_written_behind(void) {
-  const int step = getenv("TETSTREAM_SLOW") ? 6 : 1;
+  const int step = getenv("TETSTREAM_SLOW") ? 12 : 1;
   for (int round = 0; round < 24; round += step) {
     tetstream_options* options = NULL;
     tetstream_writer *writer = NULL, *handing_on = NULL;

@@ -51,10 +51,12 @@ contains_not() {
   [[ $1 != *"$2"* ]] || fail "\"$2\" is in: $1"
 }
 
-# What makes exact comparisons take a third of the time, where sanitizers look on: their boundaries
-# are sampled less; and pictures a tenth: with less memory the cuts they show have fewer pixels.
+# Where the command is many times slower than usual, under memcheck or with sanitizers, meshes are
+# smaller and rounds fewer. Exact comparisons take a third of the time there: their boundaries are
+# sampled less; and pictures a tenth: with less memory the cuts they show have fewer pixels.
+is_slow() { [[ -n ${TETSTREAM_SLOW:-} ]]; }
 less_boundary=() less_pixels=()
-if [[ ${TETSTREAM_SANITIZED:-} == 1 ]]; then
+if is_slow; then
   less_boundary=(--boundary-samples 20000)
   less_pixels=("${less_boundary[@]}" --memory 3M)
 fi
@@ -63,6 +65,12 @@ fi
 member() {
   [[ $1 =~ \"$2\":\ (\"[^\"]*\"|[^,\ $'\n']*) ]] || fail "no member $2 in: $1"
   printf '%s' "${BASH_REMATCH[1]}"
+}
+
+# The members of a public struct, tetstream_NAME, as they stand in the header.
+members_of() {
+  sed -n "/^typedef struct tetstream_$1 {/,/^} tetstream_$1;/{//!p}" \
+    "$TETSTREAM_SOURCE/include/tetstream/tetstream.h"
 }
 
 # The number of cells in a file: cells_in FILE [--format NAME].

@@ -3,7 +3,7 @@
 source "${BASH_SOURCE%/*}/common.bash"
 
 cells=10000
-[[ -n ${TETSTREAM_LAUNCHER:-} ]] && cells=600
+is_slow && cells=600
 tetstream generate ball --cells $cells in.tets --quiet
 tetstream simplify in.tets out.tets --ratio 0.2 --quiet
 

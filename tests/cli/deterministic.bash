@@ -28,7 +28,7 @@ dearest=$(simplified --release error --window 2000)
 
 # Any number of threads gives the same bytes: held whole, through windows, with regions, in text.
 cells=40000
-[[ ${TETSTREAM_SANITIZED:-0} == 1 ]] && cells=12000
+is_slow && cells=12000
 tetstream generate ball --cells $cells many.tets --seed 5
 with_threads() {
   tetstream simplify many.tets out.tets --ratio 0.2 --quiet "$@"

@@ -3,7 +3,9 @@
 source "${BASH_SOURCE%/*}/common.bash"
 
 mkdir tmp out
-tetstream generate ball --cells 100000 mesh.tets
+many=100000
+is_slow && many=70000
+tetstream generate ball --cells $many mesh.tets
 tetstream convert mesh.tets mesh.vtu 2>"$logs/err"
 cells=$(cells_in mesh.tets)
 words=(layout mesh.vtu out/mesh.tets --order hilbert --memory 1M --tmpdir tmp --quiet)

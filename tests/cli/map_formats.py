@@ -2,11 +2,11 @@
 
 map_formats.py labels IN OUT                   IN with a linear field density, cells of two labels that
                                                take turns, and the sides of the box as labelled faces
-map_formats.py agrees ORIGINAL FILE MAP [OF]   exits with 0 if the cells and weights of the map give the
-                                               points of ORIGINAL back. FILE is one that VTK reads, or
-                                               .sva in post-order; its cells have the numbers of the
+map_formats.py agrees ORIGINAL (FILE MAP OF)... exits with 0 if the cells and weights of each map give
+                                               the points of ORIGINAL back. FILE is one that VTK reads,
+                                               or .sva in post-order; its cells have the numbers of the
                                                elements of OF, an .exo or an .msh of version 4.1, if
-                                               that is named
+                                               that is not empty
 map_formats.py carried ORIGINAL VALUES         exits with 0 if these are ORIGINAL's density
 """
 
@@ -114,20 +114,26 @@ def numbers_of_elements(path):
     return vtk_to_numpy(grid_of(path, numbered=True).GetCellData().GetArray("GlobalElementId"))
 
 
-def agrees(original, path, map_path, numbered=None):
+def agrees(original, *files):
     was = points_of(grid_of(original))
+    for path, map_path, numbered in zip(files[::3], files[1::3], files[2::3]):
+        one_agrees(was, path, map_path, numbered)
+
+
+def one_agrees(was, path, map_path, numbered):
     corners = corners_of(path)
     if numbered:
         number = numbers_of_elements(numbered)
         assert np.array_equal(np.sort(number), np.arange(1, len(corners) + 1))
-        assert not np.array_equal(number, np.arange(1, len(corners) + 1)), "cells are not grouped"
+        assert not np.array_equal(number, np.arange(1, len(corners) + 1)), f"cells of {numbered} are not grouped"
         corners = corners[np.argsort(number)]
     row = np.dtype([("vertex", "<i8"), ("cell", "<i8"), ("weight", "<f8", 4)])
     rows = np.fromfile(map_path, row, np.fromfile(map_path, "<i8", 3)[2], offset=64)
     found = (rows["weight"][..., None] * corners[rows["cell"]]).sum(axis=1)
     error = abs(found - was[rows["vertex"]]).max()
     # VTK has the points of Exodus as float32.
-    assert len(rows) == len(was) and error < (1e-6 if path.endswith(".exo") else 1e-13), error
+    most = 1e-6 if path.endswith(".exo") else 1e-13
+    assert len(rows) == len(was) and error < most, (path, numbered, error)
 
 
 def carried(original, values):

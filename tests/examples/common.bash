@@ -7,7 +7,6 @@ bracket=$TETSTREAM_SOURCE/tests/data/bracket/bracket.vtu
 # sanitizers, what they do is small.
 launcher=${TETSTREAM_LAUNCHER:-}
 TETSTREAM_LAUNCHER=
-is_slow() { [[ -n ${TETSTREAM_SLOW:-} ]]; }
 mesh=$bracket
 if is_slow; then
   mkdir "$logs/mesh"

@@ -232,6 +232,8 @@ contains
     character(300) :: errmsg
 
     call options%set("regions", "part")
+    call get_environment_variable("TETSTREAM_SLOW", status=stat)
+    if (stat == 0) call options%set("boundary-samples", 20000)
     call comparison%create(options)
     call comparison%get_info(info, stat, errmsg)
     call check_equal(stat, TETSTREAM_BAD_STATE, "nothing was read yet")

@@ -3,6 +3,8 @@ import subprocess
 import sys
 import unittest
 
+from meshes import SLOW
+
 BEGIN = """
 import sys, threading, time
 import numpy, tetstream
@@ -73,7 +75,7 @@ def work():
 class Daemons(unittest.TestCase):
     def test_a_program_ends_while_one_is_in_the_library(self):
         for name, work in WORK.items():
-            for _ in range(3):
+            for _ in range(1 if SLOW else 3):
                 done = subprocess.run([sys.executable, "-c", BEGIN + work + END], text=True,
                                       capture_output=True, timeout=60, check=False)
                 with self.subTest(name):

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 import numpy
-from meshes import box, command, write_vtu
+from meshes import SLOW, box, command, write_vtu
 
 import tetstream
 
@@ -17,7 +17,7 @@ class Files(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.points, self.cells, self.field = box(9)
+        self.points, self.cells, self.field = box(5 if SLOW else 9)
         write_vtu(self.path("in.vtu"), self.points, self.cells, {"f": self.field})
 
     def path(self, name):

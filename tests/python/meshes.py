@@ -4,6 +4,9 @@ import subprocess
 
 import numpy
 
+# A run with sanitizers is many times slower than usual: it has smaller meshes and fewer rounds.
+SLOW = "TETSTREAM_SLOW" in os.environ
+
 # The six cells of a cube: paths along its edges from corner 0 to corner 7.
 _PATHS = ((1, 3), (1, 5), (2, 3), (2, 6), (4, 5), (4, 6))
 
@@ -12,13 +15,13 @@ def box(n, points=numpy.float64, cells=numpy.int64):
     """Points, cells and a field of n x n x 2n cubes."""
     grid = numpy.stack(numpy.meshgrid(*(numpy.arange(k + 1) for k in (n, n, 2 * n)), indexing="ij"),
                        axis=-1).reshape(-1, 3)
-    rank = {tuple(place): i for i, place in enumerate(grid)}
-    corners = [[rank[tuple(place + [c & 1, c >> 1 & 1, c >> 2])] for c in range(8)]
-               for place in grid if (place < [n, n, 2 * n]).all()]
-    tetrahedra = [(c[0], c[a], c[b], c[7]) for c in corners for a, b in _PATHS]
+    rank = numpy.arange(len(grid)).reshape(n + 1, n + 1, 2 * n + 1)
+    c = [rank[x:n + x, y:n + y, z:2 * n + z].ravel()
+         for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    tetrahedra = numpy.stack([(c[0], c[a], c[b], c[7]) for a, b in _PATHS]).transpose(2, 0, 1)
     places = (grid / n).astype(points)
     field = numpy.sin(5 * places[:, 0]) * places[:, 1] + places[:, 2] ** 2
-    return places, numpy.array(tetrahedra, cells), field.astype(points)
+    return places, tetrahedra.reshape(-1, 4).astype(cells), field.astype(points)
 
 
 def halves(points, cells):

@@ -7,9 +7,14 @@ import tempfile
 import unittest
 
 import numpy
-from meshes import box, halves
+from meshes import SLOW, box, halves
 
 import tetstream
+
+
+# By default the points on boundaries take most of a slow run, and a cut's pixels most of the rest.
+CLOSELY = {"boundary_samples": 20000} if SLOW else {}
+CUT = {"cut": "auto", "memory": "3M", **CLOSELY} if SLOW else {"cut": "auto"}
 
 
 class Axes:
@@ -49,7 +54,7 @@ class Operations(unittest.TestCase):
         self.assertEqual(info.fields["stress"], (numpy.dtype("f4"), 6))
 
     def test_comparison_with_itself_and_with_less(self):
-        same = tetstream.compare(self.mesh, self.mesh)
+        same = tetstream.compare(self.mesh, self.mesh, **CLOSELY)
         self.assertEqual(set(same.fields), {"f", "v"})
         self.assertLess(same.fields["f"].rms, 1e-12)
         self.assertEqual(same.topology_kept, 1)
@@ -60,7 +65,7 @@ class Operations(unittest.TestCase):
         other = tetstream.compare(self.mesh, renamed)
         self.assertEqual((other.only_original, other.only_simplified), (["v"], ["u"]))
         small = self.mesh.simplify(ratio=0.2, regions="part")
-        less = tetstream.compare(self.mesh, small, weights={"f": 1}, regions="part")
+        less = tetstream.compare(self.mesh, small, weights={"f": 1}, regions="part", **CLOSELY)
         self.assertEqual(set(less.fields), {"f"})
         self.assertEqual(less.simplified.cells, len(small.cells))
         self.assertLess(0.01, less.fields["f"].rms_percent)
@@ -86,7 +91,7 @@ class Operations(unittest.TestCase):
     def test_pictures(self):
         with tempfile.TemporaryDirectory() as folder:
             drawn = tetstream.diagram(self.mesh)
-            compared = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2), cut="auto")
+            compared = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2), **CUT)
             for name, picture in (("layout.svg", drawn), ("cut.png", compared)):
                 path = os.path.join(folder, name)
                 if "no cairo" in tetstream.core.version_text():
@@ -100,7 +105,7 @@ class Operations(unittest.TestCase):
 
     def test_figures_can_be_copied_and_pickled(self):
         drawn = tetstream.diagram(self.mesh, columns=100, rows=50)
-        compared = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2), cut="auto")
+        compared = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2), **CUT)
         self.assertEqual([name for record in (drawn, compared) for name in vars(record)
                           if name.startswith("_")], [])
         shown = json.loads(json.dumps(vars(compared), default=vars))
@@ -173,7 +178,7 @@ class Operations(unittest.TestCase):
         bottom = [[p for p in cell if self.points[p, 2] == 0] for cell in self.cells
                   if (self.points[cell, 2] == 0).sum() == 3]
         self.mesh.faces, self.mesh.face_labels = bottom, numpy.full(len(bottom), 7)
-        found = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2))
+        found = tetstream.compare(self.mesh, self.mesh.simplify(ratio=0.2), **CLOSELY)
         self.assertEqual(list(found.face_labels), [7])
         self.assertEqual(found.face_labels[7].original_faces, len(bottom))
         self.assertLess(0, found.face_labels[7].simplified_faces)

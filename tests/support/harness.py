@@ -30,6 +30,11 @@ def not_run(reason):
     sys.exit(NOT_RUN)
 
 
+def is_slow():
+    """Whether runs are many times slower than usual: with sanitizers, for one (slow_run.h)."""
+    return "TETSTREAM_SLOW" in os.environ
+
+
 def folder(variable):
     """The folder named by an environment variable; leaves with "not run" if there is none."""
     path = os.environ.get(variable, "")

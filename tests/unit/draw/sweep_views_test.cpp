@@ -43,6 +43,7 @@ TEST(SweepViews, KnowWhatIsInCore) {
   const TestMesh swept = fullGrid(2, 2, 5);
   const TestMesh mixed = inStreamOrder(shuffled(swept, 3));
   for (const TestMesh* mesh : {&swept, &mixed}) {
+    if (slowRun() && mesh == &swept) continue;
     const auto views = viewsOf(*mesh, {});
     ASSERT_EQ(views->moments().size(), SweepViews::kMoments);
     for (size_t i = 0; i < SweepViews::kMoments; ++i) {
@@ -95,7 +96,7 @@ void expectSame(const DepthImage& a, const DepthImage& b) {
 TEST(SweepViews, DoNotDependOnTheBatches) {
   const TestMesh mesh = inStreamOrder(shuffled(fullGrid(2, 3, 2, 0.1, ScalarType::kFloat32), 5));
   const auto wanted = viewsOf(mesh, {});
-  for (int form = 0; form < 3; form += slowRun() ? 2 : 1) {
+  for (int form = slowRun() ? 2 : 0; form < 3; ++form) {
     Cut cut;
     cut.batch_cells = form == 0 ? 1 : 7;
     cut.all_vertices_first = form == 1;

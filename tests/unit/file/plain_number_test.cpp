@@ -7,6 +7,7 @@
 #include <string>
 
 #include "plain_number.h"
+#include "slow_run.h"
 
 namespace tetstream {
 namespace {
@@ -120,7 +121,7 @@ class RandomWords {
 
 TEST(PlainNumber, RealsAreThoseOfTheStandardLibraryToTheLastBit) {
   RandomWords random;
-  for (int i = 0; i < 20000 && !testing::Test::HasFatalFailure(); ++i) {
+  for (int i = 0; i < (test::slowRun() ? 2000 : 20000) && !testing::Test::HasFatalFailure(); ++i) {
     expectThoseOfTheLibrary(random.any());
     expectThoseOfTheLibrary(random.halfWay<double>());
     expectThoseOfTheLibrary(random.halfWay<float>());

@@ -7,6 +7,7 @@
 #include <random>
 #include <thread>
 
+#include "slow_run.h"
 #include "status.h"
 #include "strange_workers.h"
 #include "values.h"
@@ -16,7 +17,7 @@ namespace {
 
 using namespace test;
 
-constexpr size_t kValues = 20000;
+const size_t kValues = slowRun() ? 6000 : 20000;
 
 // Bytes of which is known how far they were read; from some place on they cannot be.
 class WatchedBytes final : public ByteSource {

@@ -8,6 +8,11 @@
 namespace tetstream::test {
 namespace {
 
+const SmallMesh& original() {
+  static const SmallMesh mesh = gridMesh(6, 6, 30);
+  return mesh;
+}
+
 // Ranks of vertices and cells stand in a field and a cell array, as fillRow writes them; the others
 // make rows so wide that chunks are short.
 Stream wideStream(bool faces, size_t explicit_every = 0) {
@@ -19,7 +24,7 @@ Stream wideStream(bool faces, size_t explicit_every = 0) {
   wanted.locked = true;
   wanted.faces = faces;
   wanted.explicit_every = explicit_every;
-  return streamOf(gridMesh(6, 6, 30), wanted);
+  return streamOf(original(), wanted);
 }
 
 int64_t rankIn(const void* rows, size_t row, int64_t offset) {
@@ -88,12 +93,12 @@ class Recovery {
     out.cells.push_back(rank);
   }
 
-  const SmallMesh original_;
+  const SmallMesh& original_;
   std::vector<bool> active_;
 };
 
 Recovered recovered(const Bytes& bytes) {
-  return Recovery(gridMesh(6, 6, 30)).read(bytes);
+  return Recovery(original()).read(bytes);
 }
 
 // Where a section begins, and which rows a chunk holds.
@@ -125,7 +130,7 @@ std::vector<Place> placesOf(const Bytes& file) {
 
 // The cells that are to be recovered where these sections are whole.
 std::vector<int64_t> wantedCells(const std::vector<Place>& places, const std::set<size_t>& broken) {
-  const SmallMesh mesh = gridMesh(6, 6, 30);
+  const SmallMesh& mesh = original();
   std::vector<bool> there(mesh.positions.size() / 3, false);
   std::vector<int64_t> cells;
   for (size_t i = 0; i < places.size(); ++i) {

@@ -7,10 +7,15 @@
 #include <numeric>
 #include <random>
 
-#include "test_mesh.h"
+#include "slow_run.h"
 
 namespace tetstream {
 namespace {
+
+// Above what is held in memory.
+size_t many() {
+  return test::slowRun() ? 300000 : 600000;
+}
 
 TEST(TagTable, FindsRunsAndSingleTags) {
   TagTable table("");
@@ -34,7 +39,7 @@ TEST(TagTable, FindsRunsAndSingleTags) {
 }
 
 TEST(TagTable, FindsEveryTagOfManyThatComeInAnyOrder) {
-  const size_t size = test::slowRun() ? 300000 : 600000;  // above what is held in memory
+  const size_t size = many();
   std::vector<int64_t> tags(size);
   for (size_t i = 0; i < size; ++i) tags[i] = 3 * static_cast<int64_t>(i);
   std::shuffle(tags.begin(), tags.end(), std::mt19937(1));
@@ -72,7 +77,7 @@ TEST(TagTable, TakesMoreTagsAfterItsFirstLook) {
 }
 
 TEST(TagTable, TellsATagThatIsThereTwice) {
-  for (size_t runs : {size_t{10}, size_t{600000}}) {
+  for (size_t runs : {size_t{10}, many()}) {
     TagTable table("");
     for (size_t i = 0; i < runs; ++i)
       table.add(2 * static_cast<int64_t>(runs - i), static_cast<int64_t>(i));

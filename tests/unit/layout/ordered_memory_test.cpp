@@ -10,8 +10,8 @@ size_t bitsBeside(const TestMesh& mesh) {
 }
 
 TEST(OrderedMemory, IsKeptInEachOrderByPlace) {
-  const int n = 24;
-  const size_t memory = 512 << 10;
+  const int n = slowRun() ? 16 : 24;
+  const size_t memory = slowRun() ? 160 << 10 : 512 << 10;
   TestMesh mesh = withColumns(shuffled(fullGrid(n, n, n, 0.1), 7));
   const char* const orders[] = {"spatial", "brick", "z-order", "hilbert"};
   for (size_t i = 0; i < std::size(orders); i += oneIn(2)) {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cells_testing.h"
+#include "slow_run.h"
 #include "triangle.h"
 
 namespace tetstream::test {
@@ -92,7 +93,8 @@ TEST(NearestPoints, AreThoseOfALookAtAllTriangles) {
 
 // Places and triangles in files, triangles some at a time; more places than are looked at at once.
 TEST(NearestPoints, AreTheSameInPieces) {
-  const auto places = randomSimplices(1, 5000, 1, 1), triangles = randomSimplices(2, 80, 3, 0.2);
+  const auto places = randomSimplices(1, slowRun() ? 1500 : 5000, 1, 1),
+             triangles = randomSimplices(2, 80, 3, 0.2);
   for (size_t bytes : {1, 2000, 10000}) expectNearestOf(places, triangles, {500, bytes});
 }
 

@@ -47,7 +47,10 @@ TEST(SamplerMemory, IsOfItsBudget) {
   schema.box_min = {0, 0, 0, -256};
   schema.box_max = {slowRun() ? 30.0 : 60.0, 16, 16, 256};
   for (int64_t budget : {5000000, 8400000})
-    for (int64_t part : {1000, 20}) expectWithinBudget(mesh, schema, budget / part, budget);
+    for (int64_t part : {1000, 20}) {
+      if (slowRun() && (budget > 5000000) == (part == 1000)) continue;
+      expectWithinBudget(mesh, schema, budget / part, budget);
+    }
 }
 
 }  // namespace

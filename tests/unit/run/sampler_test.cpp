@@ -160,6 +160,7 @@ TEST(Sampler, TakesTheSameInStretches) {
     EXPECT_GT(sample.cell_count, 0u);
     const Pilot pilot = whole.simplify();
     for (const size_t count : {2, 3}) {
+      if (slowRun() && count == 2) continue;
       Sampler sampler(schema, {});
       readInStretches(again, sampler, count);
       expectSame(sampler.mesh(), sample);

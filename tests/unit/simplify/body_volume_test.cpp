@@ -56,9 +56,10 @@ TEST(BodyVolume, IsKeptWhereTheBoundaryBends) {
 // What is merged into a ridge, which stays where it is, takes a little away from the same side each
 // time.
 TEST(BodyVolume, IsNearlyKeptBesideARidge) {
-  const TestMesh mesh = rounded(16, 0.5);
+  const TestMesh mesh = rounded(slowRun() ? 12 : 16, 0.5);
   const std::pair<double, double> most_at[] = {{0.3, 1e-5}, {0.1, 5e-5}, {0.03, 2.5e-4}};
   for (const auto& [ratio, most] : most_at) {
+    if (slowRun() && ratio == 0.3) continue;
     SimplifyOptions options = toRatio(ratio);
     options.feature_angle = 20;
     EXPECT_NEAR(changeOfVolume(mesh, options), 0, most) << ratio;

@@ -231,7 +231,7 @@ TEST(SimplifierMemory, IsAskedForWithoutAFrontThatIsNotKnown) {
   int refused = 0;
   for (Mode mode : kModes)
     for (bool say_counts : {false, true})
-      for (int64_t limit = 20000; limit < 400000; limit += limit / 8) {
+      for (int64_t limit = 20000; limit < 400000; limit += limit / (slowRun() ? 3 : 8)) {
         Cut cut;
         cut.say_counts = say_counts;
         const BudgetRun run = simplifiedWithin(mesh, toRatio(0.2, 0, mode), limit, cut);
@@ -298,7 +298,7 @@ int64_t budgetToldBy(const std::string& text) {
 int expectWallFits(const TestMesh& wall, Mode mode, int64_t window) {
   int held = 0, told = 0;
   const int64_t least = window > 0 ? 600000 : 300000;  // for the arrays that come before all else
-  for (int64_t limit = least; limit < 3000000; limit += limit / (slowRun() ? 2 : 8)) {
+  for (int64_t limit = least; limit < 3000000; limit += limit / (slowRun() ? 1 : 8)) {
     const BudgetRun run = simplifiedWall(wall, mode, window, limit, 4096);
     const BudgetRun finer = simplifiedWall(wall, mode, window, limit, 64);
     EXPECT_EQ(finer.status, run.status) << limit << ": " << run.text << finer.text;

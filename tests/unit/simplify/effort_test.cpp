@@ -78,7 +78,7 @@ double rangeOf(const TestMesh& mesh) {
 }
 
 TEST(Effort, KeepsALimitOfTheError) {
-  const TestMesh mesh = withALayer(12);
+  const TestMesh mesh = withALayer(slowRun() ? 9 : 12);
   SimplifyOptions options;
   options.error = 1;
   options.effort = Effort::kHigh;

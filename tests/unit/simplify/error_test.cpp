@@ -215,6 +215,7 @@ TEST(SimplifierErrorBound, IsSpentAlikeThroughWindowsOfAnySize) {
   for (const double error : {1.0, 3.0}) {
     const auto whole = static_cast<double>(simplified(mesh, toError(error)).report.cells_out);
     for (const double part : {0.1, 0.2, 0.3, 0.45, 0.6}) {
+      if (slowRun() && (part == 0.2 || part == 0.45)) continue;
       const Result result = simplified(mesh, toError(error, static_cast<int64_t>(part * all)));
       EXPECT_LT(static_cast<double>(result.report.cells_out), (slowRun() ? 2 : 1.4) * whole)
           << part << " " << error;

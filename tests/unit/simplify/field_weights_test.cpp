@@ -24,6 +24,13 @@ TestMesh wavesMesh(int n, double length = 1, double unit = 1, double from = 0) {
   return mesh;
 }
 
+int waves() {
+  return slowRun() ? 8 : 10;
+}
+int moreWaves() {
+  return slowRun() ? 8 : 12;
+}
+
 std::vector<double> weightsFor(const TestMesh& mesh, const SimplifyOptions& options,
                                const Cut& cut = {}) {
   Recorder out;
@@ -34,7 +41,7 @@ std::vector<double> weightsFor(const TestMesh& mesh, const SimplifyOptions& opti
 }
 
 TEST(FieldWeights, AreLargerForSmootherFields) {
-  const TestMesh mesh = wavesMesh(10);
+  const TestMesh mesh = wavesMesh(waves());
   for (bool box : {false, true}) {
     Cut cut;
     cut.say_box = box;
@@ -47,16 +54,16 @@ TEST(FieldWeights, AreLargerForSmootherFields) {
 }
 
 TEST(FieldWeights, AreThoseOfTheFieldsInAnyUnit) {
-  const std::vector<double> weights = weightsFor(wavesMesh(10), toRatio(0.2));
-  EXPECT_EQ(weightsFor(wavesMesh(10, 1e60), toRatio(0.2)), weights);
-  EXPECT_EQ(weightsFor(wavesMesh(10, 1e-60, 1e60), toRatio(0.2)), weights);
-  EXPECT_EQ(weightsFor(wavesMesh(10, 1, 1e-90), toRatio(0.2)), weights);
-  EXPECT_EQ(weightsFor(wavesMesh(10, 1, 1e3, 1e6), toRatio(0.2)), weights);
+  const std::vector<double> weights = weightsFor(wavesMesh(waves()), toRatio(0.2));
+  EXPECT_EQ(weightsFor(wavesMesh(waves(), 1e60), toRatio(0.2)), weights);
+  EXPECT_EQ(weightsFor(wavesMesh(waves(), 1e-60, 1e60), toRatio(0.2)), weights);
+  EXPECT_EQ(weightsFor(wavesMesh(waves(), 1, 1e-90), toRatio(0.2)), weights);
+  EXPECT_EQ(weightsFor(wavesMesh(waves(), 1, 1e3, 1e6), toRatio(0.2)), weights);
 }
 
 // There is nothing that weights could do for them.
 TEST(FieldWeights, AreOneForWhatHasNoErrorAndForWhatIsCarried) {
-  TestMesh mesh = wavesMesh(10);
+  TestMesh mesh = wavesMesh(waves());
   mesh.addField({"constant", 1, k64}, [](size_t, int) { return 3.25; });
   addPositionField(mesh, {"linear", 1, k64},
                    [](double x, double y, double z) { return 0.3 * x - 0.7 * y + z; });
@@ -73,7 +80,7 @@ TEST(FieldWeights, AreOneForWhatHasNoErrorAndForWhatIsCarried) {
 // Differences that are no number are left out, and so are ranges that cannot be divided by.
 TEST(FieldWeights, AreOneForNumbersTooLargeOrTooSmall) {
   for (double unit : {1.7e308, 1e-310}) {
-    TestMesh mesh = wavesMesh(10);
+    TestMesh mesh = wavesMesh(waves());
     addPositionField(mesh, {"extreme", 1, k64}, [=](double x, double y, double z) {
       return unit * std::sin(x + 2 * y) * std::cos(3 * z);
     });
@@ -86,7 +93,7 @@ TEST(FieldWeights, AreOneForNumbersTooLargeOrTooSmall) {
 }
 
 TEST(FieldWeights, AreNotFoundWhereTheyAreNotWanted) {
-  const TestMesh mesh = wavesMesh(10);
+  const TestMesh mesh = wavesMesh(waves());
   SimplifyOptions none = toRatio(0.2), error, one = toRatio(0.2);
   none.balance = BalanceUse::kNever;
   error.error = 5;
@@ -110,7 +117,7 @@ TEST(FieldWeights, AreOneForAMeshOfFewVertices) {
 }
 
 TEST(FieldWeights, MakeTheSmoothFieldLoseLess) {
-  const TestMesh mesh = wavesMesh(12);
+  const TestMesh mesh = wavesMesh(moreWaves());
   SimplifyOptions none = toRatio(0.15);
   none.balance = BalanceUse::kNever;
   const Result with = simplified(mesh, toRatio(0.15)), without = simplified(mesh, none);
@@ -126,7 +133,7 @@ TEST(FieldWeights, MakeTheSmoothFieldLoseLess) {
 
 // A weight that is given counts besides.
 TEST(FieldWeights, MultiplyThoseThatAreGiven) {
-  const TestMesh mesh = wavesMesh(12);
+  const TestMesh mesh = wavesMesh(moreWaves());
   SimplifyOptions options = toRatio(0.15);
   const std::vector<double> even = fieldErrors(mesh, simplified(mesh, options).out.mesh);
   options.fields = {{"rough", 100}, {"smooth", 1}};
@@ -137,7 +144,7 @@ TEST(FieldWeights, MultiplyThoseThatAreGiven) {
 
 // What a pilot found holds for windows that see too little, and is told.
 TEST(FieldWeights, AreTakenFromAPilot) {
-  const TestMesh mesh = wavesMesh(12);
+  const TestMesh mesh = wavesMesh(moreWaves());
   Pilot pilot;
   pilot.balance.fields = {1, 64};
   Result result;

@@ -88,19 +88,17 @@ TEST(SeveralFields, LoseLittleAgainstEachAlone) {
 // otherwise.
 TEST(SeveralFields, AreFollowedBecauseTheyAreMeasured) {
   const TestMesh mesh = fieldsMesh();
-  const std::vector<double> alone = errorsAlone(mesh),
-                            carried = errorsOf(mesh, measuring({{"pressure", 1}}));
-  EXPECT_GT(carried[0], 2 * alone[0]);
-  EXPECT_GT(carried[3], 2 * alone[3]);
+  const std::vector<double> carried = errorsOf(mesh, measuring({{"pressure", 1}}));
+  EXPECT_GT(carried[0], 2 * errorsOf(mesh, measuring({{"front", 1}}))[0]);
+  EXPECT_GT(carried[3], 2 * errorsOf(mesh, measuring({{"stress", 1}}))[3]);
 }
 
 TEST(SeveralFields, GainByTheirWeights) {
-  const TestMesh mesh = fieldsMesh(k64, 10);  // a small one has nothing to spare
-  const std::vector<double> even = errorsOf(mesh, measuring({})),
-                            heavy = errorsOf(mesh, measuring({{"front", 1},
-                                                              {"pressure", 1},
-                                                              {"growing", 1},
-                                                              {"stress", 100}}));
+  const TestMesh mesh = fieldsMesh();
+  const std::vector<double> heavy =
+      errorsOf(mesh, measuring({{"front", 1}, {"pressure", 1}, {"growing", 1}, {"stress", 100}}));
+  if (slowRun()) return;  // a small one has nothing to spare
+  const std::vector<double> even = errorsOf(mesh, measuring({}));
   EXPECT_LT(heavy[3], 0.8 * even[3]);
   EXPECT_GT(heavy[0], even[0]);
 }
@@ -112,6 +110,7 @@ TEST(SeveralFields, OfNoExtentOrWeightLeaveTheOthersAlone) {
   addPositionField(mesh, {"front", 1, k64}, front);
   mesh.addField({"constant", 1, k64}, [](size_t, int) { return 3.25; });
   for (bool box : {true, false}) {
+    if (slowRun() && box) continue;
     Cut cut;
     cut.say_box = box;
     const std::vector<double> all = errorsOf(mesh, measuring({}), cut),
@@ -133,6 +132,7 @@ TEST(SeveralFields, ThatAreConstantButForRoundingLeaveTheOthersAlone) {
   mesh.addField({"gravity", 3, k64},
                 [&](size_t v, int i) { return i < 2 ? 0 : -9.81 + 0x1p-44 * step(v); });
   for (bool box : {true, false}) {
+    if (slowRun() && box) continue;
     Cut cut;
     cut.say_box = box;
     const std::vector<double> all = errorsOf(mesh, measuring({}), cut),
@@ -257,13 +257,13 @@ TEST(SeveralFields, LeaveTheirRangeByAQuarterAtMost) {
 // A field that reaches the largest numbers of its type, by a front or by what stands for no value.
 TEST(SeveralFields, AreFiniteUpToTheLargestNumbers) {
   constexpr float kMost = std::numeric_limits<float>::max();
-  const auto steep = [](double x, double y, double) {
-    return 0.98 * static_cast<double>(kMost) * std::tanh(2 * (x + y - fieldsSide()));
+  const int n = slowRun() ? 4 : fieldsSide();
+  const auto steep = [n](double x, double y, double) {
+    return 0.98 * static_cast<double>(kMost) * std::tanh(2 * (x + y - n));
   };
-  const auto filled = [](double x, double y, double) {
-    return x + y > fieldsSide() + 1 ? static_cast<double>(kMost) : std::sin(x);
+  const auto filled = [n](double x, double y, double) {
+    return x + y > n + 1 ? static_cast<double>(kMost) : std::sin(x);
   };
-  const int n = fieldsSide();
   for (const auto& field : {std::function<double(double, double, double)>(steep), {filled}})
     for (ScalarType positions : {k32, k64})
       for (FieldRange range : {FieldRange::kFree, FieldRange::kKeep})

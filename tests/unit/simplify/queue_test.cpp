@@ -154,7 +154,7 @@ double leastLegalError(const TestMesh& mesh) {
 }
 
 TEST(QueueSelector, TakesTheCheapestLegalEdgeFirst) {
-  Queue queue(rippledGrid(3));
+  Queue queue(rippledGrid(slowRun() ? 2 : 3));
   const int64_t cells = queue.core.window.liveCells();
   queue.collapseTo(cells - 1);
   ASSERT_EQ(queue.errors.all.size(), 1u);

@@ -143,7 +143,8 @@ double farthest(const std::set<Place>& places, const std::set<Place>& from) {
 // Two that wind round each other, three cubes thick. Where the volumes were kept by moving the tip
 // of a single cell, vertices were up to 4.5 cubes off.
 TEST(SimplifierRegions, GrowNoSpikes) {
-  TestMesh mesh = fullGrid(12, 12, 12, 0.1);
+  const int n = slowRun() ? 8 : 12;
+  TestMesh mesh = fullGrid(n, n, n, 0.1);
   mesh.addIntegerCellData("material", [&](size_t c) {
     double x[3] = {0, 0, 0};
     for (size_t j = 0; j < 4; ++j)
@@ -198,10 +199,9 @@ TestMesh grains(int n, int count) {
       for (size_t i = 0; i < 3; ++i) sum += (centre[i] - seed[i]) * (centre[i] - seed[i]);
       return sum;
     };
-    const auto nearest =
-        std::min_element(seeds.begin(), seeds.end(),
-                         [&](const Place& a, const Place& b) { return square(a) < square(b); });
-    return static_cast<int64_t>(nearest - seeds.begin());
+    std::vector<double> squares;
+    for (const Place& seed : seeds) squares.push_back(square(seed));
+    return std::min_element(squares.begin(), squares.end()) - squares.begin();
   });
   return mesh;
 }
@@ -240,7 +240,7 @@ TEST(SimplifierRegions, HaveAPriceOnThinCells) {
 
 // Who wants no ridge has none, and curves where regions meet as without an angle.
 TEST(SimplifierRegions, KeepTheirVolumesWhereNoRidgeIsWanted) {
-  const TestMesh mesh = halvedCylinder(16);
+  const TestMesh mesh = halvedCylinder(slowRun() ? 12 : 16);
   SimplifyOptions options = toRatio(0.05);
   options.feature_angle = 180;
   const Result result = simplified(mesh, options);
@@ -307,7 +307,7 @@ TEST(SimplifierRegions, AreSmoothedWhereTheyAreSmall) {
 TEST(SimplifierRegions, AreBlamedForAMissWhereTheyAreThere) {
   SimplifyOptions options = toRatio(0.02);
   options.fields = {{"f", 0}};
-  const TestMesh mesh = blocks(12, 3);
+  const TestMesh mesh = slowRun() ? blocks(8, 2) : blocks(12, 3);
   const std::string with = simplified(mesh, options).report.limited_by;
   EXPECT_EQ(with.find("fields"), std::string::npos) << with;
   EXPECT_NE(with.find("as large as the extent of the mesh"), std::string::npos) << with;

@@ -162,10 +162,10 @@ TEST(Tiling, OfFewVerticesIsOfSmallerTilesWhereOthersComeBackToTheirSeams) {
     EXPECT_EQ(tiling.tiles().size(), 2u);
     tiling.build(0, all, TileLayout::kPieces);
     EXPECT_EQ(tiling.tiles().size(), 8u);
-    expectTiling(w.core, tiling, 10);
     std::vector<int> owners = ownersOf(tiling, w.core.window.mesh.vertexEnd());
     if (threads == 1) first = owners;
     EXPECT_TRUE(owners == first);
+    if (threads == 1 || !slowRun()) expectTiling(w.core, tiling, 10);
   }
 }
 

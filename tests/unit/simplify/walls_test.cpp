@@ -10,7 +10,9 @@
 namespace tetstream::test {
 namespace {
 
-constexpr int kCubes = 16;
+int cubesAlong() {
+  return slowRun() ? 12 : 16;
+}
 
 // Columns of 2 x 2 cubes, next to each other in four regions.
 int64_t columnOf(const TestMesh& mesh, size_t cell) {
@@ -28,14 +30,14 @@ TestMesh withWaves(TestMesh mesh) {
   return mesh;
 }
 
-TestMesh columns() {
-  TestMesh mesh = withWaves(fullGrid(kCubes, kCubes, kCubes));
-  mesh.addIntegerCellData("body", [&](size_t c) { return columnOf(mesh, c); });
-  return mesh;
+TestMesh body() {
+  return withWaves(fullGrid(cubesAlong(), cubesAlong(), cubesAlong()));
 }
 
-TestMesh body() {
-  return withWaves(fullGrid(kCubes, kCubes, kCubes));
+TestMesh columns() {
+  TestMesh mesh = body();
+  mesh.addIntegerCellData("body", [&](size_t c) { return columnOf(mesh, c); });
+  return mesh;
 }
 
 SimplifyOptions toCells(double ratio, double error) {
@@ -114,6 +116,10 @@ TEST(Walls, AreReducedToABoundOnTheErrorThatIsFar) {
 // What is not reached changes little: of one target by chance up to a tenth, of several less.
 TEST(Walls, LoseNothingToABoundBesideATarget) {
   const TestMesh mesh = films();
+  if (slowRun()) {  // of so few runs chance would say more
+    EXPECT_EQ(simplified(mesh, toCells(0.05, 30)).report.reached, "ratio");
+    return;
+  }
   double error_alone = 0, error_both = 0;
   for (const double ratio : {0.05, 0.06, 0.07, 0.08}) {
     const Result alone = simplified(mesh, toCells(ratio, 0)),
