@@ -127,7 +127,7 @@ TEST(Renewal, ForgetsTheCellsThatWere) {
 }
 
 TEST(Renewal, LowersTheError) {
-  const TestMesh mesh = wavyGrid(slowRun() ? 8 : 20);
+  const TestMesh mesh = wavyGrid(slowRun() ? 11 : 20);
   double errors[2];
   for (const bool renews : {false, true}) {
     SimplifyOptions options;

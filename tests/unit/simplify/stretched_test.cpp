@@ -95,7 +95,7 @@ TestMesh sea(int n, double width) {
 // With a twentieth of a degree as the least floor two and more edges were refused to a collapse,
 // and the error was half as large again.
 TEST(Stretched, MeshesThinnerThanTheUsualFloorsHaveLowerOnes) {
-  const TestMesh mesh = sea(slowRun() ? 12 : 24, 2000);
+  const TestMesh mesh = sea(slowRun() ? 15 : 24, 2000);
   ASSERT_GT(shareBelow(mesh, 0.05), 0.7);
   const Result result = simplified(mesh, toRatio(0.05));
   expectUnharmed(mesh, result, slowRun() ? 5 : 0.3, 1e-2);  // the ground of a few cells bends
