@@ -29,6 +29,15 @@ done
 [[ $(echo part* whole*) == "part-0.vtu part-1.vtu part-2.vtu part.pvtu whole.vtu" ]] ||
   fail "files: $(echo *)"
 
+# Names of labels that the parts do not have.
+printf '%s\n' '$MeshFormat' '4.1 0 8' '$EndMeshFormat' '$PhysicalNames' 1 '3 5 "steel"' '$EndPhysicalNames' \
+  '$Entities' '0 0 0 1' '1 0 0 0 1 1 1 1 5 0' '$EndEntities' '$Nodes' '1 5 1 5' '3 1 0 5' 1 2 3 4 5 \
+  '0 0 0' '1 0 0' '0 1 0' '0 0 1' '1 1 1' '$EndNodes' '$Elements' '1 2 1 2' '3 1 4 2' '1 1 2 3 4' \
+  '2 2 3 4 5' '$EndElements' >named.msh
+contains "$(tetstream info named.msh)" "steel"
+ranks 0 2 named.msh named
+[[ $(cells_in named.pvtu) == 2 ]] || fail "the mesh with names has other cells"
+
 ranks 1 2 "$bracket" nowhere/part
 contains "$err" "nowhere/part-"
 ranks 1 2 nothing.vtu part

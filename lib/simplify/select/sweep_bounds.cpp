@@ -23,7 +23,7 @@ constexpr double kGuardedStep = 2;
 constexpr double kNear = 1.25, kFewAsLarge = 0.15;
 // Of no more cells the mean error tells nothing, and the largest is none for the last few.
 constexpr int64_t kFewCells = 1000, kFewest = 48;
-// Both with high effort: the smaller they are, the more nearly edges are taken in the order of
+// With high effort: the smaller steps are, the more nearly edges are taken in the order of
 // their errors, and the more often quadrics are made anew.
 constexpr double kCarefulStep = 2;
 // Towards the goal, of a mesh held whole of which less than a third is left: passes cost little
@@ -32,8 +32,7 @@ constexpr double kCarefulStep = 2;
 // twice the time.
 constexpr double kNearStep = 1.5;
 constexpr int64_t kNearGoals = 6, kPartNear = 3;
-// The same as kCarefulStep for the first pass, which still finds all cells that cost next to
-// nothing.
+// Of the first pass, which still finds all cells that cost next to nothing.
 constexpr double kLargestStart = 40;
 // Cells that a pass takes, for each vertex that has an edge below its bound: at first, and limits
 // of what is learnt from a pass for the next.

@@ -9,6 +9,8 @@
  * face to face, whatever each of them does inside. All measure their errors by the box of the whole
  * mesh.
  *
+ * Fields go along; cell arrays and labelled faces, which could in the same way, are left out.
+ *
  * What is left, RATIO (0.1) of each part's cells, is in OUT-0.vtu, OUT-1.vtu and so on, and
  * OUT.pvtu names them. Along the seams it is as fine as before:
  *
@@ -194,7 +196,8 @@ static int write_part(const struct mesh* m, const tetstream_options* options, co
   find_box(m, low, high); /* with all others: before anything can fail */
   info.box_min = low;
   info.box_max = high;
-  info.cell_data_count = 0;
+  info.cell_data_count = 0; /* nor are there labels of regions and faces, to have names */
+  info.label_name_count = 0;
   for (int i = 0; i < info.field_count; ++i) fields[i] = m->rows[i + 1].bytes;
   const tetstream_batch part = {.struct_size = sizeof part,
                                 .vertex_count = m->vertex_count,
@@ -279,9 +282,10 @@ static int work(struct mesh* m, tetstream_reader* reader, const char* out, doubl
     int64_t count[3] = {m->cell_count, 0, 0}; /* cells before and after, locked vertices */
     for (int64_t v = 0; v < m->vertex_count; ++v) count[2] += m->locked[v];
     bad = anywhere(write_part(m, options, out, &count[1]));
-    printf("part %d: %" PRId64 " -> %" PRId64 " cells, %" PRId64
-           " vertices are other parts', too\n",
-           rank, count[0], count[1], count[2]);
+    if (!bad)
+      printf("part %d: %" PRId64 " -> %" PRId64 " cells, %" PRId64
+             " vertices are other parts', too\n",
+             rank, count[0], count[1], count[2]);
   }
   tetstream_options_destroy(options);
   return bad || rank > 0 ? bad : write_index(m, out);

@@ -117,7 +117,6 @@ TEST(LittleMemory, IsForWhatIsCopiedOrLookedAtUnlessItIsToldOtherwise) {
 }
 
 TEST(LittleMemory, SpillsWhatDoesNotFit) {
-  if (slowRun()) return;  // half a gigabyte comes and goes
   Input input = wideCells();
   Nowhere out;
   const LayoutReport report = convert(input, out, {}, {});
