@@ -51,6 +51,8 @@ constexpr double kWideStep = 8;
 // them, stay as they were.
 constexpr int kApproachesToError = 4;
 constexpr double kStepToError = 3;
+// Where windows leave this much more than the target, what they took out of order is made up for.
+constexpr double kRoomyTimes = 2;
 // Such a window gives up this share of its cells at most for others: a stream is seldom as it
 // began.
 constexpr double kGivenUp = 0.1;
@@ -148,13 +150,13 @@ void CommonBound::approach(const Ledger& ledger, Goal& goal) const {
     goal.step = kStepToError;
     return;
   }
-  if (is_tight_) return;
+  if (is_tight_ || (parked_ >= kRoomyTimes && effort_ == Effort::kNormal)) return;
   const double strong = effort_ == Effort::kHigh ? kStrongWithEffort : kStrong;
-  const bool is_strong = total(ledger) > strong * wanted(ledger);
+  const bool is_strong = parked_ * total(ledger) > strong * wanted(ledger);
   const bool is_blind = !pilot_.known() && spreads(ledger);
   const bool is_final = pilot_.bound > 0;
   if (!is_blind && !is_final && !is_strong) return;
-  const bool is_long = !pilot_.known() && !ledger.flips;
+  const bool is_long = parked_ > 1 || (!pilot_.known() && !ledger.flips);
   goal.approaches = kApproaches;
   if (!is_long) return;
   const bool is_wide = ledger.front >= kWideFront;
@@ -205,9 +207,9 @@ Goal CommonBound::goalOf(const Ledger& ledger) {
 
 Goal CommonBound::lastGoal(const Ledger& ledger) {
   changeUnits(ledger.rescaled);
-  Goal goal = Budget::lastGoal(ledger);
+  Goal goal = lastGoalOf(last_, ledger);
   goal.first_bound = bound_;
-  if (bound_ > 0) approach(ledger, goal);
+  if (bound_ > 0 && !(parked_ > 1)) approach(ledger, goal);
   return goal;
 }
 

@@ -8,6 +8,7 @@
 
 #include "pilot.h"
 #include "select.h"
+#include "target.h"
 
 namespace tetstream {
 
@@ -25,25 +26,6 @@ struct Ledger {
   int64_t window = 0;                 // cells that there is room for
 };
 
-// When to stop; 0: not given. The first that is reached ends the run.
-struct Target {
-  double ratio = 0, error = 0;
-  int64_t cells = 0;
-  bool countsCells() const { return ratio > 0 || cells > 0; }
-  // Cells out when `read` have come in: never more than asked for, but one where there are any.
-  int64_t cellsOf(int64_t read) const {
-    return std::max({share(read), std::min(cells, read), std::min<int64_t>(read, 1)});
-  }
-
- private:
-  // Of 0.29 times 100 the product is 28.999999999999996: it is below a whole number by half a unit
-  // in the last place for the ratio and half a one for itself.
-  int64_t share(int64_t read) const {
-    constexpr double kRounding = 2 * std::numeric_limits<double>::epsilon();
-    return static_cast<int64_t>(ratio * static_cast<double>(read) * (1 + kRounding));
-  }
-};
-
 class Budget {
  public:
   // `total`: cells of the whole stream, negative when unknown.
@@ -53,10 +35,7 @@ class Budget {
   int64_t target(int64_t read) const { return target_.cellsOf(read); }
   virtual Goal goalOf(const Ledger& ledger) = 0;
   // At the end: not below the target by more than 0.2 % and 10 cells.
-  virtual Goal lastGoal(const Ledger& ledger) {
-    const int64_t all = target(ledger.read), slack = std::max<int64_t>(all / 500, 10);
-    return {all - ledger.written, all - slack - ledger.written, true};
-  }
+  virtual Goal lastGoal(const Ledger& ledger) { return lastGoalOf(target_, ledger); }
   // What came of a goal: the bound that was reached, the ledger before and after, and the cells
   // that were written then.
   virtual void learn(double bound, const Ledger& before, const Ledger& after, int64_t written) {
@@ -64,6 +43,11 @@ class Budget {
   }
 
  protected:
+  static Goal lastGoalOf(const Target& target, const Ledger& ledger) {
+    const int64_t all = target.cellsOf(ledger.read), slack = std::max<int64_t>(all / 500, 10);
+    return {all - ledger.written, all - slack - ledger.written, true};
+  }
+
   Target target_;
   int64_t total_;
 };
@@ -88,10 +72,16 @@ class CommonBound final : public Budget {
  public:
   // `is_tight`: memory is bounded. Then no bound is approached, but up to an error: patches of the
   // few vertices that have an edge below a low one have more of a rim than a budget foresees; and
-  // one of few windows may keep more than its share.
+  // one of few windows may keep more than its share. `parked`: windows leave so many times the
+  // target (parking.h).
   CommonBound(const Target& target, int64_t total, const Pilot& pilot, bool is_tight = false,
-              Effort effort = Effort::kNormal)
-      : Budget(target, total), pilot_(pilot), is_tight_(is_tight), effort_(effort) {}
+              Effort effort = Effort::kNormal, double parked = 1)
+      : Budget(target.times(parked), total),
+        last_(target),
+        pilot_(pilot),
+        is_tight_(is_tight),
+        effort_(effort),
+        parked_(parked) {}
 
   Goal goalOf(const Ledger& ledger) override;
   Goal lastGoal(const Ledger& ledger) override;
@@ -110,9 +100,11 @@ class CommonBound final : public Budget {
   void approach(const Ledger& ledger, Goal& goal) const;
   void spread(double due, const Ledger& ledger, Goal& goal) const;
 
+  Target last_;
   Pilot pilot_;
   bool is_tight_;
   Effort effort_;
+  double parked_;
   double pilot_bound_ = 0;  // in normalised units
   double error_room_ = 1;   // error allowed / error made, after the last window
   double bound_ = 0, first_bound_ = 0;

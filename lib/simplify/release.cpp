@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "settled.h"
 #include "vector3.h"
 
 namespace tetstream {
@@ -199,8 +200,49 @@ void Release<S>::write(const Staying& most) {
   if (core_.options.release == ReleaseOrder::kError) writeDearest(most);
   for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(most); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
+  pack();
+}
+
+template <class S>
+void Release<S>::pack() {
   core_.report.unused_vertices +=
       static_cast<int64_t>(core_.window.pack(core_.front, core_.tasks()));
+}
+
+template <class S>
+void Release<S>::parkCell(uint32_t cell) {
+  Topology& mesh = core_.window.mesh;
+  for (int j = 0; j < 4; ++j) {
+    const uint32_t v = mesh.corners(cell)[j];
+    mesh.flagVertex(v, kWritten);
+    --core_.window.scratch()[v];
+  }
+  mesh.park(cell);
+}
+
+// What is between parked cells and others: these may change from now on, and nothing tells it. The
+// others stay as they were settled, with the cells round them.
+template <class S>
+void Release<S>::outdateSeam() {
+  for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v)
+    if ((core_.window.mesh.vertexFlags(v) & kWritten) && core_.window.scratch()[v] > 0)
+      startUnsettled(core_.window, v, core_.options.renews);
+}
+
+template <class S>
+void Release<S>::park(uint32_t most) {
+  const Topology& mesh = core_.window.mesh;
+  countUses();
+  for (uint32_t c = 0; c < mesh.cellEnd() && mesh.liveCells() > most; ++c)
+    if (mesh.isLive(c) && mayGo(c)) parkCell(c);
+  outdateSeam();
+  pack();
+}
+
+template <class S>
+void Release<S>::takeBack() {
+  core_.window.mesh.takeBack(kWritten);
+  core_.holds_rest = true;
 }
 
 template class Release<float>;

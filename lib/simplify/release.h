@@ -30,11 +30,16 @@ class Release {
 
   // Lets cells go until no more are left than may stay or no other may go, then packs the window.
   void write(const Staying& most);
+  // The same, but cells stay where they are, as if they had left, until all are taken back
+  // (parking.h).
+  void park(uint32_t most);
+  void takeBack();
   void flush();
 
   // Of the cells that were left at the last write, those that touched a vertex not yet final.
   int64_t frontCells() const { return front_; }
   uint64_t cellsWritten() const { return cells_; }
+  uint64_t cellsGone() const { return cells_ + core_.window.mesh.parkedCells(); }
   uint64_t verticesWritten() const { return vertices_; }
   double volumeWritten() const { return volume_; }  // without signs
 
@@ -42,6 +47,9 @@ class Release {
   bool mayGo(uint32_t cell) const;
   bool mustGo(const Staying& most) const;
   void countUses();
+  void parkCell(uint32_t cell);
+  void outdateSeam();
+  void pack();
   void writeDearest(const Staying& most);
   float errorOf(uint32_t cell) const;
   void writeCell(uint32_t cell);

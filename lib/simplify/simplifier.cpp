@@ -7,6 +7,7 @@
 #include "budget.h"
 #include "intake.h"
 #include "missed_target.h"
+#include "parking.h"
 #include "regions.h"
 #include "release.h"
 #include "resolve.h"
@@ -20,32 +21,14 @@ namespace {
 constexpr int64_t kTurnsPerWindow = 8;  // at most, where its vertices are few
 constexpr int64_t kLongStream = 10;     // windows
 
-Target targetOf(const Schema& schema, const SimplifyOptions& options) {
-  Target target{options.ratio, options.error, options.cells};
-  if (!(target.ratio > 0 || target.error > 0 || target.cells > 0)) target.ratio = kUsualRatio;
-  if (target.cells > 0 && schema.cell_count < 0)
-    fail(Status::kUnsupported,
-         "a number of cells was asked for, but the stream does not say how many it has: give a "
-         "ratio");
-  const char* const mode = options.mode == Mode::kQueue ? "queue" : "paper";
-  if (target.error > 0 && followsPaper(options.mode))
-    fail(Status::kUnsupported, "mode \"%s\" knows no bound on the error", mode);
-  if (target.error > 0 && options.quadric == QuadricForm::kGarlandZhou)
-    fail(Status::kUnsupported, "quadric \"garland-zhou\" knows no bound on the error");
-  if (options.shape == Shape::kSolver && followsPaper(options.mode))
-    fail(Status::kUnsupported, "mode \"%s\" knows no shapes for solvers", mode);
-  if (options.effort == Effort::kHigh && followsPaper(options.mode))
-    fail(Status::kUnsupported, "mode \"%s\" knows no effort", mode);
-  return target;
-}
-
+// How much more the windows leave.
 std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
-                                   const Pilot& pilot) {
+                                   const Pilot& pilot, double parked) {
   const Target target = targetOf(schema, options);
   if (followsPaper(options.mode) || options.uniform_ratio)
     return std::make_unique<UniformRatio>(target, schema.cell_count);
   return std::make_unique<CommonBound>(target, schema.cell_count, pilot, options.memory_bytes > 0,
-                                       options.effort);
+                                       options.effort, parked);
 }
 
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
@@ -70,7 +53,8 @@ class WindowedEngine final : public Simplifier::Engine {
         core_(plan_, options_, account_, static_cast<size_t>(capacity_), verticesOf(capacity_),
               expectedSpan(plan_.schema)),
         knows_pilot_(pilot.known()),
-        budget_(makeBudget(plan_.schema, options, pilot)),
+        parked_times_(parkedTimes(plan_.schema, options_, capacity_)),
+        budget_(makeBudget(plan_.schema, options, pilot, parked_times_)),
         intake_(core_, account_),
         regions_(core_),
         metric_(core_),
@@ -104,6 +88,7 @@ class WindowedEngine final : public Simplifier::Engine {
 
  private:
   Topology& mesh() { return core_.window.mesh; }
+  bool parks() const { return parked_times_ > 1; }
 
   // What a pilot found stands for the whole stream; without one the first window does.
   void prepareBalance(const Pilot& pilot) {
@@ -140,9 +125,10 @@ class WindowedEngine final : public Simplifier::Engine {
     intake_.finalizeAll();
     resolveNew();
     intake_.checkFaces();
-    Ledger now = ledger();
+    if (parks()) release_.takeBack();
+    const Ledger now = ledger();
     decimate(budget_->lastGoal(now));
-    if (now.written == 0) survey(now.read);
+    if (now.written == 0 && !parks()) survey(now.read);
     selector_.reset();  // makes room for the output
     release_.write({0});
     release_.flush();
@@ -186,11 +172,6 @@ class WindowedEngine final : public Simplifier::Engine {
            static_cast<long long>(announced), what, static_cast<unsigned long long>(came));
   }
 
-  // Than `times` as many as the others: of any numbers that a stream may announce.
-  static bool isMoreThan(int64_t cells, int64_t times, int64_t others) {
-    return others <= std::numeric_limits<int64_t>::max() / times && cells > times * others;
-  }
-
   // Cells at the first turn. Where nothing is known of the bound, many passes find it; for a strong
   // reduction a part of the window will do for that, with enough behind the front. All of it stays
   // for the next turn.
@@ -219,15 +200,15 @@ class WindowedEngine final : public Simplifier::Engine {
     const Ledger before = ledger();
     decimate(budget_->goalOf(before));
     Ledger after = ledger();
-    release_.write({static_cast<uint32_t>(before.keep), mostTraced()});
+    const auto keep = static_cast<uint32_t>(before.keep);
+    parks() ? release_.park(keep) : release_.write({keep, mostTraced()});
     after.front = release_.frontCells();
     budget_->learn(selector_->bound(), before, after,
-                   static_cast<int64_t>(release_.cellsWritten()) - before.written);
+                   static_cast<int64_t>(release_.cellsGone()) - before.written);
     core_.rescaled = 1;
     resolved_cells_ = mesh().cellEnd();
     core_.report.front_cells = std::max(core_.report.front_cells, before.front);
     makeRoom(before.front);
-    turn_at_ = capacity_;
     tell(mesh().liveCells());
   }
 
@@ -248,7 +229,7 @@ class WindowedEngine final : public Simplifier::Engine {
   Ledger ledger() {
     Ledger l;
     l.read = static_cast<int64_t>(intake_.cellsRead());
-    l.written = static_cast<int64_t>(release_.cellsWritten());
+    l.written = static_cast<int64_t>(release_.cellsGone());
     l.live = mesh().liveCells();
     l.keep = keptCells();
     l.rescaled = core_.rescaled;
@@ -298,24 +279,29 @@ class WindowedEngine final : public Simplifier::Engine {
 
   // A window that was not asked for follows the front; one that was grows only when it is stuck.
   void makeRoom(int64_t front) {
-    const int64_t live = mesh().cellEnd();
+    const int64_t live = mesh().liveCells();
     int64_t wanted = capacity_;
     if (options_.window_cells == 0) wanted = std::max(wanted, size_.forFront(front));
     const bool stuck = live > capacity_ - capacity_ / 8;
     if (stuck) wanted = std::max(wanted, live + live / 2);
-    if (wanted <= capacity_) return;
-    wanted = std::min(std::max(wanted, capacity_ + capacity_ / 4), affordable(stuck));
     if (wanted > capacity_) {
-      core_.window.growCells(static_cast<size_t>(wanted));
-      capacity_ = wanted;
-      core_.report.window_cells = capacity_;
-    } else if (capacity_ - live < std::max<int64_t>(capacity_ / 64, 1)) {
-      failForBudget(textOf("the front of the stream does not fit a window of %lld cells, and the "
-                           "memory budget of %lld bytes allows no more",
-                           static_cast<long long>(capacity_),
-                           static_cast<long long>(options_.memory_bytes))
-                        .c_str());
+      wanted = std::min(std::max(wanted, capacity_ + capacity_ / 4), affordable(stuck));
+      if (wanted <= capacity_ && capacity_ - live < std::max<int64_t>(capacity_ / 64, 1))
+        failForBudget(textOf("the front of the stream does not fit a window of %lld cells, and the "
+                             "memory budget of %lld bytes allows no more",
+                             static_cast<long long>(capacity_),
+                             static_cast<long long>(options_.memory_bytes))
+                          .c_str());
     }
+    holdCells(std::max(wanted, capacity_));
+  }
+
+  // In the window; what is parked lies beside.
+  void holdCells(int64_t cells) {
+    turn_at_ = cells + mesh().parkedCells();
+    if (const auto slots = static_cast<size_t>(turn_at_); slots > mesh().cellCapacity())
+      core_.window.growCells(parks() ? slots + slots / 4 : slots);
+    core_.report.window_cells = capacity_ = cells;
   }
 
   // The largest window that the budget allows; a stuck one may take half of what is left beyond.
@@ -409,6 +395,7 @@ class WindowedEngine final : public Simplifier::Engine {
   Core<S> core_;
   std::optional<Tracer<S>> tracer_;
   bool knows_pilot_;
+  double parked_times_;  // above 1: the windows' cells are parked
   std::unique_ptr<Budget> budget_;
   Intake<S> intake_;
   Regions<S> regions_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core.h"
+#include "target.h"
 
 namespace tetstream {
 
@@ -11,10 +12,6 @@ constexpr int64_t kFrontsPerWindow = 4;
 // 14 % of the time of two threads at a ratio of 0.01. Errors are those of four, as no more stays.
 // Of 1e9 cells with four components six fronts would take 260 MB, these less than 256.
 constexpr int64_t kWideFront = 1 << 18, kQuarterFrontsOfWide = 23;
-
-constexpr double kUsualRatio = 0.1;  // where there is no target
-// Reductions, cells in over cells out.
-constexpr int64_t kMildReduction = 12, kStrongReduction = 4;
 
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.
 uint64_t expectedSpan(const Schema& schema);

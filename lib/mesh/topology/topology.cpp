@@ -1,5 +1,7 @@
 #include "topology.h"
 
+#include <utility>
+
 #include "status.h"
 
 namespace tetstream {
@@ -102,6 +104,18 @@ bool Topology::gatherUpTo(uint32_t v, size_t most, Star& star) const {
 void Topology::kill(uint32_t cell) {
   cell_flags_[cell] |= kDead;
   --live_cells_;
+}
+
+void Topology::park(uint32_t cell) {
+  cell_flags_[cell] |= kParked;
+  --live_cells_;
+  ++parked_cells_;
+}
+
+void Topology::takeBack(uint8_t vertex_flag) {
+  for (uint32_t c = 0; c < cell_end_; ++c) unflagCell(c, kParked);
+  for (uint32_t v = 0; v < vertex_end_; ++v) vertex_flags_[v] &= static_cast<uint8_t>(~vertex_flag);
+  live_cells_ += std::exchange(parked_cells_, 0);
 }
 
 void Topology::merge(uint32_t u, uint32_t v, const Stars& stars) {

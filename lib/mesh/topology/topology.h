@@ -39,6 +39,7 @@ enum CellFlag : uint8_t {
   kFlat = 4,     // of volume zero in the input
   kFolded = 8,   // on the same side of a face as the neighbour there, in the input
   kShaped = 16,  // no flip was found that makes its shape better; none will be while all stays
+  kParked = 32,  // out of sight until it is taken back
 };
 
 // One cell round a centre: the triangle opposite, ordered so that det(t0 - x, t1 - x, t2 - x) > 0
@@ -105,7 +106,7 @@ class Topology {
   uint8_t cellFlags(uint32_t c) const { return cell_flags_[c]; }
   void flagCell(uint32_t c, uint8_t flags) { cell_flags_[c] |= flags; }
   void unflagCell(uint32_t c, uint8_t flags) { cell_flags_[c] &= static_cast<uint8_t>(~flags); }
-  bool isLive(uint32_t c) const { return !(cell_flags_[c] & kDead); }
+  bool isLive(uint32_t c) const { return !(cell_flags_[c] & (kDead | kParked)); }
   // May be merged with another such vertex, as far as the vertex itself goes.
   bool isFree(uint32_t v) const { return isFreeVertex(vertex_flags_[v]); }
 
@@ -125,6 +126,11 @@ class Topology {
   }
 
   void kill(uint32_t cell);
+  // A live cell stays where it is, but counts as none, until all are taken back; their vertices,
+  // which have this flag meanwhile, lose it then.
+  void park(uint32_t cell);
+  uint32_t parkedCells() const { return parked_cells_; }
+  void takeBack(uint8_t vertex_flag);
   // Cells were flagged as dead, not counted.
   void countOut(int64_t cells) { live_cells_ -= static_cast<uint32_t>(cells); }
   void setCorner(uint32_t corner, uint32_t v) { vertex_of_[corner] = v; }  // without links
@@ -146,7 +152,7 @@ class Topology {
   Array<uint8_t> cell_flags_;
   Array<uint32_t> first_corner_;  // per vertex
   Array<uint8_t> vertex_flags_;
-  uint32_t vertex_end_ = 0, cell_end_ = 0, live_cells_ = 0;
+  uint32_t vertex_end_ = 0, cell_end_ = 0, live_cells_ = 0, parked_cells_ = 0;
 };
 
 template <class Moved>
@@ -157,7 +163,7 @@ void Topology::pack(const uint32_t* keep, uint32_t kept_vertices, Moved moved) {
   if (linked_) std::fill_n(first_corner_.data(), vertex_end_, kNone);
   uint32_t to = 0;
   for (uint32_t from = 0; from < cell_end_; ++from) {
-    if (!isLive(from)) continue;
+    if (cell_flags_[from] & kDead) continue;
     cell_flags_[to] = cell_flags_[from];
     for (uint32_t j = 0; j < 4; ++j) {
       const uint32_t v = keep[vertex_of_[4 * size_t{from} + j]];
@@ -167,7 +173,8 @@ void Topology::pack(const uint32_t* keep, uint32_t kept_vertices, Moved moved) {
     moved(from, to);
     ++to;
   }
-  cell_end_ = live_cells_ = to;
+  cell_end_ = to;
+  live_cells_ = to - parked_cells_;
 }
 
 }  // namespace tetstream

@@ -212,10 +212,10 @@ struct Core {
     forPartsOf(window.mesh.cellEnd(), work);
   }
 
-  // Whether the window has room for the whole stream.
+  // Whether the window has room for the whole stream, or holds all that is left of it.
   bool holdsAll() const {
     const int64_t all = plan.schema.cell_count;
-    return all >= 0 && all <= report.window_cells;
+    return holds_rest || (all >= 0 && all <= report.window_cells);
   }
   // Whether more than the price of their error is common among collapses; where the body is kept
   // some have it.
@@ -262,6 +262,7 @@ struct Core {
   // Of an edge that may be taken; and of all vertices, in percent of the range, where that is why.
   double most_error = std::numeric_limits<double>::infinity(), most_percent = 0;
   Tally tally;                    // of the whole; parts that are not added yet have their own
+  bool holds_rest = false;        // all was read, and what was parked is back (parking.h)
   double rescaled = 1;            // what errors of the last window count in today's units
   bool exact_curves;              // there are curves that the user wants to stay where they are
   bool keeps_body;                // the volume in the boundary, where there are no regions

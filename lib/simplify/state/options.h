@@ -60,6 +60,8 @@ struct SimplifyOptions {
   bool renews = true;          // mode sweep: quadrics, from the cells that are there (renewal.h)
   bool eases_in = true;        // mode sweep: small steps to the goal where few cells are left; a
                                // pilot tells what the steps of a stream come to
+  double parked_times = 0;     // mode sweep: of the target, that windows leave for the end
+                               // (parking.h); 0: where it is worth it
   bool tries_again = true;     // mode queue: edges that were refused, once the window has changed
   // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
   bool last_resort = true;

@@ -57,6 +57,12 @@ inline SimplifyOptions toRatio(double ratio, int64_t window = 0,
   return options;
 }
 
+// With windows that leave so many times the target, which is simplified further at the end.
+inline SimplifyOptions parking(SimplifyOptions options, double times = 2) {
+  options.parked_times = times;
+  return options;
+}
+
 // Without signs.
 inline double volumeOf(const TestMesh& mesh) {
   double volume = 0;

@@ -53,9 +53,11 @@ TEST(SimplifierStream, DropsVerticesWithoutCells) {
   EXPECT_EQ(simplified(only, toRatio(0.5)).report.unused_vertices, 2);
 }
 
-void expectSameWhateverTheBatches(const TestMesh& mesh, Mode mode) {
+void expectSameWhateverTheBatches(const TestMesh& mesh, const SimplifyOptions& asked) {
   for (int64_t window : {64, 700, 0}) {
-    const Result first = simplified(mesh, toRatio(0.2, window, mode));
+    SimplifyOptions options = asked;
+    options.window_cells = window;
+    const Result first = simplified(mesh, options);
     expectSound(mesh, first);
     for (size_t batch : {size_t{1}, size_t{7}, size_t{100000}})
       for (int form = 0; form < 4; ++form) {
@@ -66,7 +68,7 @@ void expectSameWhateverTheBatches(const TestMesh& mesh, Mode mode) {
         cut.batch_cells = batch;
         cut.explicit_final = form & 1;
         cut.empty_batches = form & 2;
-        const Result other = simplified(mesh, toRatio(0.2, window, mode), cut);
+        const Result other = simplified(mesh, options, cut);
         EXPECT_EQ(other.out.problem, "");
         EXPECT_TRUE(other.out.allBytes() == first.out.allBytes());
         EXPECT_EQ(other.report.collapses, first.report.collapses);
@@ -79,7 +81,8 @@ void expectSameWhateverTheBatches(const TestMesh& mesh, Mode mode) {
 }
 TEST(SimplifierStream, GivesTheSameBytesWhateverTheBatches) {
   const TestMesh mesh = richMesh(slowRun() ? 3 : 6);
-  for (Mode mode : kModes) expectSameWhateverTheBatches(mesh, mode);
+  for (Mode mode : kModes) expectSameWhateverTheBatches(mesh, toRatio(0.2, 0, mode));
+  expectSameWhateverTheBatches(mesh, parking(toRatio(0.2)));
 }
 
 // Where in the stream a vertex is declared before its first cell has no meaning.

@@ -104,6 +104,14 @@ TEST(SweepThreads, GiveTheSameBytesForEachRatioAndWindow) {
       }
 }
 
+TEST(SweepThreads, GiveTheSameBytesWhereCellsAreParked) {
+  for (Shape shape : {Shape::kField, Shape::kSolver}) {
+    SimplifyOptions options = parking(toRatio(0.1, 2500));
+    options.shape = shape;
+    expectSame(gridWithWaves(wavySide(), ScalarType::kFloat32), options);
+  }
+}
+
 TEST(SweepThreads, GiveTheSameBytesUpToAnError) {
   SimplifyOptions options;
   options.error = 5;

@@ -214,16 +214,23 @@ TestMesh randomPart(uint64_t seed) {
   return withWave(inStreamOrder(mesh));
 }
 
+void expectTopologyKept(const TestMesh& mesh, const MeshFacts& before,
+                        const SimplifyOptions& options) {
+  SCOPED_TRACE(textOf("window %d, mode %d, %g times the target are parked",
+                      static_cast<int>(options.window_cells), static_cast<int>(options.mode),
+                      options.parked_times));
+  const Result result = simplified(mesh, options);
+  expectSound(mesh, result);
+  EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+}
+
 // Far below what the mesh has, through windows of a part of it and of all.
 void expectTopologyKept(const TestMesh& mesh) {
   const MeshFacts before = factsOf(mesh);
-  for (Mode mode : kModes)
-    for (int64_t window : {64, 150, 0}) {
-      SCOPED_TRACE(textOf("window %d, mode %d", static_cast<int>(window), static_cast<int>(mode)));
-      const Result result = simplified(mesh, toRatio(0.05, window, mode));
-      expectSound(mesh, result);
-      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
-    }
+  for (int64_t window : {64, 150, 0}) {
+    for (Mode mode : kModes) expectTopologyKept(mesh, before, toRatio(0.05, window, mode));
+    if (window > 0) expectTopologyKept(mesh, before, parking(toRatio(0.05, window)));
+  }
 }
 
 TEST(SimplifierTopology, KeepsWhateverThereIs) {

@@ -168,6 +168,14 @@ TEST(Traces, TellOfStrongReductions) {
   for (Mode mode : kModes) expectTraces(fullGrid(n, n, length, 0.1), toRatio(0.1, 0, mode));
 }
 
+TEST(Traces, TellOfCellsThatWereParked) {
+  for (int64_t window : {1500, 400}) {
+    if (slowRun() && window == 1500) continue;
+    const TestMesh mesh = withField(fullGrid(6, 6, slowRun() ? 12 : 24, 0.1));
+    expectTraces(mesh, parking(toRatio(0.1, window)));
+  }
+}
+
 TEST(Traces, TellOfDomainsWithHolesCracksAndSingularPlaces) {
   for (const TestMesh& mesh : {slitGrid(6), shellGrid(5), ringGrid(6), cubesAtEdge(3),
                                cubesAtVertex(3), apart(3), oneCell()})

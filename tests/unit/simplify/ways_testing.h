@@ -1,4 +1,4 @@
-// tests: what is promised holds in every mode, and where cells are flipped, too.
+// tests: what is promised holds in every mode, where cells are flipped and where they are parked.
 #pragma once
 
 #include <vector>
@@ -10,13 +10,16 @@ namespace tetstream::test {
 struct Way {
   Mode mode;
   Shape shape;
+  double parked_times = 0;
   SimplifyOptions toRatio(double ratio, int64_t window = 0) const {
     SimplifyOptions options = test::toRatio(ratio, window, mode);
     options.shape = shape;
+    options.parked_times = parked_times;
     return options;
   }
 };
 constexpr Way kWays[] = {{Mode::kSweep, Shape::kField},
+                         {Mode::kSweep, Shape::kField, 2},
                          {Mode::kSweep, Shape::kSolver},
                          {Mode::kPaper, Shape::kField},
                          {Mode::kQueue, Shape::kField}};

@@ -1,0 +1,18 @@
+// simplify: whether what leaves the window stays beside it until all has been read. Depends on
+// target.h.
+#pragma once
+
+#include "target.h"
+
+namespace tetstream {
+
+// Cells that leave a window are lost for what comes: what is dear among them has been collapsed,
+// what has become cheap beside others has not, and no quadric is made anew from them. Where few are
+// to be left of a stream, they are parked instead: the windows are simplified to some times the
+// target, and once all has been read what they left is taken back, a mesh held whole, and
+// simplified to the target itself.
+//
+// Returns that factor, or 1: nothing is parked. `window`: cells that are held.
+double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t window);
+
+}  // namespace tetstream
