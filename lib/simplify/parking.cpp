@@ -4,7 +4,7 @@
 
 namespace tetstream {
 
-// At most so many cells: some 16 MB with one field, as much as a window has.
+// At most so many cells: some 10 MB with one field.
 constexpr int64_t kMostParked = 1 << 18;
 // By less than the least there is nothing to gain; by more than the most it takes more time than it
 // gains. RMS errors and times beside those of windows alone, of isabel and 3e6 cells of `fluid` and
