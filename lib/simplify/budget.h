@@ -36,6 +36,8 @@ class Budget {
   virtual Goal goalOf(const Ledger& ledger) = 0;
   // At the end: not below the target by more than 0.2 % and 10 cells.
   virtual Goal lastGoal(const Ledger& ledger) { return lastGoalOf(target_, ledger); }
+  // From now on what leaves a window is lost for the target.
+  virtual void stopParking() {}
   // What came of a goal: the bound that was reached, the ledger before and after, and the cells
   // that were written then.
   virtual void learn(double bound, const Ledger& before, const Ledger& after, int64_t written) {
@@ -85,6 +87,10 @@ class CommonBound final : public Budget {
 
   Goal goalOf(const Ledger& ledger) override;
   Goal lastGoal(const Ledger& ledger) override;
+  void stopParking() override {
+    target_ = last_;
+    parked_ = 1;
+  }
   void learn(double bound, const Ledger& before, const Ledger& after, int64_t written) override;
 
  private:

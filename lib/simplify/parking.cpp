@@ -4,8 +4,6 @@
 
 namespace tetstream {
 
-// At most so many cells: some 10 MB with one field.
-constexpr int64_t kMostParked = 1 << 18;
 // By less than the least there is nothing to gain; by more than the most it takes more time than it
 // gains. RMS errors and times beside those of windows alone, of isabel and 3e6 cells of `fluid` and
 // of `ball`: 1.4 times the target 0.94, in 1.11 times the time, at 0.1; four times it 0.92 and 0.97
@@ -19,14 +17,15 @@ static bool mayPark(const SimplifyOptions& options) {
          options.memory_bytes == 0 && options.release == ReleaseOrder::kArrival;
 }
 
-double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t window) {
-  if (!mayPark(options)) return 1;
+double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t window,
+                   const Pilot& pilot) {
+  if (!mayPark(options) || pilot.bound > 0) return 1;
   if (options.parked_times > 0) return options.parked_times;
   const int64_t cells = schema.cell_count;
   if (options.window_cells > 0 || cells <= window) return 1;
   const int64_t wanted = targetOf(schema, options).cellsOf(cells);
   if (!isMoreThan(cells, kStrongReduction, wanted)) return 1;
-  const double times = static_cast<double>(kMostParked) / static_cast<double>(wanted);
+  const double times = static_cast<double>(options.most_parked) / static_cast<double>(wanted);
   return times < kLeastTimes ? 1 : std::min(times, kMostTimes);
 }
 

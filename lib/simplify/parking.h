@@ -2,6 +2,7 @@
 // target.h.
 #pragma once
 
+#include "pilot.h"
 #include "target.h"
 
 namespace tetstream {
@@ -12,7 +13,9 @@ namespace tetstream {
 // target, and once all has been read what they left is taken back, a mesh held whole, and
 // simplified to the target itself.
 //
-// Returns that factor, or 1: nothing is parked. `window`: cells that are held.
-double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t window);
+// Returns that factor, or 1: nothing is parked. `window`: cells that are held. A pilot that knows
+// the bound of the target knows none for what the windows would leave.
+double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t window,
+                   const Pilot& pilot);
 
 }  // namespace tetstream

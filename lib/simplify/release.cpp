@@ -242,7 +242,6 @@ void Release<S>::park(uint32_t most) {
 template <class S>
 void Release<S>::takeBack() {
   core_.window.mesh.takeBack(kWritten);
-  core_.holds_rest = true;
 }
 
 template class Release<float>;

@@ -53,7 +53,7 @@ class WindowedEngine final : public Simplifier::Engine {
         core_(plan_, options_, account_, static_cast<size_t>(capacity_), verticesOf(capacity_),
               expectedSpan(plan_.schema)),
         knows_pilot_(pilot.known()),
-        parked_times_(parkedTimes(plan_.schema, options_, capacity_)),
+        parked_times_(parkedTimes(plan_.schema, options_, capacity_, pilot)),
         budget_(makeBudget(plan_.schema, options, pilot, parked_times_)),
         intake_(core_, account_),
         regions_(core_),
@@ -125,7 +125,10 @@ class WindowedEngine final : public Simplifier::Engine {
     intake_.finalizeAll();
     resolveNew();
     intake_.checkFaces();
-    if (parks()) release_.takeBack();
+    if (parks()) {
+      release_.takeBack();
+      core_.holds_rest = true;
+    }
     const Ledger now = ledger();
     decimate(budget_->lastGoal(now));
     if (now.written == 0 && !parks()) survey(now.read);
@@ -200,8 +203,7 @@ class WindowedEngine final : public Simplifier::Engine {
     const Ledger before = ledger();
     decimate(budget_->goalOf(before));
     Ledger after = ledger();
-    const auto keep = static_cast<uint32_t>(before.keep);
-    parks() ? release_.park(keep) : release_.write({keep, mostTraced()});
+    letGo(static_cast<uint32_t>(before.keep));
     after.front = release_.frontCells();
     budget_->learn(selector_->bound(), before, after,
                    static_cast<int64_t>(release_.cellsGone()) - before.written);
@@ -210,6 +212,20 @@ class WindowedEngine final : public Simplifier::Engine {
     core_.report.front_cells = std::max(core_.report.front_cells, before.front);
     makeRoom(before.front);
     tell(mesh().liveCells());
+  }
+
+  // All but so many cells.
+  void letGo(uint32_t keep) {
+    if (parks()) release_.park(keep);
+    if (mesh().parkedCells() > options_.most_parked) stopParking();
+    if (!parks()) release_.write({keep, mostTraced()});
+  }
+
+  // More than the windows should leave: where little can be simplified that would be all there is.
+  void stopParking() {
+    release_.takeBack();
+    budget_->stopParking();
+    parked_times_ = 1;
   }
 
   void decimate(const Goal& goal) {

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int64_t kWindow = 131072;
 
-double timesFor(int64_t cells, const SimplifyOptions& options) {
+double timesFor(int64_t cells, const SimplifyOptions& options, const Pilot& pilot = {}) {
   Schema schema;
   schema.cell_count = cells;
-  return parkedTimes(schema, options, kWindow);
+  return parkedTimes(schema, options, kWindow, pilot);
 }
 
 TEST(Parking, IsForLongStreamsOfWhichFewCellsAreLeft) {
@@ -29,6 +29,8 @@ TEST(Parking, IsForLongStreamsOfWhichFewCellsAreLeft) {
   EXPECT_EQ(timesFor(300000, toRatio(0.3)), 1) << "too large a part";
   EXPECT_EQ(timesFor(kWindow, toRatio(0.1)), 1) << "held whole";
   EXPECT_EQ(timesFor(-1, toRatio(0.1)), 1) << "of unknown length";
+  EXPECT_EQ(timesFor(2000000, toRatio(0.1), {1e-6, {0, 1}}), 1) << "the bound is known";
+  EXPECT_GT(timesFor(2000000, toRatio(0.1), {0, {0, 1}}), 1) << "only a sample was taken";
   SimplifyOptions counted;
   counted.cells = 100000;
   EXPECT_DOUBLE_EQ(timesFor(5000000, counted), 2.62144);
@@ -103,6 +105,26 @@ TEST(Parking, MeetsTheTargetAndTheWindow) {
       EXPECT_EQ(result.report.window_cells, 2000);
       EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
     }
+}
+
+// Of a stream that can hardly be simplified until its end, which is then told while it comes.
+TEST(Parking, StopsWhereTooManyCellsAreLeft) {
+  TestMesh mesh = wavyGrid(6, 24);
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(mesh.position(v, 2) < 20);
+  SimplifyOptions options = parking(toRatio(0.1, 1000));
+  options.most_parked = 1500;
+  Result result;
+  int64_t early = 0;
+  Simplifier simplifier(options, result.out, [&early](const Progress& p) {
+    if (p.cells_read < p.cells_total) early = p.cells_written;
+  });
+  MeshStream stream(mesh, Cut{});
+  copyStream(stream, simplifier);
+  result.report = simplifier.report();
+  EXPECT_GT(early, 1500);
+  EXPECT_LT(result.report.cells_out, result.report.cells_in);
+  expectSound(mesh, result);
+  EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(result.out.mesh)), "");
 }
 
 // In the geometric mean of some ratios: by itself each depends on where its windows end.
