@@ -11,6 +11,13 @@ namespace tetstream {
 // bounds then (budget.cpp).
 constexpr double kLeastTimes = 1.25, kMostTimes = 4;
 
+// With high effort streams of more cells gain by it what they take longer.
+constexpr int64_t kEffort = 4;
+
+int64_t mostParked(const SimplifyOptions& options) {
+  return options.effort == Effort::kHigh ? kEffort * options.most_parked : options.most_parked;
+}
+
 // Cells that leave early, to bound the memory or the front of the output, are asked for.
 static bool mayPark(const SimplifyOptions& options) {
   return !followsPaper(options.mode) && !options.uniform_ratio && !(options.error > 0) &&
@@ -25,7 +32,7 @@ double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t
   if (options.window_cells > 0 || cells <= window) return 1;
   const int64_t wanted = targetOf(schema, options).cellsOf(cells);
   if (!isMoreThan(cells, kStrongReduction, wanted)) return 1;
-  const double times = static_cast<double>(options.most_parked) / static_cast<double>(wanted);
+  const double times = static_cast<double>(mostParked(options)) / static_cast<double>(wanted);
   return times < kLeastTimes ? 1 : std::min(times, kMostTimes);
 }
 

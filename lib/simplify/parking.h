@@ -17,5 +17,7 @@ namespace tetstream {
 // the bound of the target knows none for what the windows would leave.
 double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t window,
                    const Pilot& pilot);
+// Cells: more mean that the windows leave more than they should, and parking has to stop.
+int64_t mostParked(const SimplifyOptions& options);
 
 }  // namespace tetstream

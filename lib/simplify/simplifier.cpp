@@ -217,7 +217,7 @@ class WindowedEngine final : public Simplifier::Engine {
   // All but so many cells.
   void letGo(uint32_t keep) {
     if (parks()) release_.park(keep);
-    if (mesh().parkedCells() > options_.most_parked) stopParking();
+    if (mesh().parkedCells() > mostParked(options_)) stopParking();
     if (!parks()) release_.write({keep, mostTraced()});
   }
 

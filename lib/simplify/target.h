@@ -23,9 +23,10 @@ struct Target {
   int64_t cellsOf(int64_t read) const {
     return std::max({share(read), std::min(cells, read), std::min<int64_t>(read, 1)});
   }
-  // With so many times the cells, which are counted.
+  // With so many times the cells, if more.
   Target times(double factor) const {
-    return {factor * ratio, error, static_cast<int64_t>(factor * static_cast<double>(cells))};
+    const double more = std::min(factor * static_cast<double>(cells), 0x1p60);
+    return {factor * ratio, error, factor > 1 ? static_cast<int64_t>(more) : cells};
   }
 
  private:

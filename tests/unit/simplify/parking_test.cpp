@@ -31,6 +31,9 @@ TEST(Parking, IsForLongStreamsOfWhichFewCellsAreLeft) {
   EXPECT_EQ(timesFor(-1, toRatio(0.1)), 1) << "of unknown length";
   EXPECT_EQ(timesFor(2000000, toRatio(0.1), {1e-6, {0, 1}}), 1) << "the bound is known";
   EXPECT_GT(timesFor(2000000, toRatio(0.1), {0, {0, 1}}), 1) << "only a sample was taken";
+  SimplifyOptions high;
+  high.effort = Effort::kHigh;
+  EXPECT_DOUBLE_EQ(timesFor(4000000, high), 1048576 / 400000.0);
   SimplifyOptions counted;
   counted.cells = 100000;
   EXPECT_DOUBLE_EQ(timesFor(5000000, counted), 2.62144);
