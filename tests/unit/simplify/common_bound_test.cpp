@@ -243,6 +243,36 @@ TEST(CommonBound, ChangesItsUnitsWithTheQuadrics) {
   }
 }
 
+// Windows leave what is parked, and fewer passes lead to their bounds the more that is; the target
+// is met at the end, from the bound that they had. Once parking has stopped it is as without it.
+TEST(CommonBound, LeavesMoreToTheEndWhereCellsAreParked) {
+  const auto second = [](CommonBound& budget) {
+    const Ledger window = {20000, 0, 2000, 20000, 10000};
+    budget.goalOf(window);
+    budget.learn(1e-3, window, window, 500);
+    return budget.goalOf(window);
+  };
+  const auto parking = [](double ratio, double times, Effort effort = Effort::kNormal) {
+    return CommonBound({ratio, 0, 0}, 1000000, {}, false, effort, times);
+  };
+  CommonBound plain({0.06, 0, 0}, 1000000, {}), some = parking(0.04, 1.5), many = parking(0.02, 3),
+                                                stopped = parking(0.06, 3),
+                                                high = parking(0.02, 3, Effort::kHigh);
+  stopped.stopParking();
+  const Goal goal = second(plain);
+  for (CommonBound* budget : {&some, &many, &stopped}) EXPECT_EQ(second(*budget).cells, goal.cells);
+  EXPECT_EQ(second(stopped).approaches, goal.approaches);
+  EXPECT_EQ(second(some).approaches, 2);
+  EXPECT_EQ(second(many).approaches, 0);
+  EXPECT_GT(second(high).approaches, 0);
+  const Ledger all = {1000000, 0, 0, 60000, 60000};
+  const Goal last = many.lastGoal(all);
+  EXPECT_EQ(last.cells, 20000);
+  EXPECT_GE(last.least_cells, 19950);
+  EXPECT_GT(last.first_bound, 0);
+  EXPECT_EQ(last.approaches, 0);
+}
+
 // With a front of a quarter of a million cells there is one pass on the way.
 TEST(CommonBound, ApproachesOnceWithAWideFront) {
   CommonBound budget({0.02, 0, 0}, 500000000, {});
