@@ -13,9 +13,18 @@ constexpr double kLeastTimes = 1.25, kMostTimes = 4;
 
 // With high effort streams of more cells gain by it what they take longer.
 constexpr int64_t kEffort = 4;
+// Times what the windows should leave.
+constexpr int64_t kGrossly = 2;
+// Cells to a vertex, of bodies that are not of a few cells each: of those each keeps one, and as
+// many vertices take what more cells would.
+constexpr int64_t kLeastCellsToVertex = 2;
+
+static int64_t plannedCells(const SimplifyOptions& options) {
+  return options.effort == Effort::kHigh ? kEffort * options.most_parked : options.most_parked;
+}
 
 int64_t mostParked(const SimplifyOptions& options) {
-  return options.effort == Effort::kHigh ? kEffort * options.most_parked : options.most_parked;
+  return kGrossly * plannedCells(options);
 }
 
 // Cells that leave early, to bound the memory or the front of the output, are asked for.
@@ -30,9 +39,10 @@ double parkedTimes(const Schema& schema, const SimplifyOptions& options, int64_t
   if (options.parked_times > 0) return options.parked_times;
   const int64_t cells = schema.cell_count;
   if (options.window_cells > 0 || cells <= window) return 1;
+  if (schema.vertex_count > cells / kLeastCellsToVertex) return 1;
   const int64_t wanted = targetOf(schema, options).cellsOf(cells);
   if (!isMoreThan(cells, kStrongReduction, wanted)) return 1;
-  const double times = static_cast<double>(mostParked(options)) / static_cast<double>(wanted);
+  const double times = static_cast<double>(plannedCells(options)) / static_cast<double>(wanted);
   return times < kLeastTimes ? 1 : std::min(times, kMostTimes);
 }
 
