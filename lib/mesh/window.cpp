@@ -55,10 +55,9 @@ void Window<S>::growVertices(size_t capacity) {
 template <class S>
 uint32_t Window<S>::chooseVertices(uint64_t* unused) {
   uint32_t kept = 0;
-  const uint8_t of_parked = mesh.parkedCells() > 0 ? kWritten : 0;  // none has left then
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     const uint8_t flags = mesh.vertexFlags(v);
-    const bool keep = remap_[v] > 0 || !(flags & kFinal) || (flags & of_parked);
+    const bool keep = remap_[v] > 0 || !(flags & kFinal) || mesh.isOfParked(v);
     remap_[v] = keep ? kept++ : kNone;
     *unused += !keep && !(flags & (kCollapsed | kWritten));
   }

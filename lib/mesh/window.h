@@ -65,7 +65,7 @@ class Window {
   const S* values(uint32_t v) const { return &values_[size_t{v} * shape_.values]; }
   S* quadric(uint32_t v) { return &quadrics_[size_t{v} * shape_.quadric]; }
   int64_t* picks(uint32_t v) { return &picks_[size_t{v} * shape_.picks]; }
-  // Of a vertex that is kWritten: its rank in the output. Until then free for other use.
+  // Of a vertex that has left: its rank in the output. Until then free for other use.
   uint64_t& outRank(uint32_t v) { return out_rank_[v]; }
   // Where there are origins: the vertex's own in the input, or its complement, below 0, once the
   // vertex stands elsewhere.

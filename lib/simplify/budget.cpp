@@ -51,8 +51,6 @@ constexpr double kWideStep = 8;
 // them, stay as they were.
 constexpr int kApproachesToError = 4;
 constexpr double kStepToError = 3;
-// Where windows leave this much more than the target, what they took out of order is made up for.
-constexpr double kRoomyTimes = 2;
 // Such a window gives up this share of its cells at most for others: a stream is seldom as it
 // began.
 constexpr double kGivenUp = 0.1;
@@ -62,6 +60,9 @@ constexpr double kGivenUp = 0.1;
 // where it keeps more: 1.5 million graded cells in 10 MB missed their target, with an RMS error of
 // 1.6 %, for 0.004 %.
 constexpr double kTightShare = 2;
+// Where windows leave so many times the target, what they took out of order is made up for at the
+// end: no passes on the way are needed.
+constexpr double kRoomyTimes = 2;
 
 namespace {
 

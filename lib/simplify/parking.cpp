@@ -6,21 +6,21 @@ namespace tetstream {
 
 // By less than the least there is nothing to gain; by more than the most it takes more time than it
 // gains. RMS errors and times beside those of windows alone, of isabel and 3e6 cells of `fluid` and
-// of `ball`: 1.4 times the target 0.94, in 1.11 times the time, at 0.1; four times it 0.92 and 0.97
+// of `ball`: 1.4 times the target 0.94, in 1.15 times the time, at 0.1; four times it 0.92 and 0.94
 // in as much time at 0.02, 0.88 and 0.94 at 0.01, where windows need no passes on the way to their
 // bounds then (budget.cpp).
 constexpr double kLeastTimes = 1.25, kMostTimes = 4;
 
 // With high effort streams of more cells gain by it what they take longer.
 constexpr int64_t kEffort = 4;
-// Times what the windows should leave.
+// Times what the windows should leave, that cannot be what was planned.
 constexpr int64_t kGrossly = 2;
-// Cells to a vertex, of bodies that are not of a few cells each: of those each keeps one, and as
-// many vertices take what more cells would.
+// With fewer cells to a vertex the mesh is of bodies of a few cells each: every one keeps a cell,
+// and their vertices would take several times the memory.
 constexpr int64_t kLeastCellsToVertex = 2;
 
 static int64_t plannedCells(const SimplifyOptions& options) {
-  return options.effort == Effort::kHigh ? kEffort * options.most_parked : options.most_parked;
+  return options.effort == Effort::kHigh ? kEffort * options.parked_cells : options.parked_cells;
 }
 
 int64_t mostParked(const SimplifyOptions& options) {

@@ -36,7 +36,7 @@ class Release {
   void takeBack();
   void flush();
 
-  // Of the cells that were left at the last write, those that touched a vertex not yet final.
+  // Of the cells that were left when some went, those that touched a vertex not yet final.
   int64_t frontCells() const { return front_; }
   uint64_t cellsWritten() const { return cells_; }
   uint64_t cellsGone() const { return cells_ + core_.window.mesh.parkedCells(); }

@@ -21,7 +21,7 @@ namespace {
 constexpr int64_t kTurnsPerWindow = 8;  // at most, where its vertices are few
 constexpr int64_t kLongStream = 10;     // windows
 
-// How much more the windows leave.
+// `parked`: times the target, that windows leave.
 std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
                                    const Pilot& pilot, double parked) {
   const Target target = targetOf(schema, options);
@@ -38,7 +38,8 @@ std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& 
 //     their vertices are final;
 //   - decisions depend on the cells read, never on how batches cut them;
 //   - memory is that of the window and of the front's map, allocated before the loop; the window
-//     grows between chunks only, when the front proves wider than expected.
+//     grows between chunks only, when the front proves wider than expected, and for what is parked
+//     beside it (parking.h), which counts as written until all has been read.
 template <class S>
 class WindowedEngine final : public Simplifier::Engine {
  public:

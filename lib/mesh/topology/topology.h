@@ -21,7 +21,7 @@ enum VertexFlag : uint8_t {
   kFinal = 1,        // no later cell will use it
   kBoundary = 2,     // on the boundary of the domain (known once it or a neighbour there is final)
   kLocked = 4,       // never moved: corner, non-manifold boundary, bad cell, or the caller's wish
-  kWritten = 8,      // a cell that uses it has left: it is frozen
+  kWritten = 8,      // a cell that uses it has left, or is parked: it is frozen
   kCollapsed = 16,   // merged into another vertex
   kInterface = 128,  // cells of different regions meet there (known as kBoundary is)
 };
@@ -130,6 +130,8 @@ class Topology {
   // which have this flag meanwhile, lose it then.
   void park(uint32_t cell);
   uint32_t parkedCells() const { return parked_cells_; }
+  // While cells are parked none has left.
+  bool isOfParked(uint32_t v) const { return parked_cells_ > 0 && (vertex_flags_[v] & kWritten); }
   void takeBack(uint8_t vertex_flag);
   // Cells were flagged as dead, not counted.
   void countOut(int64_t cells) { live_cells_ -= static_cast<uint32_t>(cells); }

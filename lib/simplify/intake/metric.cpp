@@ -243,9 +243,11 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
   for (size_t i = 3; i < factor.size(); ++i)
     grown = std::max(grown, 1 / (static_cast<double>(factor[i]) * static_cast<double>(factor[i])));
   const S weight = grown > 0 && std::isfinite(static_cast<S>(grown)) ? static_cast<S>(grown) : S(1);
-  for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v) {
+  const Topology& mesh = core_.window.mesh;
+  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     core_.kernels.rescale(factor.data(), weight, core_.plan.dimension, core_.window.quadric(v));
-    if (!(core_.window.mesh.vertexFlags(v) & kWritten)) unsettle(core_.window, v);
+    const bool has_left = (mesh.vertexFlags(v) & kWritten) && !mesh.isOfParked(v);
+    if (!has_left) unsettle(core_.window, v);
   }
   core_.tally.error *= static_cast<double>(weight);
   core_.rescaled *= static_cast<double>(weight);

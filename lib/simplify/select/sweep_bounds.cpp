@@ -112,6 +112,8 @@ double SweepBounds<S>::onTheWay(double bound, const Goal& goal) const {
   return bound * std::max(step, kLeastStep);
 }
 
+// note: of meshes with regions only what was parked takes them: of grains held whole bodies lost
+// their corners.
 template <class S>
 bool SweepBounds<S>::isNear(const Goal& goal) const {
   const int64_t live = core_.window.liveCells();

@@ -62,7 +62,7 @@ struct SimplifyOptions {
                                // pilot tells what the steps of a stream come to
   double parked_times = 0;     // mode sweep: of the target, that windows leave for the end
                                // (parking.h); 0: where it is worth it
-  int64_t most_parked = 1 << 18;  // cells: some 10 MB with one field
+  int64_t parked_cells = 1 << 18;  // that windows may leave: some 10 MB with one field
   bool tries_again = true;  // mode queue: edges that were refused, once the window has changed
   // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
   bool last_resort = true;

@@ -61,7 +61,7 @@ TEST(Parking, IsNotForWhatAsksForMemoryOrAnotherWayThroughTheStream) {
   EXPECT_EQ(timesFor(2000000, parking(toRatio(0.1, kWindow))), 2) << "for comparisons";
 }
 
-// A row of cells, each with a vertex of its own beside the first three.
+// Cells round a face, each with a vertex of its own beside its three.
 TEST(ParkedCells, StayUntilTheyAreTakenBack) {
   Account account;
   Topology mesh(account, 8, 16);
@@ -77,6 +77,8 @@ TEST(ParkedCells, StayUntilTheyAreTakenBack) {
   EXPECT_EQ(mesh.liveCells(), 5u);
   EXPECT_EQ(mesh.parkedCells(), 2u);
   EXPECT_FALSE(mesh.isLive(4));
+  EXPECT_TRUE(mesh.isOfParked(7));
+  EXPECT_FALSE(mesh.isOfParked(6));
   uint32_t keep[11];
   for (uint32_t v = 0; v < 11; ++v) keep[v] = v < 5 ? v : v == 5 ? kNone : v - 1;
   mesh.pack(keep, 10, [](uint32_t, uint32_t) {});
@@ -89,6 +91,7 @@ TEST(ParkedCells, StayUntilTheyAreTakenBack) {
     EXPECT_TRUE(mesh.isLive(c));
     EXPECT_EQ(mesh.corners(c)[3], 3 + c);
   }
+  EXPECT_FALSE(mesh.isOfParked(6));
   EXPECT_EQ(mesh.cellFlags(3), kNegative);
   EXPECT_EQ(mesh.vertexFlags(6), kFinal);
 }
@@ -116,12 +119,13 @@ TEST(Parking, MeetsTheTargetAndTheWindow) {
     }
 }
 
-// Of a stream that can hardly be simplified until its end, which is then told while it comes.
+// Of a stream that can hardly be simplified until near its end: from then on it is written as it
+// comes.
 TEST(Parking, StopsWhereTooManyCellsAreLeft) {
   TestMesh mesh = wavyGrid(6, 24);
   for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked.push_back(mesh.position(v, 2) < 20);
   SimplifyOptions options = parking(toRatio(0.1, 1000));
-  options.most_parked = 1500;
+  options.parked_cells = 1500;
   Result result;
   int64_t early = 0;
   Simplifier simplifier(options, result.out, [&early](const Progress& p) {
