@@ -28,6 +28,8 @@ struct Goal {
   // And only while the error of the whole is below.
   double most_error = std::numeric_limits<double>::infinity();
 
+  // Cells that may be taken of so many live ones.
+  int64_t left(int64_t live) const { return live - (last ? cells : least_cells); }
   // Whether a sweep must stop at so many live cells. No goal is undercut; where only a ring's cells
   // or so may go, nearly all edges take too many.
   bool isMet(int64_t live) const {

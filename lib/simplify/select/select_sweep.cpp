@@ -12,18 +12,14 @@
 #include "settled.h"
 #include "sweep_bounds.h"
 #include "tasks.h"
+#include "tile_group.h"
 #include "tile_queue.h"
 #include "tiling.h"
 
 namespace tetstream {
 namespace {
 
-constexpr int64_t kSlackShare = 50;    // one part in these of a goal is no reason for another pass
-constexpr size_t kTilesTogether = 64;  // then what they did is added, for progress to be told
-// Of the cells of the tiles of a group, where each may take its share of what is left to the goal.
-// A pass takes half of the cells, or less; less to take is shared by fewer tiles, and in the end is
-// taken by one after the other.
-constexpr double kLeastShare = 0.6, kLeastShareOfSlices = 0.5;
+constexpr int64_t kSlackShare = 50;  // one part in these of a goal is no reason for another pass
 // A pass that missed its goal with this many edges refused for thin cells to one that is collapsed,
 // and with one to so many cells of the window, needs another floor, not a higher bound: of
 // stretched meshes whose cells all lie just above the floor what was left at last was collapsed at
@@ -100,11 +96,8 @@ class SweepSelector final : public Selector {
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
   TileLayout layout() const;
-  int64_t room() const {
-    return core_.window.liveCells() - (goal_.last ? goal_.cells : goal_.least_cells);
-  }
   bool takesShares() const;
-  size_t groupEnd(size_t first);
+  TileGroup nextGroup(size_t first) const;
   Goal goalOf(const TilePiece& tile) const;
   void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
   Swept sweepTile(size_t tile, float bound, Lane& lane, TileQueue& queue);
@@ -229,9 +222,11 @@ bool SweepSelector<S>::add(const Swept& swept) {
 template <class S>
 bool SweepSelector<S>::pass(float bound, const std::function<void()>& tick) {
   bool more = false;
-  for (size_t first = 0, end; first < tiling_.tiles().size(); first = end) {
-    end = groupEnd(first);
-    sweepGroup(first, end, bound, tick);
+  for (size_t first = 0; first < tiling_.tiles().size();) {
+    const TileGroup group = nextGroup(first);
+    share_ = group.share;
+    sweepGroup(first, group.end, bound, tick);
+    first = group.end;
     for (const Swept& swept : swept_) more = add(swept) || more;
     tick();  // whichever threads have swept them
     if (mustStop()) return false;
@@ -250,9 +245,9 @@ bool SweepSelector<S>::worksInOrder() const {
 // of its cells.
 template <class S>
 bool SweepSelector<S>::takesShares() const {
-  const auto live = static_cast<double>(core_.window.liveCells());
+  const int64_t live = core_.window.liveCells();
   return core_.shapesFirst() && goal_.last && core_.options.memory_bytes == 0 && !worksInOrder() &&
-         static_cast<double>(room()) > kLeastShareOfSlices * live;
+         static_cast<double>(goal_.left(live)) > kLeastShareOfSlices * static_cast<double>(live);
 }
 
 template <class S>
@@ -263,27 +258,12 @@ TileLayout SweepSelector<S>::layout() const {
   return goal_.last ? TileLayout::kApart : TileLayout::kPieces;
 }
 
-// As many tiles as can be swept before the goal may be met: with all of their cells, or where
-// shapes come first with a share of them.
 template <class S>
-size_t SweepSelector<S>::groupEnd(size_t first) {
-  const std::vector<TilePiece>& tiles = tiling_.tiles();
-  share_ = 1;
-  if (worksInOrder()) return first + 1;
-  const size_t most = std::min(tiles.size(), first + kTilesTogether);
-  const int64_t live = core_.window.liveCells();
-  const auto left = static_cast<double>(room());
-  const double least_share = tiling_.areSlices() ? kLeastShareOfSlices : kLeastShare;
-  auto cells = static_cast<int64_t>(tiles[first].cell_count);
-  size_t end = first + 1;
-  for (; end < most; ++end) {
-    cells += static_cast<int64_t>(tiles[end].cell_count);
-    if (!goal_.isMet(live - cells)) continue;
-    const double share = left / static_cast<double>(cells);
-    if (!core_.shapesFirst() || share < least_share) break;
-    share_ = std::min(share, 1.0);
-  }
-  return end;
+TileGroup SweepSelector<S>::nextGroup(size_t first) const {
+  if (worksInOrder()) return {first + 1};
+  const double of_shapes = tiling_.areSlices() ? kLeastShareOfSlices : kLeastShare;
+  return groupFrom(tiling_.tiles(), first, core_.window.liveCells(), goal_,
+                   core_.shapesFirst() ? of_shapes : kAlike);
 }
 
 // Of a tile of a group: it stops when its share is taken.
