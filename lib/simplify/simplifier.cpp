@@ -387,6 +387,8 @@ class WindowedEngine final : public Simplifier::Engine {
     const std::string changes = core_.label_volumes.changesInWords();
     if (!changes.empty()) r.regions += "; " + changes;
     r.balance = inWords(core_.balance, core_.interfaces, plan_.schema.fields);
+    const std::string lone = intake_.loneValues().inWords(metric_.ranges());
+    if (!lone.empty()) r.balance += (r.balance.empty() ? "" : "; ") + lone;
     tell(0);
     const Target target = targetOf(plan_.schema, options_);
     const bool by_count = target.countsCells();

@@ -151,6 +151,7 @@ void Intake<S>::takeVertex(size_t row) {
     fail(Status::kBadData, "vertex %llu: its position is not finite",
          static_cast<unsigned long long>(batch_.first_vertex + row));
   for (size_t i = 0; i < core_.plan.fields.size(); ++i) readColumn(i, row, slot);
+  lone_values_.add(window.values(slot));
   std::fill_n(window.quadric(slot), window.shape().quadric, S(0));
   if (window.shape().origins)
     window.origin(slot) =

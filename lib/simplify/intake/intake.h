@@ -3,13 +3,15 @@
 
 #include "batch.h"
 #include "core.h"
+#include "lone_values.h"
 
 namespace tetstream {
 
 template <class S>
 class Intake {
  public:
-  Intake(Core<S>& core, Account& account) : core_(core), finalized_(account, 1024) {}
+  Intake(Core<S>& core, Account& account)
+      : core_(core), lone_values_(core.plan), finalized_(account, 1024) {}
 
   // A batch is taken in steps, so that the caller can stop after any cell: vertices are introduced
   // with the first cell that needs them. The view must stay valid until finishBatch.
@@ -23,6 +25,7 @@ class Intake {
   // Once all vertices are resolved: labelled faces of no cell, and those that came twice, are
   // kBadData.
   void checkFaces() const;
+  const LoneValues& loneValues() const { return lone_values_; }
   // Vertices in the window that came with a batch before any cell that has them.
   size_t waiting() const { return static_cast<size_t>(core_.front.introduced() - core_.reached); }
   // The vertices finalized since the last clear, by slot.
@@ -49,6 +52,7 @@ class Intake {
   Core<S>& core_;
   BatchView batch_;
   uint64_t declared_ = 0, cells_read_ = 0, faces_read_ = 0, edges_read_ = 0;
+  LoneValues lone_values_;
   Array<uint32_t> finalized_;
   size_t finalized_count_ = 0;
 };

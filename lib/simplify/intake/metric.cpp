@@ -172,7 +172,6 @@ void Metric<S>::chooseLengthUnit(uint32_t first, uint32_t end) {
   unit_known_ = true;
 }
 
-// Of every dimension: the extent, or the range of the field.
 template <class S>
 std::vector<double> Metric<S>::ranges() const {
   std::vector<double> range(low_.size());

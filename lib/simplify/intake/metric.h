@@ -28,6 +28,9 @@ class Metric {
   // When the faces at their vertices are known: which angles of cells count.
   void chooseAngles(uint32_t first, uint32_t end);
 
+  // Of every dimension: the extent, or the range of the field; 0 of one that is constant.
+  std::vector<double> ranges() const;
+
  private:
   void growBox(uint32_t first, uint32_t end);
   double rangeOf(size_t component) const;  // of the field it belongs to
@@ -36,7 +39,6 @@ class Metric {
   double extent() const;
   double fieldsTogether() const;
   bool canWeighFields(uint32_t cells) const;
-  std::vector<double> ranges() const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
   void noteRounded();
