@@ -123,6 +123,7 @@ class WindowedEngine final : public Simplifier::Engine {
     checkCount("cells", plan_.schema.cell_count, intake_.cellsRead());
     checkCount("vertices", plan_.schema.vertex_count, core_.front.introduced());
     checkCount("labelled faces", plan_.schema.face_count, intake_.facesRead());
+    if (release_.cellsGone() == 0) core_.stream_cells = static_cast<int64_t>(intake_.cellsRead());
     intake_.finalizeAll();
     resolveNew();
     intake_.checkFaces();

@@ -13,8 +13,8 @@ constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
 // from 0.05 to 0.01, but a fifth where a field is zero nearly everywhere) in as much time, with 75
 // MB for 1e6. At 0.5 it would be 0.87 times in 1.2 to 1.4 times the time.
 constexpr int64_t kSmallMesh = 1 << 18, kLargestWhole = 1 << 20;
-// Without knowledge of the front: it grows as the front is met.
-constexpr int64_t kFirstWindow = 32768;
+// Of the paper's modes, without knowledge of the front: it grows as the front is met.
+constexpr int64_t kFirstPaperWindow = 32768;
 // A header that claims more is not believed: the window grows when such a front comes.
 constexpr int64_t kWidestFront = 1 << 23;
 // Of a memory budget, not for cells and vertices: stars, lists; a patch beside. Thin meshes of
@@ -55,16 +55,20 @@ bool WindowSize::gainsWhole() const {
   return kStrongReduction * left <= count;
 }
 
+// Where nobody knows how long the stream is, a small mesh shall be held whole.
+int64_t WindowSize::least() const {
+  const int64_t count = schema_.cell_count;
+  if (followsPaper(options_.mode)) return knownFront() < 0 ? kFirstPaperWindow : kLeastPaperWindow;
+  if (count < 0) return knownFront() < 0 ? kSmallMesh : kLeastWindow;
+  return count <= (gainsWhole() ? kLargestWhole : kSmallMesh) ? kLargestWhole : kLeastWindow;
+}
+
+// It grows as a front is met that is not known.
 int64_t WindowSize::first() const {
-  const int64_t front = knownFront(), count = schema_.cell_count;
-  const bool is_small = count >= 0 && count <= (gainsWhole() ? kLargestWhole : kSmallMesh);
-  const int64_t least = followsPaper(options_.mode) ? kLeastPaperWindow
-                        : is_small                  ? kLargestWhole
-                                                    : kLeastWindow;
-  int64_t cells = options_.window_cells > 0 ? std::max(options_.window_cells, kLeastCells)
-                  : front >= 0              ? std::max(forFront(front), least)
-                                            : kFirstWindow;
-  if (count >= 0) cells = std::min(cells, std::max(count, kLeastCells));
+  int64_t cells = options_.window_cells > 0
+                      ? std::max(options_.window_cells, kLeastCells)
+                      : std::max(forFront(std::max<int64_t>(knownFront(), 0)), least());
+  if (schema_.cell_count >= 0) cells = std::min(cells, std::max(schema_.cell_count, kLeastCells));
   if (options_.window_cells > 0) return cells;
   return std::min(cells, fitting());
 }

@@ -49,6 +49,7 @@ class WindowSize {
  private:
   int64_t knownFront() const;
   bool gainsWhole() const;
+  int64_t least() const;
 
   const Schema& schema_;
   const SimplifyOptions& options_;

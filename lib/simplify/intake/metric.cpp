@@ -411,7 +411,7 @@ void Metric<S>::chooseAngles(uint32_t first, uint32_t end) {
 template <class S>
 bool Metric<S>::canWeighFields(uint32_t cells) const {
   const std::vector<int>& column = core_.plan.measured_column;
-  const int64_t all = core_.plan.schema.cell_count;
+  const int64_t all = core_.stream_cells;
   return core_.weighs_fields && !unit_known_ && core_.balance.fields.empty() && !column.empty() &&
          column.front() != column.back() && all >= 0 && cells >= all / kFewWindows;
 }

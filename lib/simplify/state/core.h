@@ -122,6 +122,7 @@ struct Core {
                      : followsPaper(the_options.mode) ? kShapeWeightPaper
                                                       : kShapeWeight),
         thin(0),
+        stream_cells(the_plan.schema.cell_count),
         exact_curves(the_options.feature_angle > 0 && the_options.feature_angle < 180),
         keeps_body(!followsPaper(the_options.mode)) {}
 
@@ -214,8 +215,7 @@ struct Core {
 
   // Whether the window has room for the whole stream, or holds all that is left of it.
   bool holdsAll() const {
-    const int64_t all = plan.schema.cell_count;
-    return holds_rest || (all >= 0 && all <= report.window_cells);
+    return holds_rest || (stream_cells >= 0 && stream_cells <= report.window_cells);
   }
   // Whether more than the price of their error is common among collapses; where the body is kept
   // some have it.
@@ -256,6 +256,8 @@ struct Core {
   std::vector<ThinAngle> dear;           // falling, above: more cells below have their price
   std::vector<ThinAngle> dear_when_few;  // instead of none, once few cells are left
   bool is_thin = false;                  // the input, in most of its cells
+  // Of the whole stream; negative while nobody knows. One that is read and still there is known.
+  int64_t stream_cells;
   // Of all cells read, normalised: volume; the extent of the mesh; the error that may be made.
   double volume = 0, extent = 1;
   double error_limit = std::numeric_limits<double>::infinity();

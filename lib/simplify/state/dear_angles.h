@@ -36,7 +36,7 @@ constexpr int64_t kFewLeft = 10;
 template <class S>
 bool makeDearWhereFewAreLeft(Core<S>& core) {
   if (!core.dear.empty() || core.dear_when_few.empty() || !core.holdsAll() ||
-      kFewLeft * core.window.liveCells() >= core.plan.schema.cell_count)
+      kFewLeft * core.window.liveCells() >= core.stream_cells)
     return false;
   setDear(core, core.dear_when_few);
   return true;

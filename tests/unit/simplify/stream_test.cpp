@@ -1,5 +1,7 @@
 // The simplifier as a stage of a stream: the least inputs, and the same bytes however the stream
 // was cut.
+#include <cmath>
+
 #include "simplify_testing.h"
 
 namespace tetstream::test {
@@ -131,15 +133,32 @@ TEST(SimplifierStream, KeepsTheOrderSoThatTheFrontStaysLow) {
   }
 }
 
-// The least window of a known front is larger, as is a mesh that is held whole if it can be told.
-TEST(SimplifierStream, HasASmallWindowAtFirstIfTheFrontIsUnknown) {
+// A mesh that can be held whole is, whether or not its front and its cells are told beforehand; the
+// paper's modes have a small window.
+TEST(SimplifierStream, HasAWindowForASmallMeshWhateverIsTold) {
   TestMesh mesh = fullGrid(18, 18, 18);
-  mesh.schema.front_cells = -1;
-  EXPECT_GT(mesh.cellCount(), 32768u);
-  EXPECT_EQ(simplified(mesh, toRatio(0.5, 0), {}).report.window_cells, 32768);
-  mesh.schema.front_cells = 3000;
-  EXPECT_EQ(simplified(mesh, toRatio(0.5, 0), {}).report.window_cells,
-            static_cast<int64_t>(mesh.cellCount()));
+  const auto count = static_cast<int64_t>(mesh.cellCount());
+  EXPECT_GT(count, 32768);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return std::sin(0.3 * x + 0.1 * y * z); });
+  addPositionField(mesh, {"g", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return x + 2 * y - z; });
+  const auto windowOf = [&](int64_t front, bool counted, Mode mode, Result& result) {
+    mesh.schema.front_cells = front;
+    Cut cut;
+    cut.say_counts = counted;
+    SimplifyOptions options = toRatio(0.1);
+    options.mode = mode;
+    result = simplified(mesh, options, cut);
+    return result.report.window_cells;
+  };
+  Result told, untold, uncounted, paper;
+  EXPECT_EQ(windowOf(3000, true, Mode::kSweep, told), count);
+  EXPECT_EQ(windowOf(-1, true, Mode::kSweep, untold), count);
+  EXPECT_GE(windowOf(-1, false, Mode::kSweep, uncounted), count);
+  EXPECT_TRUE(untold.out.allBytes() == told.out.allBytes());
+  EXPECT_TRUE(uncounted.out.allBytes() == told.out.allBytes());
+  EXPECT_EQ(windowOf(-1, true, Mode::kPaper, paper), 32768);
 }
 
 TEST(SimplifierStream, TellsTheSameFrontAsTheStreamHas) {
