@@ -83,7 +83,17 @@ ArrayView StreamInfo::view(const std::vector<double>& box) {
   return {box.data(), TETSTREAM_TYPE_FLOAT64, static_cast<int64_t>(box.size()), 1};
 }
 
+void StreamInfo::addBound(double low, double high) {
+  box_min_.push_back(low);
+  box_max_.push_back(high);
+}
+
 tetstream_stream_info StreamInfo::info() const {
+  size_t box = 3;
+  for (const tetstream_column& c : fields_) box += static_cast<size_t>(c.components);
+  if (!box_min_.empty() && box_min_.size() != box)
+    failArgument("the box has " + std::to_string(box_min_.size()) + " bounds, " +
+                 std::to_string(box) + " are wanted");
   tetstream_stream_info out = {};
   out.struct_size = sizeof out;
   out.position_type = position_type;

@@ -36,6 +36,8 @@ class StreamInfo {
   const char* labelNameCellArray(int64_t index) const;  // "": faces
   int64_t labelNameLabel(int64_t index) const { return labelName(index).label; }
   const char* labelNameText(int64_t index) const { return labelName(index).name; }
+  // Of the next of x y z and each component of each field; all are to be told, or none.
+  void addBound(double low, double high);
   // x y z and each component of each field; no array where it is not known.
   ArrayView boxMin() const { return view(box_min_); }
   ArrayView boxMax() const { return view(box_max_); }

@@ -54,6 +54,33 @@ class Generators(unittest.TestCase):
         for step in (1, 7, 100000):
             self.same(self.simplified(reader(*self.mesh, step)), expected)
 
+    def test_a_reader_may_tell_its_box_and_ranges(self):
+        points, cells, field = self.mesh
+        told = {"box": [points.min(0), points.max(0)], "ranges": {"f": [field.min(), field.max()]}}
+
+        def announced(**more):
+            return Reader.batches(in_batches(points, cells, {"f": field}), points.dtype,
+                                  {"f": field.dtype}, cell_count=len(cells), **more)
+
+        info = announced(**told).info()
+        numpy.testing.assert_array_equal(info.box, told["box"])
+        numpy.testing.assert_array_equal(info.ranges["f"].ravel(), told["ranges"]["f"])
+        self.assertIsNone(announced().info().box)
+        announced(box=announced().info().box, ranges=announced().info().ranges)
+        whole = Reader.stream(tetstream.Mesh(points, cells, {"f": field})).info()
+        numpy.testing.assert_array_equal(whole.box, told["box"])
+        self.same(self.simplified(announced(**told)), self.simplified(announced()))
+        pushed = tetstream.simplify_batches(in_batches(points, cells, {"f": field}), points.dtype,
+                                            {"f": field.dtype}, ratio=0.2, **told)
+        self.assertGreater(sum(len(batch.cells) for batch in pushed if batch.cells is not None), 0)
+        for wrong, text in (({"box": told["box"]}, 'that of "f" is missing'),
+                            ({"ranges": told["ranges"]}, "beside a box"),
+                            ({**told, "ranges": {**told["ranges"], "g": [0, 1]}}, '"g" is no field'),
+                            ({**told, "box": [0, 1]}, r"\[2\]\[3\] is wanted"),
+                            ({**told, "box": [points.max(0), points.min(0)]}, "upside down")):
+            with self.assertRaisesRegex(tetstream.BadArgument, text):
+                self.simplified(announced(**wrong))
+
     def test_a_reader_may_give_dicts_and_empty_batches(self):
         points, cells, field = self.mesh
         def give():

@@ -327,7 +327,8 @@ class Reader:
                 fields: _Columns | None = None, cell_data: _Columns | None = None, *,
                 indexed: bool = False, vertex_count: int = -1, cell_count: int = -1,
                 face_count: int = -1, front_width: int = -1, front_span: int = -1,
-                front_cells: int = -1, label_names: _LabelNames | None = None) -> Reader: ...
+                front_cells: int = -1, label_names: _LabelNames | None = None,
+                box: ArrayLike | None = None, ranges: _Arrays | None = None) -> Reader: ...
     def info(self) -> StreamInfo: ...
     @property
     def notes(self) -> list[str]: ...
@@ -365,7 +366,8 @@ def simplify_batches(batches: _Batches, points: DTypeLike = "float64",
                      weights: Mapping[str, float] | None = None, vertex_count: int = -1,
                      cell_count: int = -1, face_count: int = -1, front_width: int = -1,
                      front_span: int = -1, front_cells: int = -1,
-                     label_names: _LabelNames | None = None,
+                     label_names: _LabelNames | None = None, box: ArrayLike | None = None,
+                     ranges: _Arrays | None = None,
                      **options: Unpack[_SimplifyingRegions]) -> Generator[Batch, None, Report]: ...
 def layout(source: _Source, target: _Target, *, progress: _Told = None,
            **options: Unpack[_Ordering]) -> LayoutReport: ...

@@ -85,6 +85,24 @@ def cells(values):
     return _dense(array, array.dtype.newbyteorder("="))
 
 
+def bounds(name, values, components):
+    """[2][components] of float64, the lowest and the highest; of one component [2] will do."""
+    array = _array(name, values)
+    if components == 1 and array.shape == (2,):
+        array = array.reshape(2, 1)
+    needs_shape(name, array, f"[2][{components}]", array.shape == (2, components))
+    return _dense(array, numpy.float64)
+
+
+def limits(rows):
+    """Of each column the lowest and the highest of what is finite: [2][columns]; infinity and
+    -infinity where nothing is."""
+    rows = rows.reshape(len(rows), -1)
+    finite = numpy.isfinite(rows)
+    return numpy.stack([numpy.min(rows, 0, initial=numpy.inf, where=finite),
+                        numpy.max(rows, 0, initial=-numpy.inf, where=finite)])
+
+
 def flags(name, values, rows):
     """[rows] of uint8, 1 where a value is not zero."""
     array = _array(name, values)

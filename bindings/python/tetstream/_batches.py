@@ -50,7 +50,8 @@ class Schema:
         self.points = _arrays.DTYPES[info.position_type]
 
     @classmethod
-    def announced(cls, points, fields, cell_data, label_names, counts, indexed=False):
+    def announced(cls, points, fields, cell_data, label_names, counts, indexed=False, box=None,
+                  ranges=None):
         info = core.StreamInfo()
         info.position_type = type_of("points", points)
         info.is_indexed = bool(indexed)
@@ -61,7 +62,26 @@ class Schema:
         _labels.add(info, label_names)
         for name, count in counts.items():
             setattr(info, name, _options.whole(name, count))
-        return cls(info)
+        schema = cls(info)
+        schema._announce_bounds(box, ranges)
+        return schema
+
+    def _announce_bounds(self, box, ranges):
+        ranges = {name: limits for name, limits in _arrays.named("ranges", ranges).items()
+                  if limits is not None}
+        if box is None:
+            if ranges:
+                raise BadArgument("ranges: they count beside a box, which is not given")
+            return
+        names = [name for name, _, _ in self.fields]
+        for name in sorted(set(ranges).symmetric_difference(names)):
+            raise BadArgument(f'ranges: that of "{name}" is missing' if name in names else
+                              f'ranges: "{name}" is no field')
+        bounds = [_arrays.bounds("box", box, 3)]
+        bounds += [_arrays.bounds(f'range of "{name}"', ranges[name], components)
+                   for name, _, components in self.fields]
+        for low, high in numpy.concatenate(bounds, axis=1).T.tolist():
+            self.info.add_bound(low, high)
 
     def fill(self, target, batch):
         """Puts a Batch's arrays into the library's. The arrays, which the caller keeps until they

@@ -165,7 +165,7 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
 @_options.documented(core.SCOPE_SIMPLIFY, reads=False)
 def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, weights=None,
                      vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
-                     front_cells=-1, label_names=None, **options):
+                     front_cells=-1, label_names=None, box=None, ranges=None, **options):
     """Simplifies a stream as a generator: takes Batches, gives Batches, while the input runs.
 
         for batch in tetstream.simplify_batches(solver(), fields={"p": "float64"}, ratio=0.1):
@@ -173,7 +173,7 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
 
     Args:
         batches: an iterable of Batches, or of dicts with a Batch's arguments.
-        points, fields, cell_data, counts, front, label_names: as in Reader.batches.
+        points, fields, cell_data, counts, front, label_names, box, ranges: as in Reader.batches.
         weights, **options: as in simplify. A ratio needs `cell_count` to be met early.
 
     Yields:
@@ -184,7 +184,8 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
     """
     schema = _batches.Schema.announced(points, fields, cell_data, label_names, {
         "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
-        "front_width": front_width, "front_span": front_span, "front_cells": front_cells})
+        "front_width": front_width, "front_span": front_span, "front_cells": front_cells},
+        box=box, ranges=ranges)
     ready = []
     writer = _streams.Writer.batches(ready.append)
     made = _made_options(options, weights)

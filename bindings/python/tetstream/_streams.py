@@ -148,7 +148,7 @@ class Reader:
     @classmethod
     def batches(cls, batches, points="float64", fields=None, cell_data=None, *, indexed=False,
                 vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
-                front_cells=-1, label_names=None):
+                front_cells=-1, label_names=None, box=None, ranges=None):
         """A stream out of an iterable, such as a generator, of Batches or of dicts with a Batch's
         arguments.
 
@@ -158,11 +158,15 @@ class Reader:
         Counts and the front are told if they are known; the front sets the window, and labelled
             faces that are announced find room where the memory is limited.
         label_names: as of a Mesh.
+        box, ranges: as a StreamInfo has them, if they are known: [2][3], the lowest and the highest
+            coordinates, and of each field by its name [2][components], or [2] of one component.
+            Errors are then measured in units of these from the first cell on, not in those of what
+            has come.
         """
         schema = Schema.announced(points, fields, cell_data, label_names, {
             "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
             "front_width": front_width, "front_span": front_span,
-            "front_cells": front_cells}, indexed)
+            "front_cells": front_cells}, indexed, box, ranges)
         giver = _Giver(schema, batches)
         return cls(core.Reader.create(schema.info, _lent(giver.give)), giver)
 
