@@ -46,6 +46,27 @@ assert (rows (state("result_cells")) <= ceil (0.3 * rows (cells)));
 assert (sum (volumes (state("result_points"), state("result_cells"))), 1, 1e-5);
 assert (numel (state("result_field")), rows (state("result_points")));
 
+## A box and ranges that are told are those that it finds, where it holds all.
+limits = @(values) [min(values); max(values)];
+told = fresh_state ();
+tetstream_simplify_stream (@() next (told, points, cells, field, is_last), ...
+                           @(batch) take (told, batch), "ratio", 0.3, "cell_count", rows (cells), ...
+                           "box", limits (points), "ranges", struct ("f", limits (field)));
+assert (told("result_cells"), state("result_cells"));
+function report = bounded (points, cells, field, is_last, varargin)
+  state = fresh_state ();
+  report = tetstream_simplify_stream (@() next (state, points, cells, field, is_last), ...
+                                      @(batch) 0, "ratio", 0.3, varargin{:});
+endfunction
+for wrong = {{"box", limits(points)}, {"ranges", struct("f", [0, 1])}, ...
+             {"box", limits(points), "ranges", struct("f", [0, 1], "g", [0, 1])}, ...
+             {"box", [0, 1], "ranges", struct("f", [0, 1])}, ...
+             {"box", flipud(limits(points)), "ranges", struct("f", [0, 1])}; ...
+             "that of \"f\" is missing", "beside a box", "\"g\" is no field", "2 x 3", "upside down"}
+  fails ("tetstream:bad-argument", wrong{2}, ...
+         @() bounded (points, cells, field, is_last, wrong{1}{:}));
+endfor
+
 ## An indexed mesh, in one batch, comes back as tetstream_simplify gives it.
 state = fresh_state ();
 function batch = whole (state, points, cells, field)

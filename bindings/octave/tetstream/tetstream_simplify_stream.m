@@ -18,6 +18,8 @@
 ##   "cell_count"    how many cells will come; a ratio is met early only where it is known
 ##   "vertex_count", "face_count", "front_width", "front_span", "front_cells"   as far as they are
 ##                   known; face_count: labelled faces
+##   "box", "ranges" as of tetstream_info, if they are known: 2 x 3, and a struct of 2 x k for each
+##                   field; errors are then measured in units of these from the first cell on
 ##   "indexed"       true: points are never finalized; the mesh is collected and ordered first
 ##   "weights", "progress", and every option of `tetstream simplify`.
 ##
@@ -34,7 +36,8 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
     endif
   endfor
   own = struct ("cell_count", -1, "vertex_count", -1, "face_count", -1, "front_width", -1,
-                "front_span", -1, "front_cells", -1, "indexed", false, "weights", [], "progress", []);
+                "front_span", -1, "front_cells", -1, "box", [], "ranges", [], "indexed", false,
+                "weights", [], "progress", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
   need_target (caller, options, varargin);
@@ -50,6 +53,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   for name = {"cell_count", "vertex_count", "face_count", "front_width", "front_span", "front_cells"}
     info.(name{1}) = own.(name{1});
   endfor
+  add_bounds (caller, info, batch.fields, own.box, own.ranges);
   simplifier.begin (info);
   while (has_any (batch))
     [events, kept] = filled_batch (caller, batch, 0, Inf);
