@@ -13,11 +13,9 @@ StreamInfo::StreamInfo(const tetstream_stream_info& info)
       front_width(info.front_width),
       front_span(info.front_span),
       front_cells(info.front_cells) {
-  size_t box = 3;
   for (int32_t i = 0; i < info.field_count; ++i) {
     const tetstream_column& c = info.fields[i];
     addField(c.name, c.components, c.type);
-    box += static_cast<size_t>(c.components);
   }
   for (int32_t i = 0; i < info.cell_data_count; ++i) {
     const tetstream_column& c = info.cell_data[i];
@@ -27,8 +25,8 @@ StreamInfo::StreamInfo(const tetstream_stream_info& info)
     const tetstream_label_name& n = info.label_names[i];
     addLabelName(n.cell_array, n.label, n.name);
   }
-  if (info.box_min) box_min_.assign(info.box_min, info.box_min + box);
-  if (info.box_max) box_max_.assign(info.box_max, info.box_max + box);
+  if (info.box_min) box_min_.assign(info.box_min, info.box_min + boxSize());
+  if (info.box_max) box_max_.assign(info.box_max, info.box_max + boxSize());
 }
 
 void StreamInfo::add(std::vector<tetstream_column>& columns, const char* name, int32_t components,
@@ -83,17 +81,21 @@ ArrayView StreamInfo::view(const std::vector<double>& box) {
   return {box.data(), TETSTREAM_TYPE_FLOAT64, static_cast<int64_t>(box.size()), 1};
 }
 
+size_t StreamInfo::boxSize() const {
+  size_t size = 3;
+  for (const tetstream_column& c : fields_) size += static_cast<size_t>(c.components);
+  return size;
+}
+
 void StreamInfo::addBound(double low, double high) {
   box_min_.push_back(low);
   box_max_.push_back(high);
 }
 
 tetstream_stream_info StreamInfo::info() const {
-  size_t box = 3;
-  for (const tetstream_column& c : fields_) box += static_cast<size_t>(c.components);
-  if (!box_min_.empty() && box_min_.size() != box)
+  if (!box_min_.empty() && box_min_.size() != boxSize())
     failArgument("the box has " + std::to_string(box_min_.size()) + " bounds, " +
-                 std::to_string(box) + " are wanted");
+                 std::to_string(boxSize()) + " are wanted");
   tetstream_stream_info out = {};
   out.struct_size = sizeof out;
   out.position_type = position_type;

@@ -54,6 +54,7 @@ class StreamInfo {
 
  private:
   static ArrayView view(const std::vector<double>& box);
+  size_t boxSize() const;
   void add(std::vector<tetstream_column>& columns, const char* name, int32_t components,
            int32_t type);
   const tetstream_label_name& labelName(int64_t index) const;

@@ -67,8 +67,12 @@ class Generators(unittest.TestCase):
         numpy.testing.assert_array_equal(info.ranges["f"].ravel(), told["ranges"]["f"])
         self.assertIsNone(announced().info().box)
         announced(box=announced().info().box, ranges=announced().info().ranges)
-        whole = Reader.stream(tetstream.Mesh(points, cells, {"f": field})).info()
+        more = tetstream.Mesh(numpy.concatenate([points, [[9, 9, 9]]]).astype(points.dtype), cells,
+                              {"f": numpy.append(field, -9999).astype(field.dtype)})
+        whole = Reader.stream(more).info()
         numpy.testing.assert_array_equal(whole.box, told["box"])
+        numpy.testing.assert_array_equal(whole.ranges["f"].ravel(), told["ranges"]["f"])
+        self.assertIsNone(Reader.stream(tetstream.Mesh(points, cells[:0], {"f": field})).info().box)
         self.same(self.simplified(announced(**told)), self.simplified(announced()))
         pushed = tetstream.simplify_batches(in_batches(points, cells, {"f": field}), points.dtype,
                                             {"f": field.dtype}, ratio=0.2, **told)

@@ -179,12 +179,14 @@ def batches_of(mesh):
                            if first == 0 else {}))
             begin = end
 
-    has_cells = len(cells) > 0
+    used = numpy.zeros(len(points), bool)  # points of no cell do not count
+    used[cells] = True
     return Reader.batches(batches(), points=points.dtype,
                           fields={c.name: (c.rows.dtype, c.components) for c in fields},
                           cell_data={c.name: (c.rows.dtype, c.components) for c in cell_data},
                           vertex_count=len(points), cell_count=len(cells),
                           face_count=0 if mesh.faces is None else len(mesh.faces),
                           label_names=mesh.label_names,
-                          box=_arrays.limits(points) if has_cells else None,
-                          ranges={c.name: _arrays.limits(c.rows) for c in fields if has_cells})
+                          box=_arrays.limits(points[used]) if len(cells) else None,
+                          ranges={c.name: _arrays.limits(c.rows[used])
+                                  for c in fields if len(cells)})
