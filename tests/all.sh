@@ -112,7 +112,7 @@ echo "== packages"
 bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzstd-dev liblz4-dev \
   liblzma-dev libdeflate-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev \
   clang libclang-rt-dev clang-format clang-tidy valgrind mandoc python3 python3-dev python3-numpy \
-  swig abigail-tools dpkg-dev zsh fish octave-dev gfortran python3-scipy \
+  swig abigail-tools dpkg-dev file zsh fish octave-dev gfortran python3-scipy \
   libopenmpi-dev || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"

@@ -205,8 +205,12 @@ class Group:
             if os.getuid() == 0:
                 os.setgid(65534)
                 os.setuid(65534)
-        reachable = subprocess.run([self.bench.tool, "--version"], preexec_fn=nobody,
-                                   capture_output=True).returncode == 0
+        try:
+            subprocess.run([self.bench.tool, "--version"], preexec_fn=nobody, capture_output=True,
+                           check=True)
+            reachable = True
+        except (OSError, subprocess.CalledProcessError):  # as where it lies in root's folder
+            reachable = False
         for command, _, _ in self.each(lambda command: command.outputs):
             for name, place in (("no such folder", "gone/"), ("a file in place of a folder",
                                                               "in.tets/"),

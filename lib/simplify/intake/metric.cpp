@@ -5,6 +5,7 @@
 
 #include "dear_angles.h"
 #include "field_weights.h"
+#include "one_number.h"
 #include "orient.h"
 #include "pilot.h"
 #include "settled.h"
@@ -103,28 +104,22 @@ void Metric<S>::growBox(uint32_t first, uint32_t end) {
     }
 }
 
+// Whether a vertex whose cells are still to come, or new, is not in the box that the stream told.
+template <class S>
+bool Metric<S>::liesOutside() const {
+  const Topology& mesh = core_.window.mesh;
+  for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
+    if (mesh.vertexFlags(v) & kResolved) continue;
+    const S* x = core_.window.values(v);
+    for (size_t i = 0; i < low_.size(); ++i)
+      if (static_cast<double>(x[i]) < low_[i] || static_cast<double>(x[i]) > high_[i]) return true;
+  }
+  return false;
+}
+
 template <class S>
 double Metric<S>::extent() const {
   return std::max({high_[0] - low_[0], high_[1] - low_[1], high_[2] - low_[2]});
-}
-
-// What differs by no more units in its last place is one number but for rounding, as are a density
-// of 1000, a gravity of 9.81 or weights that add up to 1: as a field it would be noise of the size
-// of the cells, which no mesh follows but the input. Five neighbouring float32; of float64, which
-// have come through more sums, some hundreds: no measurement has as many digits.
-constexpr double kRounding32 = 4, kRounding64 = 512;
-
-static double lastPlace(double value, ScalarType type) {
-  const int digits = type == ScalarType::kFloat32 ? 23 : 52;
-  return value == 0 ? 0 : std::ldexp(1.0, std::ilogb(value) - digits);
-}
-
-// Of a field each component is told by its own size; beside a larger one it may be what rounding
-// leaves of that, as a turned gravity has it, and no more.
-static bool isOneNumber(double low, double high, double largest, ScalarType type) {
-  const double units = type == ScalarType::kFloat32 ? kRounding32 : kRounding64;
-  const double own = std::max(std::fabs(low), std::fabs(high));
-  return high - low <= std::max(units * lastPlace(own, type), lastPlace(largest, type));
 }
 
 // Of all components of the field; 0 of one that is constant.
@@ -218,7 +213,7 @@ void Metric<S>::updateScales() {
     core_.inverse_scale[i] = usable ? inverse : scale;
   }
   used_range_ = range;
-  noteRounded();
+  noteConstant();
   fields_together_ = fieldsTogether();
   core_.extent = extent() > 0 ? extent() / length_unit_ : 1;
   const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;
@@ -227,11 +222,14 @@ void Metric<S>::updateScales() {
 }
 
 template <class S>
-void Metric<S>::noteRounded() {
-  core_.balance.rounded.assign(core_.plan.schema.fields.size(), false);
-  for (size_t i = 3; i < low_.size(); ++i)
-    if (high_[i] > low_[i] && used_range_[i] == 0)
-      core_.balance.rounded[static_cast<size_t>(core_.plan.measured_column[i - 3])] = true;
+void Metric<S>::noteConstant() {
+  std::vector<Variation>& varies = core_.balance.varies;
+  varies.assign(core_.plan.schema.fields.size(), Variation::kVaries);
+  for (size_t i = 3; i < low_.size(); ++i) {
+    Variation& field = varies[static_cast<size_t>(core_.plan.measured_column[i - 3])];
+    if (used_range_[i] > 0 || field == Variation::kByRounding) continue;
+    field = high_[i] > low_[i] ? Variation::kByRounding : Variation::kConstant;
+  }
 }
 
 // Old quadrics get the units of new ones, and the weight that they would have there: that of the
@@ -419,6 +417,7 @@ bool Metric<S>::canWeighFields(uint32_t cells) const {
 template <class S>
 void Metric<S>::prepare(uint32_t first, uint32_t end) {
   if (first == end) return;
+  if (box_known_ && liesOutside()) box_known_ = false;
   if (!box_known_) growBox(first, end);
   if (canWeighFields(end)) core_.balance.fields = weightsOfFields(core_, end, ranges());
   if (!unit_known_) chooseLengthUnit(first, end);

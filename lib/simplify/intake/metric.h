@@ -3,8 +3,9 @@
 // No unit of the user's may change the result. Lengths are divided by a power of two near the
 // first cells' edges, so that no product over- or underflows. A field is brought to the extent of
 // the mesh (paper, section 3: "normalised to the geometry range"). Where the stream does not say
-// its box, extent and ranges are those met so far; when they grow, the quadrics in the window are
-// carried over into the new units. Several fields are weighed against each other (field_weights.h).
+// its box, or one that is too small, extent and ranges are those met so far; when they grow, the
+// quadrics in the window are carried over into the new units. Several fields are weighed against
+// each other (field_weights.h).
 #pragma once
 
 #include "core.h"
@@ -33,6 +34,7 @@ class Metric {
 
  private:
   void growBox(uint32_t first, uint32_t end);
+  bool liesOutside() const;
   double rangeOf(size_t component) const;  // of the field it belongs to
   ScalarType typeOf(size_t component) const;
   double weightOf(size_t component) const;
@@ -41,7 +43,7 @@ class Metric {
   bool canWeighFields(uint32_t cells) const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
-  void noteRounded();
+  void noteConstant();
   void keepRange();
   double slackOf(size_t component) const;
   double largestNumberOf(size_t component) const;

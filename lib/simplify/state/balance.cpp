@@ -254,18 +254,21 @@ static std::string fieldsInWords(const Balance& balance, const std::vector<Colum
 }
 
 // The names of those that do not count at all.
-static std::string roundedInWords(const Balance& balance, const std::vector<Column>& fields) {
+static std::string constantInWords(const Balance& balance, Variation variation, const char* what,
+                                   const std::vector<Column>& fields) {
   std::string names;
-  for (size_t f = 0; f < balance.rounded.size(); ++f)
-    if (balance.rounded[f]) names += (names.empty() ? "" : ", ") + fields[f].name;
-  return names.empty() ? names : "constant but for rounding: " + names;
+  for (size_t f = 0; f < balance.varies.size(); ++f)
+    if (balance.varies[f] == variation) names += (names.empty() ? what : ", ") + fields[f].name;
+  return names;
 }
 
 std::string inWords(const Balance& balance, bool has_interfaces,
                     const std::vector<Column>& fields) {
   std::string text;
-  for (const std::string& part : {sheetsInWords(balance, has_interfaces),
-                                  fieldsInWords(balance, fields), roundedInWords(balance, fields)})
+  for (const std::string& part :
+       {sheetsInWords(balance, has_interfaces), fieldsInWords(balance, fields),
+        constantInWords(balance, Variation::kConstant, "constant: ", fields),
+        constantInWords(balance, Variation::kByRounding, "constant but for rounding: ", fields)})
     if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
   return text;
 }

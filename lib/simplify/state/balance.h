@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,11 +26,14 @@
 
 namespace tetstream {
 
+// How the values of a measured field differ.
+enum class Variation : uint8_t { kVaries, kByRounding, kConstant };
+
 // Times the weight of all sheets, and that of interfaces besides; 1 where it is not known.
 struct Balance {
   double outer = 1, interfaces = 1;
-  std::vector<double> fields;  // times each one's weight (field_weights.h); or none
-  std::vector<bool> rounded;   // fields that are constant but for rounding; or none
+  std::vector<double> fields;     // times each one's weight (field_weights.h); or none
+  std::vector<Variation> varies;  // each field's values; or none
   bool knows_outer = false, knows_interfaces = false;
   bool rough_interfaces = false;
 };

@@ -218,6 +218,22 @@ TEST(CommonBound, KeepsItsBoundWhenAllCellsAreOfTheFront) {
   EXPECT_LE(bound, 1e-2);
 }
 
+// What windows leave beside the target is made up for at the end, but not what they lose where they
+// are reduced to next to nothing in one go.
+TEST(CommonBound, IsApproachedByStreamsThatAreParkedOnlyWhereWindowsLeaveFew) {
+  const auto approaches = [](double ratio, double parked, Effort effort) {
+    CommonBound budget({ratio, 0, 0}, 100000, {}, false, effort, parked);
+    const Ledger first = {20000, 0, 2000, 20000, 10000};
+    budget.goalOf(first);
+    budget.learn(1e-3, first, first, 900);
+    return budget.goalOf(first).approaches;
+  };
+  EXPECT_EQ(approaches(0.01, 5, Effort::kNormal), 0) << "by twenty";
+  EXPECT_GT(approaches(0.01, 5, Effort::kHigh), 0);
+  EXPECT_GT(approaches(0.01, 2, Effort::kNormal), 0) << "by fifty";
+  EXPECT_GT(approaches(0.01, 1, Effort::kNormal), 0);
+}
+
 // When the quadrics are carried over into other units, so is all that was learnt.
 TEST(CommonBound, ChangesItsUnitsWithTheQuadrics) {
   const auto bounds = [](double rescaled, const Pilot& pilot) {

@@ -123,6 +123,21 @@ TEST(SeveralFields, OfNoExtentOrWeightLeaveTheOthersAlone) {
   }
 }
 
+// A constant field is told, of one that is carried along nothing is.
+TEST(SeveralFields, WithoutExtentAreTold) {
+  TestMesh mesh = fullGrid(4, 4, 4, 0.1);
+  addPositionField(mesh, {"front", 1, k64}, front);
+  mesh.addField({"density", 1, k64}, [](size_t, int) { return 1000.0; });
+  mesh.addField({"wind", 3, k64}, [](size_t, int i) { return i * 0.1; });
+  mesh.addField({"heat", 1, k64}, [](size_t v, int) { return 300 + 0x1p-42 * (v % 2 ? 1 : -1); });
+  const auto told = [&mesh](const SimplifyOptions& options) {
+    return simplified(mesh, options).report.balance;
+  };
+  EXPECT_EQ(told(measuring({})), "constant: density, wind; constant but for rounding: heat");
+  EXPECT_EQ(told(measuring({{"front", 1}, {"wind", 1}})), "constant: wind");
+  EXPECT_EQ(told(measuring({{"front", 1}})), "");
+}
+
 // Values that are one number but for rounding are as constant as that number.
 TEST(SeveralFields, ThatAreConstantButForRoundingLeaveTheOthersAlone) {
   TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), 2 * fieldsSide(), 0.1);
@@ -291,6 +306,23 @@ TEST(SeveralFields, AreNotPressedIntoARangeThatIsTooNarrow) {
   const auto [least, most] = rangeOf(result.out.mesh, 0, 0);
   EXPECT_LT(least, -0.95);
   EXPECT_GT(most, 0.95);
+}
+
+// What lies outside of the box that a stream tells widens it: of a field of which it tells one
+// number, too.
+TEST(SeveralFields, AreFollowedWhateverBoxIsTold) {
+  const double n = fieldsSide();
+  TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), 2 * fieldsSide(), 0.1);
+  addPositionField(mesh, {"front", 1, k64}, front);
+  const auto error = [&mesh](double size, double least, double most) {
+    mesh.schema.box_min = {0, 0, 0, least};
+    mesh.schema.box_max = {size, size, 2 * size, most};
+    return errorsOf(mesh, measuring({}))[0];
+  };
+  const double right = error(n, -1, 1);
+  for (auto [least, most] : {std::pair{0.0, 0.0}, {0.0, 1e-30}, {-1e-6, 1e-6}})
+    EXPECT_LT(error(n, least, most), 1.1 * right) << least << " to " << most;
+  EXPECT_LT(error(1e-9 * n, -1, 1), 1.1 * right);
 }
 
 // A quarter of a thin tube, with waves along it and a layer of a twentieth of its inner radius.
