@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "folder.h"
 #include "hdf5_testing.h"
 #include "vtu_read.h"
 
@@ -33,7 +34,6 @@ class XdmfHdf5 : public testing::Test {
     file.close();
     std::ofstream(path_, std::ios::binary) << bytes;
   }
-  ~XdmfHdf5() override { std::remove(path_.c_str()); }
 
   std::string text(const std::string& topology, const std::string& rows) const {
     return "<Xdmf><Domain><Grid><Topology TopologyType=\"Tetrahedron\"><DataItem Dimensions=\"" +
@@ -52,7 +52,8 @@ class XdmfHdf5 : public testing::Test {
     hdf5().Dwrite(set, hdf5().T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers);
   }
 
-  const std::string path_ = testing::TempDir() + "tetstream_xdmf_hdf5_test.h5";
+  const Folder folder_;
+  const std::string path_ = folder_.file("mesh.h5");
 };
 
 TEST_F(XdmfHdf5, IsReadWhereItLies) {

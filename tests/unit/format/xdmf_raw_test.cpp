@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "folder.h"
 #include "status.h"
 #include "vtu_mesh_testing.h"
 
@@ -50,13 +51,13 @@ std::string slab(const std::string& sizes, const std::string& numbers, const std
 
 class XdmfRaw : public testing::Test {
  protected:
-  ~XdmfRaw() override { std::remove(path_.c_str()); }
   void write(const std::string& bytes) const { std::ofstream(path_, std::ios::binary) << bytes; }
   std::string raw(const std::string& sizes, const std::string& words) const {
     return item(sizes, "Format=\"Binary\" " + words, "\n " + path_ + "\n");
   }
 
-  const std::string path_ = testing::TempDir() + "tetstream_xdmf_raw_test.bin";
+  const Folder folder_;
+  const std::string path_ = folder_.file("raw.bin");
 };
 
 TEST_F(XdmfRaw, NumbersOfAnyTypeAndByteOrderAreReadWhereTheyLie) {

@@ -2,9 +2,9 @@
 // petsc_gen_xdmf.py writes them.
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <fstream>
 
+#include "folder.h"
 #include "status.h"
 #include "vtu_mesh_testing.h"
 #include "xdmf_testing.h"
@@ -37,14 +37,14 @@ const std::string kNamedPoints =
 // Numbers of 32 bits in a raw file.
 class XdmfReferences : public testing::Test {
  protected:
-  ~XdmfReferences() override { std::remove(path_.c_str()); }
   void write(const std::vector<int32_t>& numbers) const {
     std::ofstream(path_, std::ios::binary)
         .write(reinterpret_cast<const char*>(numbers.data()),
                static_cast<std::streamsize>(sizeof numbers[0] * numbers.size()));
   }
 
-  const std::string path_ = testing::TempDir() + "tetstream_xdmf_references_test&.bin";
+  const Folder folder_;
+  const std::string path_ = folder_.file("tetstream_xdmf&.bin");
 };
 
 TEST_F(XdmfReferences, LeadToNamedItemsOfTheDomain) {
@@ -85,7 +85,7 @@ TEST_F(XdmfReferences, AFileLikeThoseOfPetsc) {
   const std::string directory = path_.substr(0, path_.rfind('/') + 1);
   const std::string doctype =
       "<?xml version=\"1.0\" ?>\n<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" [\n<!ENTITY HeavyData "
-      "\"tetstream_xdmf_references_test\">\n<!ENTITY HeavyData \"another\">\n]>\n";
+      "\"tetstream_xdmf\">\n<!ENTITY HeavyData \"another\">\n]>\n";
   const std::string file = directory + "&HeavyData;&amp;.bin";
   const std::string cells =
       xdmfItem("2 4", file, "Name=\"cells\" Format=\"Binary\" NumberType=\"Int\"");
