@@ -578,8 +578,8 @@ typedef struct tetstream_report {
   const char *reached;          /* the target that ended the run: "ratio", "cells", "error", or "" */
   const char *order;            /* how the input was ordered, in words. Since 0.1 */
   const char *balance;          /* what the boundary and interfaces count for less, and fields for
-                                   more than asked, and which have a value far from all others,
-                                   in words, or "". Since 0.1 */
+                                   more than asked, which are constant, and which have a value
+                                   far from all others, in words, or "". Since 0.1 */
   double volume_in, volume_out; /* of all cells, without signs, in the cube of the positions' unit:
                                    of the input and of what was written. Since 0.1 */
 } tetstream_report;

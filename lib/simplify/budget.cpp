@@ -61,8 +61,9 @@ constexpr double kGivenUp = 0.1;
 // 1.6 %, for 0.004 %.
 constexpr double kTightShare = 2;
 // Where windows leave so many times the target, what they took out of order is made up for at the
-// end: no passes on the way are needed, unless these are reduced by more than that, cells in over
-// cells out: 1e7 cells at 0.001 by way of twice the target had 16 % RMS error without, 3.2 with.
+// end, and no passes on the way are needed; but not what is lost where a window leaves less than
+// one of so many cells: 1e7 cells at 0.001 by way of twice the target had 16 % RMS error without
+// these passes, 3.2 with them.
 constexpr double kRoomyTimes = 2, kRoomyReduction = 25;
 
 namespace {

@@ -10,10 +10,10 @@ namespace tetstream {
 // in as much time at 0.02, 0.88 and 0.94 at 0.01, where windows need no passes on the way to their
 // bounds then (budget.cpp).
 constexpr double kLeastTimes = 1.25, kMostTimes = 4;
-// Of the stream's cells, that windows leave in any case: the less they leave the less they know of
-// what is to be followed, and to simplify so few further takes next to no time. At 0.001, 0.004 and
-// 0.01 four times the target had 1.5 to 10, 1.05 to 1.8 and 1.02 to 1.03 times the error (isabel,
-// and 1.2e6 cells with a peak, twelve of them, a front and waves).
+// Of the stream's cells, that windows leave though it be more, as far as that many may be parked:
+// the less they leave the more is lost, and to simplify so few further takes next to no time. At
+// 0.001, 0.004 and 0.01 four times the target had 1.5 to 10, 1.05 to 1.8 and 1.02 to 1.03 times the
+// error (isabel, and 1.2e6 cells with a peak, twelve of them, a front and waves).
 constexpr double kLeastLeft = 0.05;
 
 // With high effort streams of more cells gain by it what they take longer.
