@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "mix.h"
 #include "vector3.h"
@@ -51,7 +52,13 @@ void BalanceSample<S>::addInside(uint32_t v, const Star& star) {
   keepUnique();
   field_costs_.clear();
   for (uint32_t other : others_) field_costs_.push_back(fieldErrorTowards(v, other));
-  costs_.inside.sample.push_back({usual(field_costs_), 0});
+  const double usual = usualCost(field_costs_.data(), field_costs_.size());
+  costs_.inside.sample.push_back({{usual, 0}});
+}
+
+// What is no number counts as nothing, and so does what rounding leaves below it.
+static double knownCost(double cost) {
+  return std::isfinite(cost) && cost > 0 ? cost : 0;
 }
 
 template <class S>
@@ -66,14 +73,12 @@ void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, Sh
     addFaceShape(core_, x, kind, q);
   }
   keepUnique();
-  field_costs_.clear();
-  sheet_costs_.clear();
-  for (uint32_t other : others_) {
-    field_costs_.push_back(fieldErrorTowards(v, other));
-    sheet_costs_.push_back(errorTowards(sheet_.data(), v, other));
-  }
+  Ways ways;
+  for (uint32_t other : others_)
+    ways.push_back(
+        {knownCost(fieldErrorTowards(v, other)), knownCost(errorTowards(sheet_.data(), v, other))});
   RemovalCosts::Group& group = kind == SheetFace::kOuter ? costs_.outer : costs_.interfaces;
-  group.sample.push_back({usual(field_costs_), usual(sheet_costs_)});
+  group.sample.push_back(std::move(ways));
 }
 
 template <class S>

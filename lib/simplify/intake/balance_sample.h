@@ -44,7 +44,6 @@ class BalanceSample {
  private:
   double fieldErrorTowards(uint32_t v, uint32_t other);
   double errorTowards(const S* quadric, uint32_t v, uint32_t other);
-  static double usual(std::vector<double>& costs) { return usualCost(costs.data(), costs.size()); }
   void keepUnique();
   uint64_t placeKey(uint32_t v) const;
 
@@ -68,7 +67,7 @@ class BalanceSample {
   std::vector<S> sheet_, nowhere_, difference_;
   const std::vector<S> nothing_;
   std::vector<uint32_t> others_;
-  std::vector<double> field_costs_, sheet_costs_;
+  std::vector<double> field_costs_;
   std::vector<Pair> pairs_;
 };
 

@@ -36,7 +36,7 @@ class SweepBounds {
   };
   double limit() const;
   // That of all vertices, in percent of the range of the fields.
-  double mostPercent() const { return reach_ ? reach_->percent : 0; }
+  double mostPercent() const;
   bool widen(const Goal& goal, const Refused& refused);
 
  private:
@@ -50,6 +50,7 @@ class SweepBounds {
 
   bool isNear(const Goal& goal) const;
   double errorIn(const Reach& reach) const;
+  double allowed() const;
   const Reach* widest(const Goal& goal, const Refused& refused) const;
   double boundToTake(double cells) const;
   double stepToError(double limit) const;

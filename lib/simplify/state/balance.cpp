@@ -9,10 +9,14 @@ namespace tetstream {
 namespace {
 
 constexpr double kLeastBalance = 1.0 / 128;
+// Beside interfaces that are rough, which follow nothing, twice as much: bodies of grains lost
+// corners.
+constexpr double kBesideRough = 0.5;
 // A step halves a weight. The logarithm of the product of both squared errors has to fall by so
-// much for it, or noise would take it.
-constexpr double kWorth = 0.1;
-// A sheet that adds less than this share of the fields' error, as a plane one does, starves none.
+// much for it, or noise would take it; where more of the stream is to come, by more.
+constexpr double kWorth = 0.03, kWorthInStream = 0.1;
+// A sheet that adds less than this share of the fields' error, as a plane one does, or one of which
+// all is kept, is left alone.
 constexpr double kNegligible = 1e-3;
 // Edges do not become longer than so many times their length, nor what costs nothing free: of the
 // mean cost.
@@ -51,16 +55,35 @@ class Model {
   }
 
  private:
-  static std::vector<Item> items(const RemovalCosts::Group& group, double weight) {
+  // The mean of the cheaper third of the ways: the cheapest alone would be too cheap.
+  Removal expected(const Ways& ways, double weight) {
+    ways_ = ways;
+    const size_t third = ways_.size() / 3;
+    std::nth_element(ways_.begin(), ways_.begin() + static_cast<std::ptrdiff_t>(third), ways_.end(),
+                     [weight](const Removal& a, const Removal& b) {
+                       return a.field + weight * a.sheet < b.field + weight * b.sheet;
+                     });
+    Removal mean = {0, 0};
+    const auto count = static_cast<double>(third + 1);
+    for (size_t i = 0; i < std::min(third + 1, ways_.size()); ++i) {
+      mean.field += ways_[i].field / count;
+      mean.sheet += ways_[i].sheet / count;
+    }
+    return mean;
+  }
+
+  std::vector<Item> items(const RemovalCosts::Group& group, double weight) {
     std::vector<Item> all;
     double sum = 0;
-    for (const Removal& r : group.sample) sum += r.field + weight * r.sheet;
     const auto size = static_cast<double>(group.sample.size());
-    const double least = kLeastCost * sum / size;
-    for (const Removal& r : group.sample) {
-      const double cost = std::max(r.field + weight * r.sheet, least);
-      if (cost > 0) all.push_back({std::log(cost), r.field, r.sheet, group.vertices / size});
+    for (const Ways& ways : group.sample) {
+      const Removal r = expected(ways, weight);
+      sum += r.field + weight * r.sheet;
+      all.push_back({r.field + weight * r.sheet, r.field, r.sheet, group.vertices / size});
     }
+    const double least = kLeastCost * sum / size;
+    if (!(least > 0)) return {};
+    for (Item& item : all) item.log_cost = std::log(std::max(item.log_cost, least));
     return all;
   }
 
@@ -102,13 +125,15 @@ class Model {
     for (const Item& item : items) {
       const double length = logLength(item, law, log_cost);
       const double power = (part == &Item::field ? kInsideLaw : kSheetLaw).cost_power;
-      sum += item.count * item.*part * std::exp((power - law.density_power) * length);
+      const double left = item.count * std::exp(-law.density_power * length);
+      sum += left * item.*part * std::expm1(power * length);
     }
     return sum;
   }
 
   const RemovalCosts& costs_;
   std::vector<Item> inside_, outer_, interfaces_;
+  Ways ways_;
 };
 
 }  // namespace
@@ -123,18 +148,18 @@ static bool isEnough(const RemovalCosts::Group& sheet) {
 
 // Halves the weight as often as is worth it most. All are tried: of what is far too heavy nothing
 // moves at first.
-static void lower(Model& model, double ratio, const RemovalCosts::Group& sheet,
+static void lower(Model& model, double ratio, double worth, const RemovalCosts::Group& sheet,
                   double Balance::*weight, Balance* balance) {
   const Model::Logs now = model.foretell(*balance, ratio, sheet);
   if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(kNegligible)) return;
   double least = now.product(), asked = 0;
   Balance next = *balance;
   // Interfaces fall with the boundary: those that are rough may fall as far as they like.
-  const double interfaces = balance->rough_interfaces ? 1 : balance->interfaces;
+  const double interfaces = balance->rough_interfaces ? kBesideRough : balance->interfaces;
   const double besides = weight == &Balance::outer ? interfaces : balance->outer;
   while (besides * next.*weight > kLeastBalance) {
     next.*weight /= 2;
-    asked += kWorth;
+    asked += worth;
     const double product = model.foretell(next, ratio, sheet).product() + asked;
     if (!(product < least)) continue;
     least = product;
@@ -182,7 +207,8 @@ static bool areRough(const RemovalCosts& costs) {
   if (!isEnough(jitter) || !are_off) return false;
   if (!(jitter.product < -kLeastAgainst * jitter.square)) return false;
   double field = 0;
-  for (const Removal& r : costs.interfaces.sample) field += r.field;
+  for (const Ways& ways : costs.interfaces.sample)
+    for (const Removal& r : ways) field += r.field / static_cast<double>(ways.size());
   const auto sampled = static_cast<double>(costs.interfaces.sample.size());
   return field * costs.interfaces.vertices > costs.least_field * sampled;
 }
@@ -206,16 +232,17 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
   const bool is_wall = costs.is_whole && kOfWalls * costs.inside.vertices < costs.outer.vertices;
   if (!is_wall && costs.inside.vertices < kLeastVertices) return;
   Model model(costs);
+  const double worth = costs.is_whole ? kWorth : kWorthInStream;
   if (!balance->knows_outer && isEnough(costs.outer) && hasFields(model, costs, ratio, *balance)) {
     if (costs.touching < kTouching && is_wall)
       lowerInWalls(model, ratio, costs.outer, balance);
     else if (costs.touching < kTouching)
-      lower(model, ratio, costs.outer, &Balance::outer, balance);
+      lower(model, ratio, worth, costs.outer, &Balance::outer, balance);
     balance->knows_outer = true;
   }
   if (costs.inside.vertices < kLeastVertices) return;
   if (!balance->knows_interfaces && isEnough(costs.interfaces)) {
-    lower(model, ratio, costs.interfaces, &Balance::interfaces, balance);
+    lower(model, ratio, worth, costs.interfaces, &Balance::interfaces, balance);
     balance->knows_interfaces = true;
   }
 }

@@ -9,7 +9,8 @@
 //   input: inside as s^7 (a squared error, s^4, times a volume), on a sheet as s^6 (s^4 times an
 //   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that
 //   s = (t / c)^(1/7) or (t / c)^(1/6), where that is more than 1; t is what leaves the ratio of
-//   vertices that is asked for. Errors are the sums of what was added for those that are left.
+//   vertices that is asked for. Errors are the sums of what was added for those that are left, and
+//   nothing where s is 1. Which ways vertices go changes with the weight, and c with that.
 // Where much of the boundary lies upon itself, as at a contact of two bodies or at a crack, fields
 // may jump from one side to the other: what it is off by is an error of theirs, and its weight
 // stays. Interfaces that are rough, as where cells have the label of the side that their centres
@@ -42,11 +43,13 @@ struct Balance {
 // only where there are any.
 std::string inWords(const Balance& balance, bool has_interfaces, const std::vector<Column>& fields);
 
-// What taking a vertex out adds to the error of the fields and, with its weight, to that of the
-// sheet that it lies on.
+// What taking a vertex out to one of its neighbours adds to the error of the fields and, with the
+// weight that was asked for, to that of the sheet that it lies on.
 struct Removal {
   double field, sheet;
 };
+// The ways that a vertex may go, or what it may be expected to cost alone.
+using Ways = std::vector<Removal>;
 
 // Of what going to each of a vertex's neighbours costs, that where a third of them cost less: what
 // it may be expected to cost. The cheapest would be too cheap: along a cylinder half of all
@@ -56,7 +59,7 @@ double usualCost(double* costs, size_t count);
 // Of vertices inside regions, on the boundary, and on interfaces.
 struct RemovalCosts {
   struct Group {
-    std::vector<Removal> sample;
+    std::vector<Ways> sample;
     double vertices = 0;  // that it stands for
   };
   Group inside, outer, interfaces;
@@ -75,8 +78,8 @@ struct RemovalCosts {
 
 // Chooses what is not known of sheets, where they and the inside have enough vertices and samples,
 // for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
-// vertices too many are edges and corners. Where next to none is inside nothing starves: in walls
-// of one cell, as far as a whole mesh tells, the boundary counts less where it drowns the field.
+// vertices too many are edges and corners. Where next to none is inside, as in walls of one cell, a
+// whole mesh tells: there the boundary counts less where it drowns the field.
 constexpr double kLeastVertices = 256;
 constexpr size_t kLeastPairs = 32;  // tell whether interfaces are rough
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "field_error.h"
+#include "shapes.h"
 #include "simplify_testing.h"
 
 namespace tetstream::test {
@@ -13,8 +14,8 @@ namespace {
 
 RemovalCosts costsOf(Removal inside, double inside_vertices, Removal outer, double outer_vertices) {
   RemovalCosts costs;
-  costs.inside = {std::vector<Removal>(64, inside), inside_vertices};
-  costs.outer = {std::vector<Removal>(64, outer), outer_vertices};
+  costs.inside = {std::vector<Ways>(64, {inside}), inside_vertices};
+  costs.outer = {std::vector<Ways>(64, {outer}), outer_vertices};
   return costs;
 }
 
@@ -50,6 +51,30 @@ TEST(Balance, LeavesABoundaryThatTouchesItself) {
   EXPECT_EQ(balance.outer, 1);
 }
 
+// Vertices of the sheet may go one way that costs the field much and the sheet little, or another
+// that costs the sheet hardly more and the field next to nothing.
+TEST(Balance, LowersABoundaryThatChoosesTheWrongWaysForTheField) {
+  RemovalCosts costs = costsOf({1e-4, 0}, 500, {}, 500);
+  costs.outer.sample.assign(64, {{1, 1}, {0.01, 1.5}});
+  costs.is_whole = true;
+  EXPECT_LT(chosen(costs, 0.1).outer, 1);
+  costs.outer.sample.assign(64, {{1, 1}, {0.9, 1.5}});
+  EXPECT_EQ(chosen(costs, 0.1).outer, 1);
+}
+
+// A part of the boundary, as ridges and corners, costs so much that all of it is kept, and is no
+// error: that the rest may be off by little is not lost beside it.
+TEST(Balance, CountsNoErrorForWhatIsKept) {
+  const auto balanceWith = [](double ridges) {
+    RemovalCosts costs = costsOf({1e-3, 0}, 5000, {1e-3, 1e-3}, 1000);
+    costs.outer.sample.resize(72, {{1e-3, ridges}});
+    costs.is_whole = true;
+    return chosen(costs, 0.2).outer;
+  };
+  EXPECT_EQ(balanceWith(1e-3), 1);
+  EXPECT_EQ(balanceWith(1e6), 1);
+}
+
 // A boundary with few of the vertices cannot starve those inside.
 TEST(Balance, LeavesTheBoundaryOfABulkyBody) {
   EXPECT_EQ(chosen(costsOf({1e-6, 0}, 1e6, {1e-6, 1e-4}, 5e3), 0.1).outer, 1);
@@ -73,9 +98,9 @@ TEST(Balance, WaitsForFieldsThatHaveErrors) {
   const Balance early = chosen(costs, 0.1);
   EXPECT_FALSE(early.knows_outer);
   EXPECT_EQ(early.outer, 1);
-  costs.inside.sample.assign(64, {1e-4, 0});
+  costs.inside.sample.assign(64, {{1e-4, 0}});
   EXPECT_TRUE(chosen(costs, 0.1).knows_outer);
-  costs.inside.sample.assign(64, {1e-12, 0});
+  costs.inside.sample.assign(64, {{1e-12, 0}});
   costs.is_whole = true;
   EXPECT_TRUE(chosen(costs, 0.1).knows_outer) << "nothing is to come";
 }
@@ -88,12 +113,12 @@ TEST(Balance, LowersTheBoundaryOfAWallWhereItDrownsTheField) {
   EXPECT_EQ(chosen(wall, 0.1).outer, 1);
   wall.is_whole = true;
   EXPECT_EQ(chosen(wall, 0.1).outer, 1.0 / 128);
-  wall.outer = {std::vector<Removal>(64, {1, 64 * 8}), 500};
+  wall.outer = {std::vector<Ways>(64, {{1, 64 * 8}}), 500};
   EXPECT_LT(chosen(wall, 0.1).outer, 1);
   EXPECT_GT(chosen(wall, 0.1).outer, 1.0 / 16);
-  wall.outer = {std::vector<Removal>(64, {1, 60}), 500};
+  wall.outer = {std::vector<Ways>(64, {{1, 60}}), 500};
   EXPECT_EQ(chosen(wall, 0.1).outer, 1);
-  wall.outer = {std::vector<Removal>(64, {1, 0}), 500};
+  wall.outer = {std::vector<Ways>(64, {{1, 0}}), 500};
   EXPECT_EQ(chosen(wall, 0.1).outer, 1);
 }
 
@@ -107,7 +132,7 @@ TEST(Balance, ComesToAnEndWithoutFieldErrors) {
 // the same side or to the other, from 1 to -1.
 RemovalCosts bentCosts(size_t pairs, double part, double same_side, double field) {
   RemovalCosts costs;
-  costs.interfaces = {std::vector<Removal>(pairs, {field, 1}), 100};
+  costs.interfaces = {std::vector<Ways>(pairs, {{field, 1}}), 100};
   const double square = part * part * static_cast<double>(pairs);
   costs.jitter = {pairs, part > 0.01 ? pairs : 0, square, same_side * square};
   costs.least_field = 1e-3;
@@ -159,7 +184,7 @@ TEST(Balance, LeavesPlanesWithRims) {
 TEST(Balance, LowersARoughBoundaryBesideRoughInterfaces) {
   RemovalCosts costs = costsOf({1e-4, 0}, 500, {1e-4, 1}, 500);
   const double alone = chosen(costs, 0.1).outer;
-  costs.interfaces = {std::vector<Removal>(64, {1e-4, 1e-4}), 10};
+  costs.interfaces = {std::vector<Ways>(64, {{1e-4, 1e-4}}), 10};
   costs.jitter = bentCosts(64, 0.05, -0.3, 1).jitter;
   EXPECT_LT(chosen(costs, 0.1).interfaces, 0.01);
   EXPECT_NEAR(std::log2(chosen(costs, 0.1).outer), std::log2(alone), 1.01);
@@ -184,9 +209,9 @@ TestMesh slab(int n, double roughness) {
   return mesh;
 }
 
-// A pipe whose wall is one cube thick.
-TestMesh pipe(int around, int along) {
-  const TestMesh grid = fullGrid(around, along, 1);
+// A pipe whose wall is one cube thick, or more.
+TestMesh pipe(int around, int along, int thick = 1) {
+  const TestMesh grid = fullGrid(around, along, thick);
   std::vector<double> positions;
   for (size_t v = 0; v < grid.vertexCount(); ++v) {
     const double angle = 5.5 * grid.position(v, 0) / around;
@@ -235,6 +260,48 @@ TEST(SimplifierBalance, FollowsASmoothFieldInAThinWall) {
   EXPECT_NE(with.report.balance.find("the boundary counts 1/"), std::string::npos);
   EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], 0.8 * fieldErrors(mesh, without.out.mesh)[0]);
   EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(with.out.mesh)), "");
+}
+
+// Two cells between two cylinders; the field changes around it, too.
+TEST(SimplifierBalance, FollowsASmoothFieldInAWallOfTwoCells) {
+  const int n = slowRun() ? 24 : 36;
+  const TestMesh mesh = pipe(n, n, 2);
+  const Result with = simplified(mesh, toRatio(0.1));
+  const Result without = simplified(mesh, unbalanced(toRatio(0.1)));
+  expectSound(mesh, with);
+  expectReached(with);
+  EXPECT_NE(with.report.balance.find("the boundary counts 1/"), std::string::npos);
+  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], 0.7 * fieldErrors(mesh, without.out.mesh)[0]);
+}
+
+// How far the farthest vertex is from all that were there.
+double farthestOut(const TestMesh& mesh, const TestMesh& from) {
+  double farthest = 0;
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) {
+    double nearest = 1e9;
+    for (size_t w = 0; w < from.vertexCount(); ++w) {
+      double square = 0;
+      for (int i = 0; i < 3; ++i) square += std::pow(mesh.position(v, i) - from.position(w, i), 2);
+      nearest = std::min(nearest, square);
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return std::sqrt(farthest);
+}
+
+// What touches along edges stays, so that the target is out of reach; what the boundary is allowed
+// to be off by until that is plain does not grow with what it counts less.
+TEST(SimplifierBalance, KeepsTheShapeOfBlocksThatStayAsTheyAre) {
+  const int side = slowRun() ? 4 : 5, n = 4 * side;
+  TestMesh mesh = cubes(
+      n, n, n, [side](int x, int y, int z) { return (x / side + y / side + z / side) % 2 == 0; });
+  addPositionField(mesh, {"f", 1, k32}, [n](double x, double y, double z) {
+    return std::sin(6 * x / n) * y / n + z * z / n / n;
+  });
+  const Result result = simplified(mesh, toRatio(0.02));
+  EXPECT_NE(result.report.balance, "");
+  EXPECT_NE(result.report.limited_by, "");
+  EXPECT_LT(farthestOut(result.out.mesh, mesh), slowRun() ? 2 : 1.5);
 }
 
 void expectBytesOfUnbalanced(const TestMesh& mesh, const SimplifyOptions& options,
