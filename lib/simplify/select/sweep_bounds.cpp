@@ -24,7 +24,7 @@ constexpr double kNear = 1.25, kFewAsLarge = 0.15;
 // Where the boundary counts a 128th it may be 11 times as far off for the same error. Of squared
 // errors that are allowed this power of its part is left: 1.8 times as far, the fields a sixth.
 // Blocks that touch along edges were off by a block for 6 % of the cells.
-constexpr double kAllowed = 0.75;
+constexpr double kPartAllowed = 0.75;
 // Of no more cells the mean error tells nothing, and the largest is none for the last few.
 constexpr int64_t kFewCells = 1000, kFewest = 48;
 // With high effort: the smaller steps are, the more nearly edges are taken in the order of
@@ -158,18 +158,18 @@ double SweepBounds<S>::errorIn(const Reach& reach) const {
 
 template <class S>
 double SweepBounds<S>::limit() const {
-  return reach_ ? allowed() * errorIn(*reach_) : std::numeric_limits<double>::infinity();
+  return reach_ ? partAllowed() * errorIn(*reach_) : std::numeric_limits<double>::infinity();
 }
 
 template <class S>
 double SweepBounds<S>::mostPercent() const {
-  return reach_ ? std::sqrt(allowed()) * reach_->percent : 0;
+  return reach_ ? std::sqrt(partAllowed()) * reach_->percent : 0;
 }
 
-// note: of meshes with regions all, whose walls would be left with several times the target.
+// note: all of it beside regions: walls of them would be left with several times the target.
 template <class S>
-double SweepBounds<S>::allowed() const {
-  return core_.interfaces ? 1 : std::pow(core_.balance.outer, kAllowed);
+double SweepBounds<S>::partAllowed() const {
+  return core_.interfaces ? 1 : std::pow(core_.balance.outer, kPartAllowed);
 }
 
 // Null: no farther.

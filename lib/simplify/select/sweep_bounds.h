@@ -50,7 +50,7 @@ class SweepBounds {
 
   bool isNear(const Goal& goal) const;
   double errorIn(const Reach& reach) const;
-  double allowed() const;
+  double partAllowed() const;
   const Reach* widest(const Goal& goal, const Refused& refused) const;
   double boundToTake(double cells) const;
   double stepToError(double limit) const;

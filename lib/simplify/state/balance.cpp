@@ -55,35 +55,41 @@ class Model {
   }
 
  private:
+  static double costOf(const Removal& removal, double weight) {
+    return removal.field + weight * removal.sheet;
+  }
+
   // The mean of the cheaper third of the ways: the cheapest alone would be too cheap.
   Removal expected(const Ways& ways, double weight) {
+    if (ways.empty()) return {0, 0};
     ways_ = ways;
     const size_t third = ways_.size() / 3;
     std::nth_element(ways_.begin(), ways_.begin() + static_cast<std::ptrdiff_t>(third), ways_.end(),
                      [weight](const Removal& a, const Removal& b) {
-                       return a.field + weight * a.sheet < b.field + weight * b.sheet;
+                       return costOf(a, weight) < costOf(b, weight);
                      });
     Removal mean = {0, 0};
-    const auto count = static_cast<double>(third + 1);
-    for (size_t i = 0; i < std::min(third + 1, ways_.size()); ++i) {
-      mean.field += ways_[i].field / count;
-      mean.sheet += ways_[i].sheet / count;
+    for (size_t i = 0; i <= third; ++i) {
+      mean.field += ways_[i].field / static_cast<double>(third + 1);
+      mean.sheet += ways_[i].sheet / static_cast<double>(third + 1);
     }
     return mean;
   }
 
   std::vector<Item> items(const RemovalCosts::Group& group, double weight) {
-    std::vector<Item> all;
+    std::vector<Removal> removals;
     double sum = 0;
-    const auto size = static_cast<double>(group.sample.size());
     for (const Ways& ways : group.sample) {
-      const Removal r = expected(ways, weight);
-      sum += r.field + weight * r.sheet;
-      all.push_back({r.field + weight * r.sheet, r.field, r.sheet, group.vertices / size});
+      removals.push_back(expected(ways, weight));
+      sum += costOf(removals.back(), weight);
     }
+    const auto size = static_cast<double>(removals.size());
     const double least = kLeastCost * sum / size;
-    if (!(least > 0)) return {};
-    for (Item& item : all) item.log_cost = std::log(std::max(item.log_cost, least));
+    std::vector<Item> all;
+    for (const Removal& r : removals) {
+      const double cost = std::max(costOf(r, weight), least);
+      if (cost > 0) all.push_back({std::log(cost), r.field, r.sheet, group.vertices / size});
+    }
     return all;
   }
 

@@ -28,9 +28,12 @@ static std::string regionArrays(const Core<S>& core) {
   return names;
 }
 
+// Rounded down: errors are as large and more.
 static const char* sizeInWords(double percent) {
   if (percent >= 100) return "as large as";
-  return percent > 10 ? "of a fifth of" : "of a tenth of";
+  if (percent >= 50) return "of half of";
+  if (percent >= 20) return "of a fifth of";
+  return percent >= 10 ? "of a tenth of" : "of a hundredth of";
 }
 
 template <class S>

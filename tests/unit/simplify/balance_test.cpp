@@ -250,28 +250,27 @@ TEST(SimplifierBalance, FollowsASmoothFieldInARoughBody) {
   }
 }
 
-// All of its vertices lie on the boundary, which bends around it, and the field along it.
-TEST(SimplifierBalance, FollowsASmoothFieldInAThinWall) {
-  const TestMesh mesh = slowRun() ? pipe(30, 40) : pipe(40, 60);
-  const Result with = simplified(mesh, toRatio(0.1));
-  const Result without = simplified(mesh, unbalanced(toRatio(0.1)));
+// By less than so many times the error that it has where nothing is lowered.
+void expectFieldFollowed(const TestMesh& mesh, double ratio, double times) {
+  const Result with = simplified(mesh, toRatio(ratio));
+  const Result without = simplified(mesh, unbalanced(toRatio(ratio)));
   expectSound(mesh, with);
   expectReached(with);
   EXPECT_NE(with.report.balance.find("the boundary counts 1/"), std::string::npos);
-  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], 0.8 * fieldErrors(mesh, without.out.mesh)[0]);
+  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], times * fieldErrors(mesh, without.out.mesh)[0]);
   EXPECT_EQ(topologyChange(factsOf(mesh), factsOf(with.out.mesh)), "");
 }
 
-// Two cells between two cylinders; the field changes around it, too.
+// All of its vertices lie on the boundary, which bends around it, and the field along it.
+TEST(SimplifierBalance, FollowsASmoothFieldInAThinWall) {
+  expectFieldFollowed(slowRun() ? pipe(30, 40) : pipe(40, 60), 0.1, 0.8);
+}
+
+// A third of its vertices lie inside; next to none of those that are left do, and the boundary
+// costs as much with any weight.
 TEST(SimplifierBalance, FollowsASmoothFieldInAWallOfTwoCells) {
   const int n = slowRun() ? 24 : 36;
-  const TestMesh mesh = pipe(n, n, 2);
-  const Result with = simplified(mesh, toRatio(0.1));
-  const Result without = simplified(mesh, unbalanced(toRatio(0.1)));
-  expectSound(mesh, with);
-  expectReached(with);
-  EXPECT_NE(with.report.balance.find("the boundary counts 1/"), std::string::npos);
-  EXPECT_LT(fieldErrors(mesh, with.out.mesh)[0], 0.7 * fieldErrors(mesh, without.out.mesh)[0]);
+  expectFieldFollowed(pipe(n, n, 2), 0.02, 0.6);
 }
 
 // How far the farthest vertex is from all that were there.
