@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -18,6 +19,19 @@ BalanceSample<S>::BalanceSample(Core<S>& core)
       nowhere_(sheet_.size()),
       difference_(static_cast<size_t>(core.plan.dimension)),
       nothing_(sheet_.size()) {}
+
+// Of the range of the fields: smaller errors are alike.
+constexpr double kLeastFieldError = 1e-5;
+
+template <class S>
+void BalanceSample<S>::start(const Group groups[3], bool is_whole) {
+  costs_.is_whole = is_whole;
+  costs_.outer.vertices = static_cast<double>(groups[0].of);
+  costs_.interfaces.vertices = static_cast<double>(groups[1].of);
+  costs_.inside.vertices = static_cast<double>(groups[2].of);
+  const double least = kLeastFieldError * core_.extent;
+  for (size_t i = 0; i < 3; ++i) costs_.least_field += least * least * groups[i].volume;
+}
 
 // Its own minimum is at v, where it is 0.
 template <class S>
@@ -56,13 +70,17 @@ void BalanceSample<S>::addInside(uint32_t v, const Star& star) {
   costs_.inside.sample.push_back({{usual, 0}});
 }
 
+// All vertices of the boundary are looked at from each of these: from every fourth.
+constexpr size_t kPerSight = 4;
+
 // What is no number counts as nothing, and so does what rounding leaves below it.
 static double knownCost(double cost) {
   return std::isfinite(cost) && cost > 0 ? cost : 0;
 }
 
 template <class S>
-void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, SheetFace kind) {
+void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, const Star& star,
+                                  SheetFace kind) {
   others_.clear();
   std::fill(sheet_.begin(), sheet_.end(), S(0));
   for (const Face& face : faces) {
@@ -79,6 +97,7 @@ void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, Sh
         {knownCost(fieldErrorTowards(v, other)), knownCost(errorTowards(sheet_.data(), v, other))});
   RemovalCosts::Group& group = kind == SheetFace::kOuter ? costs_.outer : costs_.interfaces;
   group.sample.push_back(std::move(ways));
+  if (kind == SheetFace::kOuter && group.sample.size() % kPerSight == 1) addSight(v, faces, star);
 }
 
 template <class S>
@@ -114,6 +133,45 @@ typename BalanceSample<S>::Bend BalanceSample<S>::bendAt(uint32_t v,
   bend.height = dot(around, bend.normal) / count;
   bend.edges /= count;
   return bend;
+}
+
+// Of a vertex whose sheet is closed: others have no one normal.
+template <class S>
+void BalanceSample<S>::addSight(uint32_t v, const std::vector<Face>& faces, const Star& star) {
+  const Bend bend = bendAt(v, faces);
+  if (!bend.is_closed) return;
+  Sight sight = {v, v, {}, {}, std::numeric_limits<double>::infinity(), sheet_};
+  positionOf(core_.window, v, sight.place);
+  double inwards = 0;
+  for (const StarCell& cell : star)
+    for (const uint32_t other : cell.t) {
+      double y[3];
+      positionOf(core_.window, other, y);
+      for (size_t i = 0; i < 3; ++i) inwards += (y[i] - sight.place[i]) * bend.normal[i];
+    }
+  const double away = inwards < 0 ? 1 : -1;
+  for (size_t i = 0; i < 3; ++i) sight.along[i] = away * bend.normal[i];
+  sights_.push_back(std::move(sight));
+}
+
+// What is seen lies within 45 degrees of the normal.
+template <class S>
+void BalanceSample<S>::addGaps(const uint32_t* all, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    double y[3];
+    positionOf(core_.window, all[i], y);
+    for (Sight& sight : sights_) {
+      const double d[3] = {y[0] - sight.place[0], y[1] - sight.place[1], y[2] - sight.place[2]};
+      const double square = dot(d, d), ahead = dot(d, sight.along);
+      if (!(square < sight.square && ahead > 0 && 2 * ahead * ahead > square)) continue;
+      sight.square = square;
+      sight.nearest = all[i];
+    }
+  }
+  for (const Sight& sight : sights_)
+    costs_.gaps.push_back(sight.nearest == sight.from
+                              ? std::numeric_limits<double>::infinity()
+                              : errorTowards(sight.sheet.data(), sight.from, sight.nearest));
 }
 
 template <class S>

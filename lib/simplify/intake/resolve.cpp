@@ -162,7 +162,7 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
     startUnsettled(window, v, window.scratch()[v] < first_new);
   }
   std::fill_n(window.scratch(), mesh.vertexEnd(), 0u);
-  if (!is_balanced) balance(vertices, count);
+  if (!is_balanced) balance(open);
   for (size_t done = 0; done < open;) {
     for (size_t i = done; i < open; ++i)
       window.scratch()[open_[i]] = static_cast<uint32_t>(i - done + 1);
@@ -389,34 +389,27 @@ void Resolver<S>::pickSamples(const uint32_t* vertices, size_t count) {
   }
 }
 
-// Of the range of the fields: smaller errors are alike.
-constexpr double kLeastFieldError = 1e-5;
-
-// From what was picked, before it has the quadrics of its sheets. Of too little no star is looked
-// at, which may be as large as the window; those of interfaces will be anyway.
+// From what was picked, before it has the quadrics of its sheets, of so many that are open. Of too
+// little no star is looked at, which may be as large as the window; those of interfaces will be
+// anyway.
 template <class S>
-void Resolver<S>::balance(const uint32_t* vertices, size_t count) {
+void Resolver<S>::balance(size_t open) {
   const auto on_sheets = static_cast<double>(std::max(sampled_[0].of, sampled_[1].of));
   const bool is_enough = on_sheets >= kLeastVertices;
   if (!is_enough && sampled_[1].of < kLeastPairs) return;
   BalanceSample<S> sample(core_);
-  RemovalCosts& costs = sample.costs();
-  costs.is_whole = core_.holdsAll();
-  costs.outer.vertices = static_cast<double>(sampled_[0].of);
-  costs.interfaces.vertices = static_cast<double>(sampled_[1].of);
-  costs.inside.vertices = static_cast<double>(sampled_[2].of);
-  const double least = kLeastFieldError * core_.extent;
-  for (const Sampled& group : sampled_) costs.least_field += least * least * group.volume;
+  sample.start(sampled_, core_.holdsAll());
   // Costs are those of the weights that were asked for.
   const Balance known = std::exchange(core_.balance, {});
   sampleSheet(sampled_[1].vertices, SheetFace::kInterface, sample);
   if (is_enough) {
-    sample.addTouching(sampled_[0].vertices, vertices, count);
+    sample.addTouching(sampled_[0].vertices, open_.data(), open);
     sampleSheet(sampled_[0].vertices, SheetFace::kOuter, sample);
+    if (isWall(sample.costs())) sample.addGaps(open_.data(), open);
     forStarsOf(sampled_[2].vertices, [&](uint32_t v) { sample.addInside(v, star()); });
   }
   core_.balance = known;
-  chooseBalance(costs, core_.balance_ratio, &core_.balance);
+  chooseBalance(sample.costs(), core_.balance_ratio, &core_.balance);
 }
 
 // Each star is gathered first; of as many vertices as fit what lists them.
@@ -443,7 +436,8 @@ bool Resolver<S>::listSheet(SheetFace kind, std::vector<SampledFace>& faces) {
   faces.clear();
   forLinkEdges([&](uint32_t a, uint32_t b, const LinkEdge* edge, size_t cells) {
     const bool is_inner = cells == 2 && labels.differ(edge[0].cell, edge[1].cell);
-    if (kind == SheetFace::kOuter && cells == 1) faces.push_back({a, b});
+    if (kind == SheetFace::kOuter && cells == 1)
+      faces.push_back(edge[0].key & 1 ? SampledFace{b, a} : SampledFace{a, b});
     if (kind == SheetFace::kOuter || !is_inner) return;
     if (near == kNone) {
       near = edge[0].cell;
@@ -461,7 +455,7 @@ void Resolver<S>::sampleSheet(const std::vector<uint32_t>& vertices, SheetFace k
                               BalanceSample<S>& sample) {
   forSheetsOf(vertices, kind,
               [&](uint32_t v, const std::vector<SampledFace>& faces, bool is_plain) {
-                sample.addOnSheet(v, faces, kind);
+                sample.addOnSheet(v, faces, star(), kind);
                 if (kind == SheetFace::kInterface && is_plain) sample.addBend(v, faces);
               });
   if (kind != SheetFace::kInterface) return;

@@ -82,7 +82,7 @@ class Resolver {
   template <class Visit>
   void forLinkEdges(Visit visit);
   void pickSamples(const uint32_t* vertices, size_t count);
-  void balance(const uint32_t* vertices, size_t count);
+  void balance(size_t open);
   bool isBalanced() const;
   template <class Visit>
   void forStarsOf(const std::vector<uint32_t>& vertices, Visit visit);
@@ -111,11 +111,7 @@ class Resolver {
   };
   Array<LinkEdge> edges_;
   std::vector<uint64_t> boundary_;
-  struct Sampled {
-    std::vector<uint32_t> vertices;
-    size_t of = 0;
-    double volume = 0;
-  };
+  using Sampled = typename BalanceSample<S>::Group;
   Sampled sampled_[3];  // of the boundary, of interfaces, inside
 };
 

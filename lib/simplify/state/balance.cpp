@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "status.h"
 
@@ -152,10 +153,12 @@ static bool isEnough(const RemovalCosts::Group& sheet) {
   return sheet.vertices >= kLeastVertices && sheet.sample.size() >= kLeastSamples;
 }
 
-// Halves the weight as often as is worth it most. All are tried: of what is far too heavy nothing
-// moves at first.
-static void lower(Model& model, double ratio, double worth, const RemovalCosts::Group& sheet,
-                  double Balance::*weight, Balance* balance) {
+constexpr double kAnyError = std::numeric_limits<double>::infinity();
+
+// Halves the weight as often as is worth it most and leaves the sheet at most this error. All are
+// tried: of what is far too heavy nothing moves at first.
+static void lower(Model& model, double ratio, double worth, double most,
+                  const RemovalCosts::Group& sheet, double Balance::*weight, Balance* balance) {
   const Model::Logs now = model.foretell(*balance, ratio, sheet);
   if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(kNegligible)) return;
   double least = now.product(), asked = 0;
@@ -166,18 +169,18 @@ static void lower(Model& model, double ratio, double worth, const RemovalCosts::
   while (besides * next.*weight > kLeastBalance) {
     next.*weight /= 2;
     asked += worth;
-    const double product = model.foretell(next, ratio, sheet).product() + asked;
-    if (!(product < least)) continue;
+    const Model::Logs then = model.foretell(next, ratio, sheet);
+    const double product = then.product() + asked;
+    if (!(product < least) || then.sheet > std::log(most)) continue;
     least = product;
     balance->*weight = next.*weight;
   }
 }
 
-// In walls of one cell vertices lie on the boundary, all but one in so many. None is inside to take
-// cells from, but where what the boundary adds, as squared errors, is so many times the field's,
-// the field decides nothing, not even which edges become long: a tube of 130,539 cells had four
-// times the error of the field at 0.1, for as large a distance. At a 16th of that tubes of
-// hexahedra left their shape by up to four times as much.
+// In walls of one cell vertices lie on the boundary, all but one in so many. Where what it adds, as
+// squared errors, is so many times the field's, the field decides nothing, not even which edges
+// become long: a tube of 130,539 cells had four times the error of the field at 0.1, for as large a
+// distance.
 constexpr double kOfWalls = 16, kDrowned = 64;
 
 // Halves the weight until the field is heard.
@@ -187,6 +190,26 @@ static void lowerInWalls(Model& model, double ratio, const RemovalCosts::Group& 
   const double most = now.field + std::log(kDrowned);
   while (balance->outer > kLeastBalance && now.sheet + std::log(balance->outer) > most)
     balance->outer /= 2;
+}
+
+// Distances are foretold by ways to neighbours: what comes out, at the best places, is a tenth to a
+// twentieth as far off. At 2.5 times their gaps the layers of a rolled sheet went through each
+// other, at 1.9 they did not; voxels have 5 and more.
+constexpr double kOfGap = 1.5;
+constexpr double kNarrow = 0.1;  // of the boundary, as narrow as this
+
+// The error of a sheet that fills its gaps so far; nothing where none is known.
+static double mostInGaps(const RemovalCosts& costs) {
+  std::vector<double> gaps = costs.gaps;
+  if (gaps.empty()) return 0;
+  const auto narrow =
+      gaps.begin() + static_cast<std::ptrdiff_t>(kNarrow * static_cast<double>(gaps.size()));
+  std::nth_element(gaps.begin(), narrow, gaps.end());
+  return kOfGap * kOfGap * *narrow * costs.outer.vertices;
+}
+
+bool isWall(const RemovalCosts& costs) {
+  return costs.is_whole && kOfWalls * costs.inside.vertices < costs.outer.vertices;
 }
 
 // Of interfaces that are rough: a fortieth of what the boundary counts. From 1/512 to 1/32768 the
@@ -235,20 +258,21 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
     balance->interfaces = kRoughBalance;
     balance->knows_interfaces = balance->rough_interfaces = true;
   }
-  const bool is_wall = costs.is_whole && kOfWalls * costs.inside.vertices < costs.outer.vertices;
+  const bool is_wall = isWall(costs);
   if (!is_wall && costs.inside.vertices < kLeastVertices) return;
   Model model(costs);
   const double worth = costs.is_whole ? kWorth : kWorthInStream;
   if (!balance->knows_outer && isEnough(costs.outer) && hasFields(model, costs, ratio, *balance)) {
-    if (costs.touching < kTouching && is_wall)
-      lowerInWalls(model, ratio, costs.outer, balance);
-    else if (costs.touching < kTouching)
-      lower(model, ratio, worth, costs.outer, &Balance::outer, balance);
+    if (costs.touching < kTouching) {
+      if (is_wall) lowerInWalls(model, ratio, costs.outer, balance);
+      const double most = is_wall ? mostInGaps(costs) : kAnyError;
+      lower(model, ratio, worth, most, costs.outer, &Balance::outer, balance);
+    }
     balance->knows_outer = true;
   }
   if (costs.inside.vertices < kLeastVertices) return;
   if (!balance->knows_interfaces && isEnough(costs.interfaces)) {
-    lower(model, ratio, worth, costs.interfaces, &Balance::interfaces, balance);
+    lower(model, ratio, worth, kAnyError, costs.interfaces, &Balance::interfaces, balance);
     balance->knows_interfaces = true;
   }
 }

@@ -71,15 +71,21 @@ struct RemovalCosts {
     double square = 0, product = 0;
   };
   Jitter jitter;
-  bool is_whole = false;   // nothing of the mesh is to come
+  bool is_whole = false;  // nothing of the mesh is to come
+  // What some of the boundary's vertices would add by going as far as they have free sight; of
+  // walls of one cell only.
+  std::vector<double> gaps;
   double touching = 0;     // of the boundary's vertices, that with another one at its place
   double least_field = 0;  // error of the fields, of all, that counts as none
 };
 
+// Whether next to none of a whole mesh lies inside, as in walls of one cell.
+bool isWall(const RemovalCosts& costs);
+
 // Chooses what is not known of sheets, where they and the inside have enough vertices and samples,
 // for a mesh that is to keep this part of its vertices: 1 where less would gain nothing. Of few
-// vertices too many are edges and corners. Where next to none is inside, as in walls of one cell, a
-// whole mesh tells: there the boundary counts less where it drowns the field.
+// vertices too many are edges and corners. In walls of one cell the boundary counts less where it
+// drowns the field, and where there is room for it.
 constexpr double kLeastVertices = 256;
 constexpr size_t kLeastPairs = 32;  // tell whether interfaces are rough
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance);
