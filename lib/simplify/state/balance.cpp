@@ -153,14 +153,18 @@ static bool isEnough(const RemovalCosts::Group& sheet) {
   return sheet.vertices >= kLeastVertices && sheet.sample.size() >= kLeastSamples;
 }
 
-constexpr double kAnyError = std::numeric_limits<double>::infinity();
+// What lowering a weight asks for: so much of a gain for each step, and of the errors of the sheet
+// that they are at least this part of the fields' before it, and no more than that after it.
+struct Terms {
+  double worth, least_share = kNegligible, most = std::numeric_limits<double>::infinity();
+};
 
-// Halves the weight as often as is worth it most and leaves the sheet at most this error. All are
-// tried: of what is far too heavy nothing moves at first.
-static void lower(Model& model, double ratio, double worth, double most,
-                  const RemovalCosts::Group& sheet, double Balance::*weight, Balance* balance) {
+// Halves the weight as often as is worth it most. All are tried: of what is far too heavy nothing
+// moves at first.
+static void lower(Model& model, double ratio, const Terms& terms, const RemovalCosts::Group& sheet,
+                  double Balance::*weight, Balance* balance) {
   const Model::Logs now = model.foretell(*balance, ratio, sheet);
-  if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(kNegligible)) return;
+  if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(terms.least_share)) return;
   double least = now.product(), asked = 0;
   Balance next = *balance;
   // Interfaces fall with the boundary: those that are rough may fall as far as they like.
@@ -168,10 +172,10 @@ static void lower(Model& model, double ratio, double worth, double most,
   const double besides = weight == &Balance::outer ? interfaces : balance->outer;
   while (besides * next.*weight > kLeastBalance) {
     next.*weight /= 2;
-    asked += worth;
+    asked += terms.worth;
     const Model::Logs then = model.foretell(next, ratio, sheet);
     const double product = then.product() + asked;
-    if (!(product < least) || then.sheet > std::log(most)) continue;
+    if (!(product < least) || then.sheet > std::log(terms.most)) continue;
     least = product;
     balance->*weight = next.*weight;
   }
@@ -182,6 +186,9 @@ static void lower(Model& model, double ratio, double worth, double most,
 // become long: a tube of 130,539 cells had four times the error of the field at 0.1, for as large a
 // distance.
 constexpr double kOfWalls = 16, kDrowned = 64;
+// Where the boundary adds less than the field, as plane sides do, that gained nothing by its going
+// up to fifty times as far.
+constexpr double kOfTheField = 1;
 
 // Halves the weight until the field is heard.
 static void lowerInWalls(Model& model, double ratio, const RemovalCosts::Group& sheet,
@@ -265,14 +272,14 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
   if (!balance->knows_outer && isEnough(costs.outer) && hasFields(model, costs, ratio, *balance)) {
     if (costs.touching < kTouching) {
       if (is_wall) lowerInWalls(model, ratio, costs.outer, balance);
-      const double most = is_wall ? mostInGaps(costs) : kAnyError;
-      lower(model, ratio, worth, most, costs.outer, &Balance::outer, balance);
+      const Terms terms = is_wall ? Terms{worth, kOfTheField, mostInGaps(costs)} : Terms{worth};
+      lower(model, ratio, terms, costs.outer, &Balance::outer, balance);
     }
     balance->knows_outer = true;
   }
   if (costs.inside.vertices < kLeastVertices) return;
   if (!balance->knows_interfaces && isEnough(costs.interfaces)) {
-    lower(model, ratio, worth, kAnyError, costs.interfaces, &Balance::interfaces, balance);
+    lower(model, ratio, {worth}, costs.interfaces, &Balance::interfaces, balance);
     balance->knows_interfaces = true;
   }
 }

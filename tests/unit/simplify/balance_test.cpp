@@ -123,21 +123,29 @@ TEST(Balance, LowersTheBoundaryOfAWallWhereItDrownsTheField) {
   EXPECT_EQ(chosen(wall, 0.1).outer, 1);
 }
 
-// As far as that helps the field, too, but only where what lies in front of the boundary is far
-// away.
+// Of a wall of one cell, of which every vertex of the boundary may go these ways and has so much
+// free sight.
+double balanceOfAWall(const Ways& ways, double gap) {
+  RemovalCosts wall = costsOf({}, 0, {}, 500);
+  wall.inside.sample.clear();
+  wall.outer.sample.assign(64, ways);
+  wall.is_whole = true;
+  wall.gaps.assign(8, gap);
+  return chosen(wall, 0.1).outer;
+}
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
 TEST(Balance, LowersTheBoundaryOfAWallWhereThereIsRoom) {
-  const auto balanceWith = [](double gap) {
-    RemovalCosts wall = costsOf({}, 0, {}, 500);
-    wall.inside.sample.clear();
-    wall.outer.sample.assign(64, {{1, 1}, {0.01, 3}});
-    wall.is_whole = true;
-    wall.gaps.assign(8, gap);
-    return chosen(wall, 0.1).outer;
-  };
-  const double everywhere = std::numeric_limits<double>::infinity();
-  EXPECT_LT(balanceWith(everywhere), 1);
-  EXPECT_EQ(balanceWith(1e4), balanceWith(everywhere));
-  EXPECT_EQ(balanceWith(1), 1);
+  const Ways ways = {{1, 20}, {0.01, 21.5}};
+  EXPECT_LT(balanceOfAWall(ways, kEverywhere), 1);
+  EXPECT_EQ(balanceOfAWall(ways, 1e6), balanceOfAWall(ways, kEverywhere));
+  EXPECT_EQ(balanceOfAWall(ways, 1), 1);
+}
+
+// Both would gain by the other way, but plane sides would leave their planes for it.
+TEST(Balance, LeavesTheBoundaryOfAWallThatAddsLessThanTheField) {
+  EXPECT_EQ(balanceOfAWall({{10, 1}, {0.8, 11}}, kEverywhere), 1);
+  EXPECT_LT(balanceOfAWall({{1, 20}, {0.01, 21.5}}, kEverywhere), 1);
 }
 
 TEST(Balance, ComesToAnEndWithoutFieldErrors) {
