@@ -73,7 +73,7 @@ TestMesh roll(int along) {
 
 // Where little is left there is no room for the boundary to count less: 87 pairs of faces crossed.
 TEST(BalancedWalls, DoNotGoThroughEachOther) {
-  const TestMesh mesh = roll(slowRun() ? 40 : 80);
+  const TestMesh mesh = roll(slowRun() ? 20 : 80);
   for (const double ratio : {0.1, 0.02}) {
     const Result result = simplified(mesh, toRatio(ratio));
     expectReached(result);
