@@ -98,6 +98,7 @@ std::string infoText(const tetstream_stream_info& info, const FaceLabels& labels
       row("vertices", countText(info.vertex_count)) + row("cells", countText(info.cell_count)) +
       row("positions", std::string(typeName(info.position_type))) +
       row("box", boundsText(boundsAt(info, 0, 3)));
+  if (info.flags & TETSTREAM_STREAM_TIMED) text += row("time", textOf("%.9g", info.time));
   int32_t first = 3;
   for (int32_t i = 0; i < info.field_count; ++i) {
     const tetstream_column& field = info.fields[i];
@@ -172,6 +173,11 @@ std::string infoJson(const Arguments& arguments, const tetstream_stream_info& in
   json.key("position_type").value(typeName(info.position_type));
   json.key("box_min").values(info.box_min, 3);
   json.key("box_max").values(info.box_max, 3);
+  json.key("time");
+  if (info.flags & TETSTREAM_STREAM_TIMED)
+    json.value(info.time);
+  else
+    json.null();
   addFields(json, info);
   json.key("cell_arrays").open('[');
   for (int32_t i = 0; i < info.cell_data_count; ++i) {

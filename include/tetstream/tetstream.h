@@ -295,6 +295,7 @@ typedef struct tetstream_label_name {
                                        and `locked_edges` count from 1, as in Fortran, and so does
                                        the message that refuses one; ids of the output are from 0.
                                        Since 0.1 */
+#define TETSTREAM_STREAM_TIMED 8 /* `time` is told. Since 0.1 */
 
 /* What a stream carries. Counts that are not known are -1 where the library gives them, and -1 or 0
  * where it takes them. The arrays are read during the call only. */
@@ -319,6 +320,9 @@ typedef struct tetstream_stream_info {
   int64_t label_name_count;
   const tetstream_label_name *label_names; /* in any order, of a label one at most; may be NULL if
                                               there are none. Since 0.1 */
+  double time; /* of the values, with TETSTREAM_STREAM_TIMED, finite, in units of the caller's. It
+                  changes nothing in a run and goes to formats that hold one (.tets, .vtu, .msh, .exo);
+                  of others a note of the writer tells it. Since 0.1 */
 } tetstream_stream_info;
 
 /* Events, some thousands at a time: the batch's vertices, then its cells in order, each with the

@@ -133,6 +133,9 @@ void Output::begin(const Schema& schema) {
   if (format_ && !format_->label_names && !schema.label_names.empty())
     addNote(textOf(".%s has no names of labels; they are left out: %s", format_->name,
                    shownLabelNames(schema.label_names).c_str()));
+  if (format_ && !format_->time && schema.time.value_or(0) != 0)
+    addNote(
+        textOf(".%s has no time of its values; it is left out: %.9g", format_->name, *schema.time));
   sink().begin(schema);
 }
 

@@ -85,13 +85,14 @@ static void takeBox(const tetstream_stream_info& info, Schema& schema) {
 }
 
 Schema schemaOf(const tetstream_stream_info& info) {
-  if (info.flags & ~static_cast<uint32_t>(TETSTREAM_STREAM_INDEXED))
+  if (info.flags & ~static_cast<uint32_t>(TETSTREAM_STREAM_INDEXED | TETSTREAM_STREAM_TIMED))
     fail(Status::kBadArgument, "info: the flags 0x%x are not all known", info.flags);
   Schema schema;
   schema.position_type = static_cast<ScalarType>(info.position_type);
   schema.fields = columnsOf(info.fields, info.field_count, "field");
   schema.cell_data = columnsOf(info.cell_data, info.cell_data_count, "cell array");
   schema.label_names = labelNamesOf(info);
+  if (info.flags & TETSTREAM_STREAM_TIMED) schema.time = info.time;
   checkSchema(schema);
   schema.vertex_count = knownOrMinusOne(info.vertex_count);
   schema.cell_count = knownOrMinusOne(info.cell_count);
@@ -127,7 +128,9 @@ PublicSchema::PublicSchema(const Schema& schema, bool indexed)
       label_names_(publicLabelNames(schema_.label_names)) {
   info_.struct_size = sizeof info_;
   info_.position_type = static_cast<int32_t>(schema_.position_type);
-  info_.flags = indexed ? TETSTREAM_STREAM_INDEXED : 0;
+  if (indexed) info_.flags |= TETSTREAM_STREAM_INDEXED;
+  if (schema_.time) info_.flags |= TETSTREAM_STREAM_TIMED;
+  info_.time = schema_.time.value_or(0);
   info_.field_count = static_cast<int32_t>(fields_.size());
   info_.cell_data_count = static_cast<int32_t>(cell_data_.size());
   info_.fields = fields_.empty() ? nullptr : fields_.data();

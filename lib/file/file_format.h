@@ -64,6 +64,7 @@ struct Format {
   const char* text;           // one line
   bool float32_only = false;  // positions and fields are rounded, before they are checked
   bool label_names = false;   // are held
+  bool time = false;          // is held
   bool reads_pipes = false;   // as they come; else they are spooled
   bool recovers = false;      // what is whole of a damaged file can be read
   // Null where the format is not read or not written.

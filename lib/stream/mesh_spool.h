@@ -26,6 +26,7 @@ class MeshSpool : public IndexedSource {
   size_t addCellData(const Column& column);
   // Settled, of what columns there are. Those of a column that is removed go with it.
   void nameLabels(std::vector<LabelName> names) { schema_.label_names = std::move(names); }
+  void setTime(double time) { schema_.time = time; }
   // With their rows.
   void removeField(size_t column);
   void removeCellData(size_t column);

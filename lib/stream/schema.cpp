@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "label_names.h"
 #include "status.h"
@@ -44,6 +45,8 @@ void checkSchema(const Schema& schema) {
   checkColumns(schema.fields, "field");
   checkColumns(schema.cell_data, "cell array");
   checkLabelNames(schema);
+  if (schema.time && !std::isfinite(*schema.time))
+    fail(Status::kBadArgument, "the time is not finite");
 }
 
 void failNotFinite(const std::string& row, const Column& field) {

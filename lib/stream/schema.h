@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct Schema {
   std::vector<Column> fields;
   std::vector<Column> cell_data;
   std::vector<LabelName> label_names;  // of some labels; sorted, see label_names.h
+  std::optional<double> time;          // of the values, where the file tells it
 
   // What is known beforehand; -1 or empty where it is not.
   int64_t vertex_count = -1;
@@ -58,7 +60,7 @@ struct Schema {
 
 // Throws kBadArgument, naming the column: names empty, repeated or longer than 255 bytes,
 // components outside 1..9, unknown types, positions that are not floats; the same of labels' names,
-// and those of no such array and of a label that has one.
+// and those of no such array and of a label that has one; a time that is not finite.
 void checkSchema(const Schema& schema);
 
 // Of "point 7": one of its values of a measured field is not finite.

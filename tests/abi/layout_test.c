@@ -23,7 +23,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_column, name, 0);
   MEMBER(tetstream_column, components, 8);
   MEMBER(tetstream_column, type, 12);
-  CHECK_EQUAL(sizeof(tetstream_stream_info), 120);
+  CHECK_EQUAL(sizeof(tetstream_stream_info), 128);
   MEMBER(tetstream_stream_info, struct_size, 0);
   MEMBER(tetstream_stream_info, position_type, 8);
   MEMBER(tetstream_stream_info, flags, 12);
@@ -41,6 +41,7 @@ static void structs_keep_their_layout(void) {
   MEMBER(tetstream_stream_info, face_count, 96);
   MEMBER(tetstream_stream_info, label_name_count, 104);
   MEMBER(tetstream_stream_info, label_names, 112);
+  MEMBER(tetstream_stream_info, time, 120);
   CHECK_EQUAL(sizeof(tetstream_label_name), 24);
   MEMBER(tetstream_label_name, name, 0);
   MEMBER(tetstream_label_name, cell_array, 8);

@@ -255,7 +255,9 @@ class ExodusWriter final : public MeshCollector {
     file_->addDimension("len_string", kLeastNameBytes);
     file_->addDimension("num_dim", 3);
     file_->addVariable("time_whole", NetcdfType::kDouble, {time_}, {},
-                       [](NetcdfValues& values) { values.put(0); });
+                       [time = schema().time.value_or(0)](NetcdfValues& values) {
+                         values.put(&time, ScalarType::kFloat64, 1);
+                       });
   }
 
   // ------------------------------------------------------------------------------- nodes, elements

@@ -1,5 +1,7 @@
 // Fields and cell data of Gmsh's files: values by the tags of nodes and elements.
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "msh_mesh.h"
 #include "status.h"
@@ -14,6 +16,7 @@ constexpr size_t kMostComponents = 512;  // what a row may have to be passed ove
 // What stands before the values.
 struct DataHead {
   std::string name;
+  double time = 0;
   int64_t step = 0, components = 1, rows = 0, partition = 0;
 };
 
@@ -26,7 +29,10 @@ DataHead readHead(MshMesh& mesh, bool of_cells) {
     if (i == 0) head.name = std::move(text);
   }
   const int64_t reals = file.integer("the number of real tags", 0, 64);
-  for (int64_t i = 0; i < reals; ++i) file.real("a real tag");
+  for (int64_t i = 0; i < reals; ++i) {
+    const double value = file.real("a real tag");
+    if (i == 0) head.time = value;
+  }
   const int64_t integers = file.integer("the number of integer tags", 3, 64);
   head.step = file.integer("the time step");
   head.components = file.integer("the number of components", 1, kMostComponents);
@@ -56,6 +62,7 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
   if (!mesh.intake) mesh.file.failBad("data before the nodes that it belongs to");
   DataHead head = readHead(mesh, of_cells);
   if (of_cells) mesh.finishCells();
+  times_.push_back(head.time);
   const bool kept = head.components <= kMaxComponents;
   if (!kept)
     mesh.intake->leaveOut("components of \"" + head.name + "\"",
@@ -80,6 +87,13 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
     for (int64_t k = 0; kept && k < count; ++k)
       mesh.intake->putData(data, static_cast<uint64_t>(first + k), values.data());
   }
+}
+
+std::optional<double> MshData::time() const {
+  const bool is_one =
+      std::adjacent_find(times_.begin(), times_.end(), std::not_equal_to<>()) == times_.end();
+  if (times_.empty() || !is_one || times_[0] == 0 || !std::isfinite(times_[0])) return {};
+  return times_[0];
 }
 
 // The column of that name and step, or a new one.

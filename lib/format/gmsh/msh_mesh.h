@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -111,6 +112,8 @@ uint64_t readRowCount4(MshMesh& mesh);
 class MshData {
  public:
   void read(MshMesh& mesh, bool of_cells);
+  // Of all of them; none if they differ. Who knows none writes 0.
+  std::optional<double> time() const;
 
  private:
   struct Block {
@@ -124,6 +127,7 @@ class MshData {
                  int components);
 
   std::vector<Block> blocks_;
+  std::vector<double> times_;
 };
 
 }  // namespace tetstream

@@ -3,6 +3,7 @@
 // labels of faces.
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "gmsh_format.h"
 #include "msh_mesh.h"
@@ -154,6 +155,7 @@ class MshReader {
     if (left_out > 0)
       mesh_.intake->leaveOut("names of physical groups that label no cells or faces", left_out);
     mesh_.intake->nameLabels(std::move(names));
+    if (const std::optional<double> time = data_.time()) mesh_.intake->mesh().setTime(*time);
   }
 
   const ReadOptions& options() const { return mesh_.options; }

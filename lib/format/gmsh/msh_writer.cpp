@@ -17,6 +17,7 @@
 #include "number_sink.h"
 #include "rows_at_once.h"
 #include "status.h"
+#include "text_number.h"
 
 namespace tetstream {
 
@@ -383,7 +384,10 @@ class MshWriter final : public MeshCollector {
   template <class ForEach>
   void writeData(const char* name, const Column& column, uint64_t rows, ForEach forEach) {
     section(name);
-    out_->text("1\n\"" + names_.at(&column) + "\"\n1\n0\n3\n0\n" +
+    std::string time;
+    const double told = mesh_->schema().time.value_or(0);
+    printNumber(&told, ScalarType::kFloat64, time);
+    out_->text("1\n\"" + names_.at(&column) + "\"\n1\n" + time + "\n3\n0\n" +
                std::to_string(column.components) + "\n" + std::to_string(rows) + "\n");
     bool exact = true;
     forEach([&](uint64_t tag, const unsigned char* values) {

@@ -108,6 +108,8 @@ std::vector<unsigned char> encodeHeader(const Schema& schema) {
   start.front_cells = schema.front_cells;
   start.box_known = schema.hasBox();
   start.faces = std::max<int64_t>(schema.face_count, 0);
+  start.time_known = schema.time.has_value();
+  start.time = schema.time.value_or(0);
   append(section, &start, sizeof start);
   for (const Column& c : schema.fields) appendRecord(section, c);
   for (const Column& c : schema.cell_data) appendRecord(section, c);
@@ -255,6 +257,7 @@ Schema decodeHeader(const SectionHead& head, const unsigned char* body, size_t s
   schema.front_width = start.front_width;
   schema.front_span = start.front_span;
   schema.front_cells = start.front_cells;
+  if (start.time_known) schema.time = start.time;
   in.seek(own.box_offset);
   std::vector<double> box(2 * schema.boxSize());
   in.take(box.data(), box.size() * sizeof(double));

@@ -122,9 +122,9 @@ const char* faultOf(const SectionHead& head);
 
 struct HeaderStart {  // then a record per field, per cell array, the box, a record per label name
   int64_t vertices, cells, front_width, front_span, front_cells;  // -1: not known
-  uint32_t box_known, reserved32;
+  uint32_t box_known, time_known;
   int64_t faces;  // labelled; 0: none, or not known
-  uint64_t reserved;
+  double time;
 };
 static_assert(sizeof(HeaderStart) == 64);
 

@@ -40,7 +40,8 @@ struct VtuFile {
   const VtuCompressor* compressor = nullptr;
   size_t word_bytes = 4;  // of lengths and block tables
   std::vector<VtuPiece> pieces;
-  std::string global_ids;  // the points' array of that meaning, if the header names one
+  std::optional<VtuArray> time;  // one number
+  std::string global_ids;        // the points' array of that meaning, if the header names one
   Helpers helpers;
   std::vector<std::string> notes;  // what was left out, each once
   void addNote(const std::string& text) { MeshPieces::addNoteTo(notes, text); }

@@ -12,6 +12,7 @@
 #include "held_names.h"
 #include "row_spool.h"
 #include "status.h"
+#include "text_number.h"
 #include "vtk_cells.h"
 #include "vtk_format.h"
 #include "vtu_spool.h"
@@ -251,6 +252,15 @@ class VtuWriter final : public Sink {
     return scalars + vectors;
   }
 
+  // As VTK's readers look for it.
+  void addTime(double time) {
+    text_ +=
+        "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" "
+        "NumberOfTuples=\"1\" format=\"ascii\">";
+    printNumber(&time, ScalarType::kFloat64, text_);
+    text_ += "</DataArray>\n    </FieldData>\n";
+  }
+
   std::string makeHeader(std::vector<VtuSpool*>* order) {
     const bool little = std::endian::native == std::endian::little;
     text_ =
@@ -258,9 +268,10 @@ class VtuWriter final : public Sink {
     text_ += little ? "LittleEndian" : "BigEndian";
     text_ += "\" header_type=\"UInt64\"";
     if (compressor_) text_ += " compressor=\"vtkZLibDataCompressor\"";
-    text_ += ">\n  <UnstructuredGrid>\n    <Piece NumberOfPoints=\"" +
-             std::to_string(vertex_count_) + "\" NumberOfCells=\"" + std::to_string(cell_count_) +
-             "\">\n";
+    text_ += ">\n  <UnstructuredGrid>\n";
+    if (schema_.time) addTime(*schema_.time);
+    text_ += "    <Piece NumberOfPoints=\"" + std::to_string(vertex_count_) +
+             "\" NumberOfCells=\"" + std::to_string(cell_count_) + "\">\n";
     addColumns("PointData", schema_.fields, fields_, order);
     addColumns("CellData", schema_.cell_data, cell_data_, order);
     text_ += "      <Points>\n";

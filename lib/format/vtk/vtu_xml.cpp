@@ -41,6 +41,7 @@ class HeaderParser final : XmlFeed {
     if (pieces_are_steps_) keepPiecesOfStep();
     if (stopped()) placeAppended();
     for (VtuPiece& piece : file_.pieces) finishPiece(piece);
+    if (file_.time) finishArray(*file_.time);
     return std::move(file_);
   }
 
@@ -69,9 +70,10 @@ class HeaderParser final : XmlFeed {
       case 2:
         return enterPiece(name, attributes);
       case 3:
-        return enterSection(name, attributes);
+        return in_field_data_ ? enterFieldArray(attributes) : enterSection(name, attributes);
       case 4:
-        return enterArray(name, attributes);
+        if (!in_field_data_) return enterArray(name, attributes);
+        [[fallthrough]];
       default:
         closeText();
         return false;  // VTK puts facts about an array after its values
@@ -142,14 +144,31 @@ class HeaderParser final : XmlFeed {
   }
 
   bool enterPiece(const char* name, Attributes attributes) {
-    if (std::strcmp(name, "FieldData") == 0)
-      file_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
+    in_field_data_ = std::strcmp(name, "FieldData") == 0;
+    if (in_field_data_) return true;
     if (std::strcmp(name, "Piece") != 0) return false;
     if (file_.pieces.size() == kMaxMeshPieces) failHere("too many pieces", Status::kUnsupported);
     VtuPiece piece;
     piece.point_count = count(attributes, "NumberOfPoints");
     piece.cell_count = count(attributes, "NumberOfCells");
     file_.pieces.push_back(std::move(piece));
+    return true;
+  }
+
+  // What belongs to no vertex or cell: of all that only the time, of files without steps.
+  bool enterFieldArray(Attributes attributes) {
+    const char *name = find(attributes, "Name"), *type = find(attributes, "type"),
+               *rows = find(attributes, "NumberOfTuples");
+    VtuArray array;
+    const bool is_time = name && std::strcmp(name, "TimeValue") == 0 && type &&
+                         parseType(type, &array.type) && rows && std::strcmp(rows, "1") == 0;
+    if (!is_time)
+      file_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
+    if (!is_time || file_.time || !times_.empty()) return false;
+    array.name = name;
+    setFormat(array, attributes);
+    file_.time = std::move(array);
+    open_ = &*file_.time;
     return true;
   }
 
@@ -344,7 +363,7 @@ class HeaderParser final : XmlFeed {
   bool pieces_are_steps_ = false;
   std::string compressor_;
   int depth_ = 0, skip_from_ = 0;
-  bool skipping_ = false, raw_ = false;
+  bool skipping_ = false, raw_ = false, in_field_data_ = false;
   Section section_ = Section::kOther;
   VtuArray* open_ = nullptr;  // whose inline values are being passed
   uint64_t appended_begin_ = 0;

@@ -90,7 +90,10 @@ class Xdmf {
       if (at(i).parent >= 0) continue;
       std::vector<int> leaves = leavesOf(i);
       std::erase_if(leaves, [this](int leaf) { return !hasCells(leaf); });
-      if (!leaves.empty()) return leaves;
+      if (leaves.empty()) continue;
+      for (const int told : {i, leaves[0]})
+        if (at(told).time) takeTime(mesh_, *at(told).time);
+      return leaves;
     }
     return {};
   }

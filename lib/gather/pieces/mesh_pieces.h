@@ -48,6 +48,7 @@ struct MeshPieces {
   std::shared_ptr<SideFaces> faces;          // that are no cells, of the first piece; may be null
   uint64_t point_count = 0, cell_count = 0;  // of all pieces
   bool has_steps = false;                    // of time, of which one was chosen
+  std::optional<double> time;                // of the values
   std::vector<std::string> notes;            // what was left out, each once
 
   void add(MeshPiece piece);  // after the others

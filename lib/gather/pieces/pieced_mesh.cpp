@@ -117,6 +117,7 @@ class PiecedMesh final : public IndexedSource {
     if (mesh_.faces) schema_.face_count += static_cast<int64_t>(mesh_.faces->count());
     schema_.label_names = std::move(mesh_.label_names);
     settleLabelNames(schema_.label_names);
+    schema_.time = mesh_.time;
     checkSchema(schema_);
     if (options_.note)
       for (const std::string& note : mesh_.notes) options_.note(mesh_.name + ": " + note);

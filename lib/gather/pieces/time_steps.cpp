@@ -1,6 +1,7 @@
 #include "time_steps.h"
 
 #include <charconv>
+#include <cmath>
 
 #include "status.h"
 
@@ -17,6 +18,10 @@ int64_t parseStep(const std::string& text) {
   return step;
 }
 
+void takeTime(MeshPieces& mesh, double time) {
+  if (!mesh.time && std::isfinite(time)) mesh.time = time;
+}
+
 uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options,
                     const std::function<double(uint64_t)>& time) {
   mesh.has_steps = true;
@@ -27,6 +32,7 @@ uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options
          "to %llu",
          mesh.name.c_str(), static_cast<unsigned long long>(step),
          static_cast<unsigned long long>(count - 1));
+  if (time) takeTime(mesh, time(step));
   if (count == 1) return step;
   std::string text = textOf(
       "of %llu time steps, 0 to %llu, step %llu is read", static_cast<unsigned long long>(count),

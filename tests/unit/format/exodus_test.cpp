@@ -70,6 +70,7 @@ TEST(Exodus, TheTimeStepIsChosen) {
   const VtuMesh mesh = readAs("exodus", file, 1000, options);
   EXPECT_EQ(valuesAs<double>(mesh.fields[0]), (std::vector<double>{5, 6, 7, 8, 9}));
   EXPECT_TRUE(hasNote(mesh, "step 1 is read, at time 0.5"));
+  EXPECT_EQ(mesh.schema.time, 0.5);
   options.step = 3;
   try {
     readAs("exodus", file, 1000, options);

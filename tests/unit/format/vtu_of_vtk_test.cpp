@@ -247,6 +247,21 @@ TEST(VtuOfVtk, ReadsAsciiBinaryAndAppended) {
     ASSERT_EQ(mesh.schema.cell_data.size(), 1u);
     EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]), (std::vector<int32_t>{1, 2}));
     EXPECT_EQ(mesh.notes.size(), 2u);  // the field data and the strings
+    EXPECT_FALSE(mesh.schema.time);
+  }
+}
+
+// As ParaView calls it, of one row.
+TEST(VtuOfVtk, TakesTheTime) {
+  for (const char* file : {kAscii, kBinary, kAppended}) {
+    std::string text = file;
+    text.replace(text.find("\"TIME\""), 6, "\"TimeValue\"");
+    const VtuMesh mesh = readVtu(text);
+    EXPECT_EQ(mesh.schema.time, 1);
+    EXPECT_EQ(mesh.notes.size(), 1u);  // the strings
+    text.replace(text.find("NumberOfTuples=\"1\""), 18, "NumberOfTuples=\"2\"");
+    EXPECT_FALSE(readVtu(text).schema.time);
+    EXPECT_EQ(readVtu(text).notes.size(), 2u);
   }
 }
 

@@ -84,6 +84,7 @@ TEST(VtuSteps, ReadsTheOneThatIsAskedForOrTheLast) {
     expectStep(file, 1, 1);
     expectStep(file, kLastStep, 2);
     EXPECT_TRUE(has(readStep(file, 2).notes[0], "at time 1e-05"));
+    EXPECT_EQ(readStep(file, 2).schema.time, 1e-05);
     try {
       readStep(file, 3);
       ADD_FAILURE() << "step 3 was read";

@@ -104,6 +104,7 @@ TEST(Xdmf, StepsIncludeTheirMeshAndFunctionsOnItJoin) {
   EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{6, 7, 8, 9, 10}));
   EXPECT_EQ(valuesAs<float>(mesh.fields[1]), (std::vector<float>{1, 1, 1, 1, 1}));
   EXPECT_TRUE(hasNote(mesh, "of 2 time steps, 0 to 1, step 1 is read, at time 0.5"));
+  EXPECT_EQ(mesh.schema.time, 0.5);
   EXPECT_TRUE(hasNote(mesh, "grid \"w\" is left out: it has other time steps"));
   ReadOptions options;
   options.step = 0;
