@@ -1,7 +1,6 @@
 // Fields and cell data of Gmsh's files: values by the tags of nodes and elements.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "msh_mesh.h"
 #include "status.h"
@@ -90,9 +89,9 @@ void MshData::read(MshMesh& mesh, bool of_cells) {
 }
 
 std::optional<double> MshData::time() const {
-  const bool is_one =
-      std::adjacent_find(times_.begin(), times_.end(), std::not_equal_to<>()) == times_.end();
-  if (times_.empty() || !is_one || times_[0] == 0 || !std::isfinite(times_[0])) return {};
+  if (times_.empty() || times_[0] == 0 || !std::isfinite(times_[0])) return {};
+  const auto is_first = [this](double time) { return time == times_[0]; };
+  if (!std::all_of(times_.begin(), times_.end(), is_first)) return {};
   return times_[0];
 }
 

@@ -169,9 +169,10 @@ void BalanceSample<S>::addGaps(const uint32_t* all, size_t count) {
     }
   }
   for (const Sight& sight : sights_)
-    costs_.gaps.push_back(sight.nearest == sight.from
-                              ? std::numeric_limits<double>::infinity()
-                              : errorTowards(sight.sheet.data(), sight.from, sight.nearest));
+    costs_.gaps.push_back(
+        sight.nearest == sight.from
+            ? std::numeric_limits<double>::infinity()
+            : knownCost(errorTowards(sight.sheet.data(), sight.from, sight.nearest)));
 }
 
 template <class S>
