@@ -28,44 +28,22 @@ static void check_names(const tetstream_stream_info* info) {
   CHECK(strcmp(info->label_names[2].name, "air") == 0);
 }
 
-/* The mesh in memory, which is an indexed one, or pushed as it is, simplified. */
-static void simplify_into(tetstream_writer* writer, const hostile_mesh* mesh, uint32_t pushed) {
-  tetstream_options* options = options_of(0.5);
-  tetstream_simplifier* simplifier = NULL;
-  tetstream_reader* reader = NULL;
-  whole w = named(mesh, good_names, 3);
-  CHECK_EQUAL(tetstream_simplifier_create(options, writer, &simplifier), TETSTREAM_OK);
-  if (pushed) {
-    w.info.flags = TETSTREAM_STREAM_INDEXED;
-    CHECK_EQUAL(tetstream_simplifier_begin(simplifier, &w.info), TETSTREAM_OK);
-    CHECK_EQUAL(tetstream_simplifier_push(simplifier, &w.batch), TETSTREAM_OK);
-    CHECK(tetstream_simplifier_finish(simplifier) >= 0);
-  } else {
-    CHECK_EQUAL(tetstream_reader_open_mesh(&w.info, &w.batch, &reader), TETSTREAM_OK);
-    CHECK(tetstream_simplifier_run(simplifier, reader) >= 0);
-  }
-  tetstream_reader_destroy(reader);
-  tetstream_simplifier_destroy(simplifier);
-  tetstream_options_destroy(options);
+static void simplify_into(tetstream_writer* writer, const hostile_mesh* mesh, int pushed) {
+  const whole w = named(mesh, good_names, 3);
+  simplify_whole(writer, &w, pushed);
 }
 
 static void names_go_with_the_mesh(void) {
   hostile_mesh* mesh = hostile_mesh_create(6, 6, 6);
-  for (uint32_t pushed = 0; pushed < 2; ++pushed)
+  for (int pushed = 0; pushed < 2; ++pushed)
     for (int msh = 0; msh < 2; ++msh) {
-      const void* data;
-      size_t size;
       const char* format = msh ? "msh" : "tets";
       tetstream_writer* writer = NULL;
-      tetstream_reader* reader = NULL;
       tetstream_stream_info info = {0};
-      info.struct_size = sizeof info;
       CHECK_EQUAL(tetstream_writer_create_memory(format, &writer), TETSTREAM_OK);
       simplify_into(writer, mesh, pushed);
       CHECK(tetstream_writer_note(writer, 0) == NULL);
-      CHECK_EQUAL(tetstream_writer_get_memory(writer, &data, &size), TETSTREAM_OK);
-      CHECK_EQUAL(tetstream_reader_open_memory(data, size, format, &reader), TETSTREAM_OK);
-      CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
+      tetstream_reader* reader = read_back(writer, format, &info);
       if (!msh) check_names(&info); /* no face has the label: Gmsh's groups have faces */
       tetstream_reader_destroy(reader);
       tetstream_writer_destroy(writer);

@@ -116,6 +116,7 @@ sed 's/timestep="0"/timestep="nan"/' steps.pvd >step.nan.pvd
 expect_error 2 "step.nan.pvd: byte 148: a timestep is no number" info step.nan.pvd
 expect 0 info steps.pvd
 contains "$err" "of 3 time steps, 0 to 2, step 2 is read, at time 0.5"
+contains "$out" "time          0.5"
 expect_error 1 "there is no time step 3 (option step, --step): there are 0 to 2" \
   convert steps.pvd none.tets --step 3
 # A step that one of several steps is not is an error in either mesh.

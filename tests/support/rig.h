@@ -53,6 +53,40 @@ static inline whole whole_of(const hostile_mesh* mesh) {
   return w;
 }
 
+/* To half of it, pushed into a simplifier or as the mesh in memory that it is. */
+static inline void simplify_whole(tetstream_writer* writer, const whole* w, int pushed) {
+  tetstream_options* options = options_of(0.5);
+  tetstream_simplifier* simplifier = NULL;
+  tetstream_reader* reader = NULL;
+  CHECK_EQUAL(tetstream_simplifier_create(options, writer, &simplifier), TETSTREAM_OK);
+  if (pushed) {
+    tetstream_stream_info info = w->info;
+    info.flags |= TETSTREAM_STREAM_INDEXED;
+    CHECK_EQUAL(tetstream_simplifier_begin(simplifier, &info), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_push(simplifier, &w->batch), TETSTREAM_OK);
+    CHECK(tetstream_simplifier_finish(simplifier) >= 0);
+  } else {
+    CHECK_EQUAL(tetstream_reader_open_mesh(&w->info, &w->batch, &reader), TETSTREAM_OK);
+    CHECK(tetstream_simplifier_run(simplifier, reader) >= 0);
+  }
+  tetstream_reader_destroy(reader);
+  tetstream_simplifier_destroy(simplifier);
+  tetstream_options_destroy(options);
+}
+
+/* The reader of what a writer in memory has, and what it carries. */
+static inline tetstream_reader* read_back(tetstream_writer* writer, const char* format,
+                                          tetstream_stream_info* info) {
+  const void* data;
+  size_t size;
+  tetstream_reader* reader = NULL;
+  info->struct_size = sizeof *info;
+  CHECK_EQUAL(tetstream_writer_get_memory(writer, &data, &size), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_open_memory(data, size, format, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_get_info(reader, info), TETSTREAM_OK);
+  return reader;
+}
+
 /* A reader of the mesh's own arrays, likewise. */
 static inline tetstream_reader* arrays_of(const hostile_mesh* mesh) {
   const whole w = whole_of(mesh);

@@ -46,7 +46,7 @@ class BalanceSample {
   // next of all of its vertices.
   void addGaps(const uint32_t* all, size_t count);
 
-  RemovalCosts& costs() { return costs_; }
+  const RemovalCosts& costs() const { return costs_; }
 
   // A quarter of the volume of a vertex's cells, normalised; 0 for one without.
   static double volumeAt(Core<S>& core, uint32_t v) {

@@ -38,16 +38,6 @@ TEST(LabelNamesOfFiles, ComeBackFromTets) {
   EXPECT_TRUE(schemaOf(files[0]).hasBox());  // filled in before them
 }
 
-TEST(TimesOfFiles, ComeBackFromTets) {
-  Stream s = namedStream(kNames);
-  EXPECT_FALSE(schemaOf(write(s, true)).time);
-  s.schema.time = 0;
-  EXPECT_EQ(schemaOf(write(s, true)).time, 0);
-  s.schema.time = -0.1;
-  for (const Bytes& file : {write(s, true), write(s, false), writePiped(s)})
-    EXPECT_EQ(schemaOf(file).time, -0.1);
-}
-
 // A mebibyte is all that a header may have.
 TEST(LabelNamesOfFiles, AreLeftOutOfTetsWhereThereIsNoRoom) {
   std::vector<LabelName> names;

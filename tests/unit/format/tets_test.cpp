@@ -2,6 +2,7 @@
 #include <unistd.h>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <thread>
 
 #include "slow_run.h"
@@ -73,6 +74,16 @@ TEST(Tets, KeepsAStreamThatFinalizesNothing) {
   Wanted wanted;
   wanted.last_uses = false;
   expectKept(streamOf(gridMesh(3, 3, 3), wanted));
+}
+
+TEST(Tets, KeepsTheTimeOfTheValues) {
+  for (const std::optional<double> time : {std::optional<double>(), {0.0}, {-0.1}}) {
+    Stream s = streamOf(gridMesh(2, 2, 1), {});
+    s.schema.time = time;
+    for (const Bytes& file : {write(s, true), write(s, false), writePiped(s)})
+      EXPECT_EQ(openTets(openMemory(file.data(), file.size(), "memory"), {}).stream->schema().time,
+                time);
+  }
 }
 
 TEST(Tets, KeepsAnEmptyMesh) {

@@ -95,11 +95,12 @@ TEST(VtkHdf, ReadsOneTimeStep) {
   });
   const struct {
     int64_t step;
+    double time;
     std::vector<float> field;
     std::vector<int64_t> labels, cells;
-  } cases[] = {{0, {1, 2, 3, 4}, {7}, {0, 1, 2, 3}},
-               {1, {1, 2, 3, 5}, {8}, {0, 1, 2, 3}},
-               {kLastStep, {1, 2, 3, 5}, {8}, {0, 1, 2, 3}}};
+  } cases[] = {{0, 0, {1, 2, 3, 4}, {7}, {0, 1, 2, 3}},
+               {1, 0.5, {1, 2, 3, 5}, {8}, {0, 1, 2, 3}},
+               {kLastStep, 1, {1, 2, 3, 5}, {8}, {0, 1, 2, 3}}};
   for (const auto& c : cases) {
     ReadOptions options;
     options.step = c.step;
@@ -107,6 +108,7 @@ TEST(VtkHdf, ReadsOneTimeStep) {
     EXPECT_EQ(valuesAs<float>(mesh.fields[0]), c.field) << c.step;
     EXPECT_EQ(valuesAs<int64_t>(mesh.cell_data[0]), c.labels) << c.step;
     EXPECT_EQ(mesh.cells, c.cells) << c.step;
+    EXPECT_EQ(mesh.schema.time, c.time);
     EXPECT_EQ(mesh.faces.size(), c.step == kLastStep ? 3u : 0u);
     EXPECT_EQ(valuesAs<double>(mesh.positions)[9], c.step == kLastStep ? 1 : -1);
     EXPECT_TRUE(has(mesh.notes[0], "of 3 time steps, 0 to 2, step")) << mesh.notes[0];

@@ -85,6 +85,12 @@ TEST(Xdmf, EmptyWordsMakeNoFunction) {
   EXPECT_TRUE(hasNote(mesh, "array \"f\" is left out: it is no list of values, but a function"));
 }
 
+TEST(Xdmf, AGridMayTellItsTime) {
+  const std::string grid = kXdmfCells + kXdmfPoints;
+  EXPECT_EQ(readAs("xdmf", file(uniform("mesh", grid + "<Time Value=\"0.5\"/>"))).schema.time, 0.5);
+  EXPECT_FALSE(readAs("xdmf", file(uniform("mesh", grid))).schema.time);
+}
+
 // As FEniCS writes functions: the mesh once, then grids that include it.
 TEST(Xdmf, StepsIncludeTheirMeshAndFunctionsOnItJoin) {
   const std::string include =

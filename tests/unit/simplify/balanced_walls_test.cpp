@@ -49,6 +49,7 @@ TEST(BalancedWalls, FollowASmoothField) {
 // costs as much with any weight.
 TEST(BalancedWalls, FollowASmoothFieldWhereTwoCellsThick) {
   const int n = slowRun() ? 24 : 36;
+  expectFieldFollowed(pipe(n, n, 2), 0.1, 0.7);
   expectFieldFollowed(pipe(n, n, 2), 0.02, 0.6);
 }
 
