@@ -7,12 +7,14 @@ namespace tetstream::swig {
 StreamInfo::StreamInfo(const tetstream_stream_info& info)
     : position_type(info.position_type),
       is_indexed((info.flags & TETSTREAM_STREAM_INDEXED) != 0),
+      is_timed((info.flags & TETSTREAM_STREAM_TIMED) != 0),
       vertex_count(info.vertex_count),
       cell_count(info.cell_count),
       face_count(info.face_count),
       front_width(info.front_width),
       front_span(info.front_span),
-      front_cells(info.front_cells) {
+      front_cells(info.front_cells),
+      time(info.time) {
   for (int32_t i = 0; i < info.field_count; ++i) {
     const tetstream_column& c = info.fields[i];
     addField(c.name, c.components, c.type);
@@ -99,7 +101,7 @@ tetstream_stream_info StreamInfo::info() const {
   tetstream_stream_info out = {};
   out.struct_size = sizeof out;
   out.position_type = position_type;
-  out.flags = is_indexed ? TETSTREAM_STREAM_INDEXED : 0;
+  out.flags = (is_indexed ? TETSTREAM_STREAM_INDEXED : 0) | (is_timed ? TETSTREAM_STREAM_TIMED : 0);
   out.field_count = fieldCount();
   out.cell_data_count = cellDataCount();
   out.fields = fields_.data();
@@ -114,6 +116,7 @@ tetstream_stream_info StreamInfo::info() const {
   out.box_max = box_max_.empty() ? nullptr : box_max_.data();
   out.label_name_count = labelNameCount();
   out.label_names = label_names_.data();
+  out.time = time;
   return out;
 }
 

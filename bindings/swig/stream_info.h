@@ -43,9 +43,10 @@ class StreamInfo {
   ArrayView boxMax() const { return view(box_max_); }
 
   int32_t position_type = TETSTREAM_TYPE_FLOAT64;
-  bool is_indexed = false;
+  bool is_indexed = false, is_timed = false;
   int64_t vertex_count = -1, cell_count = -1, face_count = -1;
   int64_t front_width = -1, front_span = -1, front_cells = -1;
+  double time = 0;  // of the values, where it is timed
 
   const tetstream_column& field(int32_t index) const;
   const tetstream_column& cellData(int32_t index) const;

@@ -43,12 +43,14 @@ static const Format kFormats[] = {
     {.name = "vtk",
      .extensions = ".vtk",
      .text = "legacy VTK unstructured grid; written binary",
+     .time = true,
      .open = openVtk,
      .create = createVtk},
 #ifdef TETSTREAM_WITH_HDF5
     {.name = "vtkhdf",
      .extensions = ".vtkhdf",
      .text = "VTK's unstructured grid in HDF5",
+     .time = true,
      .open = openVtkHdf,
      .create = createVtkHdf},
 #endif

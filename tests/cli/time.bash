@@ -24,8 +24,18 @@ expect 0 convert d.msh e.msh
 expect 0 info e.msh
 contains "$out" 'time          0.1'
 
-expect 0 convert d.msh f.vtk
-contains "$err" '.vtk has no time of its values; it is left out: 0.1'
+formats=(vtk)
+expect 0 --version
+[[ $out == *", hdf5,"* ]] && formats+=(vtkhdf)
+for format in "${formats[@]}"; do
+  expect 0 convert d.msh "f.$format"
+  contains_not "$err" 'time'
+  expect 0 info "f.$format"
+  contains "$out" 'time          0.1'
+done
+
+expect 0 convert d.msh f.sva
+contains "$err" '.sva has no time of its values; it is left out: 0.1'
 
 # Of two times nobody knows which counts.
 { cat in.msh && sed -n '/NodeData/,$p' in.msh | sed 's/"T"/"U"/; s/ 0.1 3 / 0.2 3 /; s/^0.1$/0.2/'; } >two.msh

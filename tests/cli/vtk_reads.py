@@ -2,7 +2,7 @@
 
 vtk_reads.py write FOLDER   the mesh mesh.vtu, written by VTK in every way that it has
 vtk_reads.py same A B...    exits with 0 if both files of each pair hold the same cells, corners
-                            and values
+                            and values, and the second the time that the first one has
 vtk_reads.py blocks FOLDER  the mesh mesh.vtu with block ids, and what VTK writes of it as Exodus II
 vtk_reads.py shapes FOLDER  a cube made of cells of all shapes that fill it face to face, .vtu and .vtk
 vtk_reads.py fills A...     exits with 0 if the tetrahedra of each file fill such a cube, face to face,
@@ -36,7 +36,8 @@ def mixed_into(sums, rows):
 
 
 def facts(path):
-    """The names of all arrays, and the cells in an order that does not depend on that of the file."""
+    """The names of all arrays, the time, and the cells in an order that does not depend on that of the
+    file."""
     grid = grid_of(path)
     points, cells = arrays(grid.GetPointData()), arrays(grid.GetCellData())
     sums = mixed_into(np.full(grid.GetNumberOfPoints(), 7, "u8"), vtk_to_numpy(grid.GetPoints().GetData()))
@@ -46,14 +47,18 @@ def facts(path):
     sums = mixed_into(np.full(len(corners), 3, "u8"), sums[corners])
     for name in sorted(cells):
         sums = mixed_into(sums, cells[name])
-    return sorted(points), sorted(cells), np.sort(sums)
+    time = grid.GetFieldData().GetArray("TimeValue")
+    return ((sorted(points), sorted(cells)), [] if time is None else vtk_to_numpy(time).tolist(),
+            np.sort(sums))
 
 
 def same(*paths):
     for a, b in zip(paths[::2], paths[1::2]):
         first, second = facts(a), facts(b)
-        if first[:2] != second[:2]:
-            sys.exit(f"{a}: {first[:2]}; {b}: {second[:2]}")
+        if first[0] != second[0]:
+            sys.exit(f"{a}: {first[0]}; {b}: {second[0]}")
+        if first[1] and first[1] != second[1]:  # Exodus files always tell one
+            sys.exit(f"{a}: time {first[1]}; {b}: {second[1]}")
         if not np.array_equal(first[2], second[2]):
             sys.exit(f"{a} and {b} hold other cells or values")
 
@@ -70,6 +75,7 @@ def write(folder):
         (grid.GetCellData(), "wide", random.integers(-(2**60), 2**60, cells)),
         (grid.GetCellData(), "byte", random.integers(0, 255, cells, "u1")),
         (grid.GetCellData(), "two", random.integers(-30000, 30000, (cells, 2), "i2")),
+        (grid.GetFieldData(), "TimeValue", np.array([0.1])),
     ):
         array = numpy_to_vtk(values, deep=True)
         array.SetName(name)

@@ -3,19 +3,29 @@
 source "${BASH_SOURCE%/*}/common.bash"
 program=$1
 
+# The time that a file tells.
+time_in() {
+  expect 0 info "$1" --json
+  sed -n 's/^ *"time": \([^,]*\),\{0,1\}$/\1/p' <<<"$out"
+}
+
 # solve NAME MESH STEPS EVERY: runs it and checks what must hold on any mesh.
 solve() {
-  local name=$1 mesh=$2 steps=$3 every=$4 all contents first count=0 cells
+  local name=$1 mesh=$2 steps=$3 every=$4 all contents first count=0 cells last
   example 0 "$program" "$mesh" "$name" "$steps" "$every"
   [[ -z $err ]] || fail "$name: not silent"
   cp "$logs/out" "$name.table"
   all=$(cells_in "$mesh")
   first=$(awk '$1 == 0 { print $3 }' "$name.table")
+  last=$(time_in "$name-$(printf %03d "$steps").tets")
+  awk -v t="$last" 'BEGIN { exit !(t > 0) }' || fail "$name: the time of the last state is $last"
   while read -r number _ contents _ cells; do
     near "$contents" "$first" 1e-8
     ((cells * 10 <= all && cells * 11 > all)) || fail "$name: $cells of $all cells after $number steps"
     file=$name-$(printf %03d "$number").tets
     [[ $(cells_in "$file") == "$cells" ]] || fail "$file: not $cells cells"
+    near "$(time_in "$file")" "$(awk -v t="$last" -v n="$number" -v all="$steps" \
+      'BEGIN { printf "%.17g", t * n / all }')" 1e-12
     example 0 05_writer "$file"
     near "$(line u)" "$contents" 0.01
     count=$((count + 1))

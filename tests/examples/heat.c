@@ -226,7 +226,8 @@ static int step(struct heat* h) {
 
 /* The mesh and its box once more, with the field as it is now, in pieces: each has the vertices
  * that its cells are the first to use. */
-static tetstream_status push_mesh(const struct heat* h, tetstream_simplifier* simplifier) {
+static tetstream_status push_mesh(const struct heat* h, double time,
+                                  tetstream_simplifier* simplifier) {
   const tetstream_column column = {"u", 1, TETSTREAM_TYPE_FLOAT64};
   double low[4], high[4];
   for (int k = 0; k < 4; ++k) {
@@ -239,13 +240,15 @@ static tetstream_status push_mesh(const struct heat* h, tetstream_simplifier* si
   }
   const tetstream_stream_info info = {.struct_size = sizeof info,
                                       .position_type = TETSTREAM_TYPE_FLOAT64,
+                                      .flags = TETSTREAM_STREAM_TIMED,
                                       .field_count = 1,
                                       .fields = &column,
                                       .vertex_count = h->vertex_count,
                                       .cell_count = h->cell_count,
                                       .front_cells = h->front_cells,
                                       .box_min = low,
-                                      .box_max = high};
+                                      .box_max = high,
+                                      .time = time};
   tetstream_status status = tetstream_simplifier_begin(simplifier, &info);
   int64_t vertex = 0; /* the next one to be handed over */
   for (int64_t cell = 0; status >= 0 && cell < h->cell_count; cell += BATCH) {
@@ -295,7 +298,8 @@ static int write_step(const struct heat* h, const char* out, int number, double 
   else if (tetstream_writer_create_file(path, NULL, &writer) < 0)
     bad = failed(tetstream_writer_message(writer));
   else if (tetstream_simplifier_create(NULL, writer, &simplifier) < 0 ||
-           push_mesh(h, simplifier) < 0 || tetstream_simplifier_get_report(simplifier, &report) < 0)
+           push_mesh(h, number * h->dt, simplifier) < 0 ||
+           tetstream_simplifier_get_report(simplifier, &report) < 0)
     bad = failed(tetstream_simplifier_message(simplifier));
   else
     printf("%d %.6g %.15g %.9g %lld\n", number, time, dot(h, h->mass, h->u), amplitude(h),

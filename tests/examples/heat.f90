@@ -167,14 +167,16 @@ contains
 
   ! The mesh and its box once more, with the field as it is now, in pieces: each has the points that its
   ! cells are the first to use.
-  subroutine push_mesh(h, simplifier)
+  subroutine push_mesh(h, time, simplifier)
     type(heat), intent(inout) :: h
+    real(real64), intent(in) :: time
     type(tetstream_simplifier), intent(inout) :: simplifier
     type(tetstream_batch) :: batch
     integer(int64) :: first, last, point, top
 
     h%info%box_min = [minval(h%mesh%points, 2), minval(h%u)]
     h%info%box_max = [maxval(h%mesh%points, 2), maxval(h%u)]
+    h%info%time = time
     call simplifier%begin(h%info)
     allocate (batch%fields(1))
     point = 0                                             ! the last one that was handed over
@@ -205,7 +207,7 @@ contains
     write (ending, "(a, i3.3, a)") "-", number, ".tets"
     call writer%create_file(out//trim(ending))
     call simplifier%create(writer)
-    call push_mesh(h, simplifier)
+    call push_mesh(h, number*h%dt, simplifier)
     call simplifier%get_report(report)
     wave = h%cosine - sum(h%mass*h%cosine)/sum(h%mass)
     print "(i0, 1x, es12.6, 1x, es21.15, 1x, es16.9, 1x, i0)", number, time, sum(h%mass*h%u), &

@@ -31,6 +31,16 @@ class Pyvista(unittest.TestCase):
         self.assertLessEqual(len(small.celltypes), 0.3 * len(cells))
         self.assertEqual(set(small.cell_data["part"]), {3, 8})
 
+    def test_the_time_goes_there_and_back(self):
+        points, cells, _ = box(2)
+        grid = tetstream.Mesh(points, cells, time=0.5).to_pyvista()
+        self.assertEqual(list(grid.field_data["TimeValue"]), [0.5])
+        self.assertEqual(tetstream.from_pyvista(grid).time, 0.5)
+        for other in ([0.5, 1.5], ["noon"], [numpy.nan], []):
+            grid.field_data["TimeValue"] = numpy.array(other)
+            self.assertIsNone(tetstream.from_pyvista(grid).time)
+        self.assertEqual(tetstream.Mesh(points, cells).to_pyvista().field_data, {})
+
     def test_other_cells_are_refused(self):
         grid = pyvista.UnstructuredGrid(numpy.array([8, *range(8)]), numpy.array([12], numpy.uint8),
                                         numpy.zeros((8, 3)))

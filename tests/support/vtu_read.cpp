@@ -13,7 +13,7 @@ static bool same(const std::vector<Column>& a, const std::vector<Column>& b) {
 }
 
 bool VtuMesh::operator==(const VtuMesh& other) const {
-  return schema.position_type == other.schema.position_type &&
+  return schema.position_type == other.schema.position_type && schema.time == other.schema.time &&
          same(schema.fields, other.schema.fields) &&
          same(schema.cell_data, other.schema.cell_data) && positions == other.positions &&
          cells == other.cells && fields == other.fields && cell_data == other.cell_data &&

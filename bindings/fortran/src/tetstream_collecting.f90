@@ -66,6 +66,7 @@ contains
     call begin(this%mesh%fields, info%fields)
     call begin(this%mesh%cell_data, info%cell_data)
     if (size(info%label_names) > 0) this%mesh%label_names = info%label_names
+    if (allocated(info%time)) this%mesh%time = info%time
   end subroutine
 
   ! How many rows are taken on trust: the header of a broken file may tell of any number.

@@ -62,6 +62,10 @@ contains
       out%box_max = c_loc(this%info%box_max)
     end if
     if (allocated(this%info%label_names)) call fill_label_names(this, this%info%label_names, out)
+    if (allocated(this%info%time)) then
+      out%flags = ior(out%flags, TETSTREAM_STREAM_TIMED)
+      out%time = this%info%time
+    end if
   end subroutine
 
   ! Whether the box is there, of the length that the library reads.

@@ -104,6 +104,7 @@ contains
     end if
     call mark_faces(this, marks, batch, status, refusal)
     if (allocated(marks%label_names)) this%description%info%label_names = marks%label_names
+    if (allocated(marks%time)) this%description%info%time = marks%time
     if (.not. allocated(marks%locked_edges)) return
     if (size(marks%locked_edges, 2) == 0) return
     call need("locked_edges: the first extent", size(marks%locked_edges, 1, c_int64_t), 2_c_int64_t, &

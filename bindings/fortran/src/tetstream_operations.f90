@@ -247,6 +247,7 @@ contains
     call move_alloc(from%locked_faces, to%locked_faces)
     call move_alloc(from%locked_edges, to%locked_edges)
     call move_alloc(from%label_names, to%label_names)
+    call move_alloc(from%time, to%time)
   end subroutine
 
   ! ------------------------------------------------------------------------------- whole meshes

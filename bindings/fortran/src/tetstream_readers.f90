@@ -257,7 +257,7 @@ contains
 
   ! Points (3, n), cells (4, m) from 1, fields and cell data are read where they lie: they must stay
   ! until the reader is destroyed. Of `marks` count locked, faces, face_labels, locked_faces,
-  ! locked_edges and label_names, which are copied.
+  ! locked_edges, label_names and time, which are copied.
   subroutine open_mesh_float64_int64(this, points, cells, fields, cell_data, marks, stat, errmsg)
     class(tetstream_reader), intent(inout) :: this
     real(c_double), pointer, contiguous, intent(in) :: points(:, :)

@@ -25,6 +25,7 @@ module tetstream_streams
     integer(c_int64_t) :: front_width = -1, front_span = -1, front_cells = -1
     real(c_double), allocatable :: box_min(:), box_max(:)
     type(tetstream_label_name), allocatable :: label_names(:)   ! of labels of faces: cell_array is ""
+    real(c_double), allocatable :: time                         ! of the values, where it is known
   contains
     procedure :: add_field => info_add_field
     procedure :: add_cell_data => info_add_cell_data
@@ -43,7 +44,8 @@ module tetstream_streams
     integer(c_int64_t), allocatable :: face_labels(:)       ! (f)
     logical, allocatable :: locked_faces(:)                 ! (f)
     integer(c_int64_t), allocatable :: locked_edges(:, :)   ! (2, e), from 1
-    type(tetstream_label_name), allocatable :: label_names(:)   ! of a batch they do not count
+    type(tetstream_label_name), allocatable :: label_names(:)   ! of a batch they do not count, nor
+    real(c_double), allocatable :: time                     ! does the time of the values
   contains
     procedure, private :: mesh_add_name_int64, mesh_add_name_int32
     generic :: add_label_name => mesh_add_name_int64, mesh_add_name_int32
@@ -197,6 +199,7 @@ contains
     call copy_box(from%box_min, length, to%box_min)
     call copy_box(from%box_max, length, to%box_max)
     call copy_label_names(from, to%label_names)
+    if (iand(from%flags, TETSTREAM_STREAM_TIMED) /= 0) to%time = from%time
   end subroutine
 
   subroutine copy_columns(from, count, to)

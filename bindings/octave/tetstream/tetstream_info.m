@@ -3,7 +3,7 @@
 ## Reads everything and tells what a mesh is, of a file or in a struct: vertex_count, cell_count,
 ## face_count (labelled faces); fields and cell_data: structs of name to the number of components;
 ## box: 2 x 3, least and largest coordinates; ranges: a struct of field to its least and largest
-## values, 2 x k; label_names: what labels mean, as in tetstream_read; face_labels: a struct array
+## values, 2 x k; label_names and time, as in tetstream_read; face_labels: a struct array
 ## of label and faces, their number (empty where more than 65536 labels number the faces); front:
 ## how coherent its order is, width and span in vertices, cells that touch them; notes. An indexed
 ## mesh's front is that of the order in which it is streamed.
@@ -42,6 +42,7 @@ function info = tetstream_info (source, varargin)
     info.cell_data.(found.cell_data_name (i)) = double (found.cell_data_components (i));
   endfor
   info.label_names = label_names_of (found);
+  info.time = time_of (found);
   info.face_labels = all_of (@(i) reader.get_face_label (i), double (reader.face_label_count ()));
   info.notes = notes_of (reader);
 endfunction

@@ -7,7 +7,8 @@
 ## fields: values at the points, in any units: n x k, or a struct of such arrays by name, or [].
 ##   double and single are interpolated, int32, int64 and logical picked.
 ## P, T, F are the same of the result; F is a struct if `fields` was one. S has more of it: report,
-##   what was done; cell_data; regions; locked; faces, face_labels; label_names; and the vertex map.
+##   what was done; cell_data; regions; locked; faces, face_labels; label_names; time; and the vertex
+##   map.
 ##
 ## One target at least is wanted; the first that is reached ends the run:
 ##   "ratio"   cells out / cells in
@@ -20,7 +21,7 @@
 ##   "weights"      struct of field to its weight in the error; others are then only carried along
 ##   "locked"       n logicals: points that are never moved
 ##   "faces", "face_labels", "locked_faces", "locked_edges"   f x 3, f, f logicals, e x 2
-##   "label_names"  what labels mean, as in tetstream_read
+##   "label_names"  what labels mean, as in tetstream_read; "time" of the values
 ##   "vertex_map"   true: S.map.cells (n; 0: in no cell) and S.map.weights (n x 4) tell in which cell
 ##                  of the result each point lies
 ##   "progress"     a function that is called with a struct some times a second; its error ends the
@@ -40,14 +41,15 @@ function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
   caller = "tetstream_simplify";
   own = struct ("cell_data", [], "regions", "auto", "weights", [], "locked", [], "faces", [],
                 "face_labels", [], "locked_faces", [], "locked_edges", [], "label_names", [],
-                "vertex_map", false, "progress", []);
+                "time", [], "vertex_map", false, "progress", []);
   tetstream_core;
   [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
   need_target (caller, options, varargin);
   mesh = struct ("points", {points}, "cells", {cells}, "fields", {named(fields)},
                  "cell_data", {own.cell_data}, "locked", {own.locked}, "faces", {own.faces},
                  "face_labels", {own.face_labels}, "locked_faces", {own.locked_faces},
-                 "locked_edges", {own.locked_edges}, "label_names", {own.label_names});
+                 "locked_edges", {own.locked_edges}, "label_names", {own.label_names},
+                 "time", {own.time});
   mesh = complete_mesh (caller, mesh);
   [mesh, label] = with_regions (caller, mesh, own.regions);
   options.set_text (tetstream_core.OPTION_REGIONS, label);

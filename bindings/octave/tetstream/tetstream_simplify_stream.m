@@ -9,7 +9,7 @@
 ##   from 1 on, counted through all batches), cell_data (struct of m x k), last_uses (m x 4 logicals:
 ##   no later cell uses that point), finalized (points that no later cell uses); faces, face_labels,
 ##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries;
-##   its label_names, as in tetstream_read, are the stream's. Messages number points and cells of the
+##   its label_names and time, as in tetstream_read, are the stream's. Messages number points and cells of the
 ##   stream from 0.
 ## writer: a function that is called with such batches.
 ## report: what was done.
@@ -90,6 +90,7 @@ function begun (state, info)
   endfor
   state("cell_data") = names;
   state("label_names") = label_names_of (info);
+  state("time") = time_of (info);
 endfunction
 
 ## A batch of the library's as a struct.
@@ -111,4 +112,5 @@ function batch = shown (source, state)
   batch.face_labels = source.face_labels ().';
   batch.locked_edges = source.locked_edges ().' + 1;
   batch.label_names = state("label_names");
+  batch.time = state("time");
 endfunction

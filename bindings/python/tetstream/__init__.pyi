@@ -143,6 +143,7 @@ class StreamInfo(Record):
     fields: dict[str, tuple[numpy.dtype[Any], int]]
     cell_data: dict[str, tuple[numpy.dtype[Any], int]]
     label_names: dict[str | None, dict[int, str]]
+    time: float | None
     vertex_count: int
     cell_count: int
     face_count: int
@@ -264,12 +265,14 @@ class Mesh:
     locked_faces: ArrayLike | None
     locked_edges: ArrayLike | None
     label_names: dict[str | None, Any]
+    time: float | None
     def __init__(self, points: ArrayLike, cells: ArrayLike, fields: _Arrays | None = None,
                  cell_data: _Arrays | None = None, *, locked: ArrayLike | None = None,
                  faces: ArrayLike | None = None, face_labels: ArrayLike | None = None,
                  locked_faces: ArrayLike | None = None,
                  locked_edges: ArrayLike | None = None,
-                 label_names: _LabelNames | None = None) -> None: ...
+                 label_names: _LabelNames | None = None,
+                 time: float | None = None) -> None: ...
     def simplify(self, *, regions: ArrayLike | str | None = None,
                  weights: Mapping[str, float] | None = None, vertex_map: bool = False,
                  progress: _Told = None, **options: Unpack[_Simplifying]) -> Simplified: ...
@@ -328,7 +331,7 @@ class Reader:
                 indexed: bool = False, vertex_count: int = -1, cell_count: int = -1,
                 face_count: int = -1, front_width: int = -1, front_span: int = -1,
                 front_cells: int = -1, label_names: _LabelNames | None = None,
-                box: ArrayLike | None = None, ranges: _Arrays | None = None) -> Reader: ...
+                time: float | None = None, box: ArrayLike | None = None, ranges: _Arrays | None = None) -> Reader: ...
     def info(self) -> StreamInfo: ...
     @property
     def notes(self) -> list[str]: ...
@@ -356,7 +359,7 @@ def simplify(__points: ArrayLike, __tetrahedra: ArrayLike, fields: _Arrays | Non
              locked: ArrayLike | None = None, faces: ArrayLike | None = None,
              face_labels: ArrayLike | None = None, locked_faces: ArrayLike | None = None,
              locked_edges: ArrayLike | None = None, label_names: _LabelNames | None = None,
-             weights: Mapping[str, float] | None = None, vertex_map: bool = False,
+             time: float | None = None, weights: Mapping[str, float] | None = None, vertex_map: bool = False,
              progress: _Told = None, **options: Unpack[_Simplifying]) -> Simplified: ...
 def simplify_file(source: _Source, target: _Target, *, weights: Mapping[str, float] | None = None,
                   map_file: _Path | None = None, log_file: _Path | None = None,
@@ -366,8 +369,8 @@ def simplify_batches(batches: _Batches, points: DTypeLike = "float64",
                      weights: Mapping[str, float] | None = None, vertex_count: int = -1,
                      cell_count: int = -1, face_count: int = -1, front_width: int = -1,
                      front_span: int = -1, front_cells: int = -1,
-                     label_names: _LabelNames | None = None, box: ArrayLike | None = None,
-                     ranges: _Arrays | None = None,
+                     label_names: _LabelNames | None = None, time: float | None = None,
+                     box: ArrayLike | None = None, ranges: _Arrays | None = None,
                      **options: Unpack[_SimplifyingRegions]) -> Generator[Batch, None, Report]: ...
 def layout(source: _Source, target: _Target, *, progress: _Told = None,
            **options: Unpack[_Ordering]) -> LayoutReport: ...

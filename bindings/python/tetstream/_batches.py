@@ -1,7 +1,7 @@
 """Batches: the events of a stream, and what they are to the library."""
 import numpy
 
-from . import _arrays, _labels, _options, core
+from . import _announced, _arrays, _options, core
 from .errors import BadArgument
 
 
@@ -50,8 +50,8 @@ class Schema:
         self.points = _arrays.DTYPES[info.position_type]
 
     @classmethod
-    def announced(cls, points, fields, cell_data, label_names, counts, indexed=False, box=None,
-                  ranges=None):
+    def announced(cls, points, fields, cell_data, label_names, time, counts, indexed=False,
+                  box=None, ranges=None):
         info = core.StreamInfo()
         info.position_type = type_of("points", points)
         info.is_indexed = bool(indexed)
@@ -59,7 +59,7 @@ class Schema:
             info.add_field(name, column[1], column[0])
         for name, column in _columns("cell_data", cell_data):
             info.add_cell_data(name, column[1], column[0])
-        _labels.add(info, label_names)
+        _announced.add(info, label_names, time)
         for name, count in counts.items():
             setattr(info, name, _options.whole(name, count))
         schema = cls(info)

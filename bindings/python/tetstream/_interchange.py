@@ -5,6 +5,7 @@ from ._mesh import Mesh
 from .errors import Unsupported
 
 _VTK_TETRA = 10
+_TIME = "TimeValue"
 
 
 def _needs_tetrahedra(what, kinds):
@@ -15,14 +16,24 @@ def _needs_tetrahedra(what, kinds):
 
 def from_pyvista(grid):
     """A Mesh of a pyvista.UnstructuredGrid of tetrahedra: its points, its point data as fields, its
-    cell data. Points and data are not copied where pyvista does not."""
+    cell data, and the time that the field data "TimeValue" tells, as VTK's files do. Points and data
+    are not copied where pyvista does not."""
     kinds = numpy.asarray(grid.celltypes)
     _needs_tetrahedra("the grid", {f"VTK cells of type {kind}" for kind in
                                    numpy.unique(kinds) if kind != _VTK_TETRA})
     cells = numpy.asarray(grid.cells).reshape(-1, 5)[:, 1:]
     return Mesh(numpy.asarray(grid.points), cells,
                 {name: numpy.asarray(grid.point_data[name]) for name in grid.point_data.keys()},
-                {name: numpy.asarray(grid.cell_data[name]) for name in grid.cell_data.keys()})
+                {name: numpy.asarray(grid.cell_data[name]) for name in grid.cell_data.keys()},
+                time=_time_in(grid))
+
+
+def _time_in(grid):
+    if _TIME not in grid.field_data.keys():
+        return None
+    values = numpy.ravel(grid.field_data[_TIME])
+    is_time = len(values) == 1 and values.dtype.kind in "fiu" and numpy.isfinite(values[0])
+    return float(values[0]) if is_time else None
 
 
 def to_pyvista(mesh):
@@ -38,6 +49,8 @@ def to_pyvista(mesh):
         grid.point_data[name] = values
     for name, values in mesh.cell_data.items():
         grid.cell_data[name] = values
+    if mesh.time is not None:
+        grid.field_data[_TIME] = numpy.array([mesh.time], float)
     return grid
 
 

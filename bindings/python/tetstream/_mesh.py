@@ -1,7 +1,7 @@
 """Meshes in arrays."""
 import numpy
 
-from . import _arrays, _labels, core
+from . import _announced, _arrays, core
 
 
 class Mesh:
@@ -16,17 +16,19 @@ class Mesh:
         locked_faces: [f] of bool or None; locked_edges: [e][2] of int64 or None.
     label_names: what labels mean, a dict of the name of a cell array of integers, or None for
         faces, to a dict of label to name: {None: {1: "inlet"}, "material": {3: "steel"}}.
+    time: of the values, a float in any unit; None: not known.
     """
 
     def __init__(self, points, cells, fields=None, cell_data=None, *, locked=None, faces=None,
-                 face_labels=None, locked_faces=None, locked_edges=None, label_names=None):
+                 face_labels=None, locked_faces=None, locked_edges=None, label_names=None,
+                 time=None):
         self.points, self.cells = points, cells
         self.fields = _arrays.named("fields", fields)
         self.cell_data = _arrays.named("cell_data", cell_data)
         self.locked = locked
         self.faces, self.face_labels, self.locked_faces = faces, face_labels, locked_faces
         self.locked_edges = locked_edges
-        self.label_names = _arrays.named("label_names", label_names)
+        self.label_names, self.time = _arrays.named("label_names", label_names), time
 
     def __repr__(self):
         return (f"<{type(self).__name__} of {len(self.cells)} cells and {len(self.points)} points; "
@@ -128,7 +130,7 @@ def collected(collector, columns=(), cell_columns=(), kind=Mesh):
         mesh.faces, mesh.face_labels = faces.reshape(-1, 3), labels
         mesh.locked_faces = locked_faces.astype(bool) if locked_faces.size else None
     mesh.locked_edges = edges.reshape(-1, 2) if edges.size else None
-    mesh.label_names = _labels.of(info)
+    mesh.label_names, mesh.time = _announced.names_of(info), _announced.time_of(info)
     return mesh
 
 
@@ -186,7 +188,7 @@ def batches_of(mesh):
                           cell_data={c.name: (c.rows.dtype, c.components) for c in cell_data},
                           vertex_count=len(points), cell_count=len(cells),
                           face_count=0 if mesh.faces is None else len(mesh.faces),
-                          label_names=mesh.label_names,
+                          label_names=mesh.label_names, time=mesh.time,
                           box=_arrays.limits(points[used]) if len(cells) else None,
                           ranges={c.name: _arrays.limits(c.rows[used])
                                   for c in fields if len(cells)})

@@ -52,7 +52,7 @@ class _Row:
         elif self.type == core.OPTION_IS_INT64:
             handle.set_int64(self.id, whole(self.name, value))
         else:
-            handle.set_double(self.id, _real(self.name, value))
+            handle.set_double(self.id, real(self.name, value))
 
     def _text_of(self, value):
         """Of a text option: True and False are yes and no, a number of a step is its text."""
@@ -77,7 +77,8 @@ def whole(name, value, bits=64):
     return number
 
 
-def _real(name, value):
+def real(name, value):
+    """A float."""
     try:
         return float(value)
     except (TypeError, ValueError):
@@ -118,7 +119,7 @@ class Options(collections.abc.Mapping):
     def add_field(self, name, weight=1.0):
         """Measures this field with this weight; 0: carried along. Fields that are not named are
         then carried."""
-        self._handle.add_field(name, _real(f'the weight of "{name}"', weight))
+        self._handle.add_field(name, real(f'the weight of "{name}"', weight))
         self._set["weights"] = {**self._set.get("weights", {}), name: weight}
 
     def __getitem__(self, name):

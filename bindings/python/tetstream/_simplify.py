@@ -50,7 +50,8 @@ def _with_regions(mesh, regions, options):
     labelled = _mesh.Mesh(mesh.points, mesh.cells, mesh.fields,
                           {**mesh.cell_data, name: regions}, locked=mesh.locked, faces=mesh.faces,
                           face_labels=mesh.face_labels, locked_faces=mesh.locked_faces,
-                          locked_edges=mesh.locked_edges, label_names=mesh.label_names)
+                          locked_edges=mesh.locked_edges, label_names=mesh.label_names,
+                          time=mesh.time)
     return labelled, {**options, "regions": name}
 
 
@@ -84,7 +85,7 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
 @_options.documented(core.SCOPE_SIMPLIFY, reads=False)
 def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None, locked=None,
              faces=None, face_labels=None, locked_faces=None, locked_edges=None, label_names=None,
-             weights=None, vertex_map=False, progress=None, **options):
+             time=None, weights=None, vertex_map=False, progress=None, **options):
     """Simplifies a mesh in arrays: ``simplify(points, cells, {"p": p}, ratio=0.1)``.
 
     Dense arrays of the types below are read where they lie; others are copied first. Memory beyond
@@ -103,7 +104,8 @@ def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None
         locked: [n] of bool: points that are never moved.
         faces: [f][3], labelled faces of cells, with `face_labels`: [f], and `locked_faces`: [f] of
             bool; `locked_edges`: [e][2].
-        label_names: names of labels, as of a Mesh, which the result has, too.
+        label_names: names of labels, as of a Mesh, and
+        time: of the values, which the result has, too.
         weights: dict of field to its weight in the error; others are then only carried along. None:
             all float fields count alike.
         vertex_map: whether the result tells where each point went.
@@ -126,7 +128,7 @@ def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None
     """
     mesh = _mesh.Mesh(points, tetrahedra, fields, cell_data, locked=locked, faces=faces,
                       face_labels=face_labels, locked_faces=locked_faces,
-                      locked_edges=locked_edges, label_names=label_names)
+                      locked_edges=locked_edges, label_names=label_names, time=time)
     return simplify_mesh(mesh, regions=regions, weights=weights, vertex_map=vertex_map,
                          progress=progress, **options)
 
@@ -165,7 +167,7 @@ def simplify_file(source, target, *, weights=None, map_file=None, log_file=None,
 @_options.documented(core.SCOPE_SIMPLIFY, reads=False)
 def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, weights=None,
                      vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
-                     front_cells=-1, label_names=None, box=None, ranges=None, **options):
+                     front_cells=-1, label_names=None, time=None, box=None, ranges=None, **options):
     """Simplifies a stream as a generator: takes Batches, gives Batches, while the input runs.
 
         for batch in tetstream.simplify_batches(solver(), fields={"p": "float64"}, ratio=0.1):
@@ -173,7 +175,8 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
 
     Args:
         batches: an iterable of Batches, or of dicts with a Batch's arguments.
-        points, fields, cell_data, counts, front, label_names, box, ranges: as in Reader.batches.
+        points, fields, cell_data, counts, front, label_names, time, box, ranges: as in
+            Reader.batches.
         weights, **options: as in simplify. A ratio needs `cell_count` to be met early.
 
     Yields:
@@ -182,7 +185,7 @@ def simplify_batches(batches, points="float64", fields=None, cell_data=None, *, 
     Returns:
         A Report, as the generator's value.
     """
-    schema = _batches.Schema.announced(points, fields, cell_data, label_names, {
+    schema = _batches.Schema.announced(points, fields, cell_data, label_names, time, {
         "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
         "front_width": front_width, "front_span": front_span, "front_cells": front_cells},
         box=box, ranges=ranges)

@@ -4,7 +4,7 @@ import weakref
 
 import numpy
 
-from . import _arrays, _labels, _mesh, _options, core
+from . import _announced, _arrays, _mesh, _options, core
 from ._batches import NO_FACES, Schema, type_of
 from ._records import StreamInfo
 from .errors import BadArgument, BadState, InputOutput, NoSuchFile
@@ -109,7 +109,7 @@ class Reader:
         for column in cell_columns:
             info.add_cell_data(column.name, column.components, column.type)
             batch.add_cell_data(column.rows)
-        _labels.add(info, mesh.label_names)
+        _announced.add(info, mesh.label_names, mesh.time)
         kept += [column.rows for column in (*columns, *cell_columns)]
 
         def put(function, array):
@@ -148,7 +148,7 @@ class Reader:
     @classmethod
     def batches(cls, batches, points="float64", fields=None, cell_data=None, *, indexed=False,
                 vertex_count=-1, cell_count=-1, face_count=-1, front_width=-1, front_span=-1,
-                front_cells=-1, label_names=None, box=None, ranges=None):
+                front_cells=-1, label_names=None, time=None, box=None, ranges=None):
         """A stream out of an iterable, such as a generator, of Batches or of dicts with a Batch's
         arguments.
 
@@ -157,13 +157,13 @@ class Reader:
         indexed: nothing is finalized; the library orders the mesh before it is streamed.
         Counts and the front are told if they are known; the front sets the window, and labelled
             faces that are announced find room where the memory is limited.
-        label_names: as of a Mesh.
+        label_names, time: as of a Mesh.
         box, ranges: as a StreamInfo has them, if they are known: [2][3], the lowest and the highest
             coordinates, and of each field by its name [2][components], or [2] of one component.
             Errors are then measured in units of these from the first cell on, not in those of what
             has come.
         """
-        schema = Schema.announced(points, fields, cell_data, label_names, {
+        schema = Schema.announced(points, fields, cell_data, label_names, time, {
             "vertex_count": vertex_count, "cell_count": cell_count, "face_count": face_count,
             "front_width": front_width, "front_span": front_span,
             "front_cells": front_cells}, indexed, box, ranges)
@@ -192,7 +192,7 @@ def stream_info(info, **more):
     return StreamInfo(position_type=schema.points,
                       fields={name: (dtype, n) for name, dtype, n in schema.fields},
                       cell_data={name: (dtype, n) for name, dtype, n in schema.cell_data},
-                      label_names=_labels.of(info),
+                      label_names=_announced.names_of(info), time=_announced.time_of(info),
                       vertex_count=info.vertex_count, cell_count=info.cell_count,
                       face_count=info.face_count,
                       front_width=info.front_width, front_span=info.front_span,

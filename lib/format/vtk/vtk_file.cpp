@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "field_time.h"
 #include "status.h"
 #include "vtk_scan.h"
 
@@ -276,8 +277,7 @@ class VtkParser {
   void keep(VtkArray array) {
     std::vector<VtkArray>& list = part_ == Part::kPoints ? file_.point_data : file_.cell_data;
     const uint64_t rows = part_ == Part::kPoints ? file_.points->rows : file_.cell_count;
-    if (part_ == Part::kNone)
-      return note("field data is left out: it belongs to no vertex or cell");
+    if (part_ == Part::kNone) return keepTime(std::move(array));
     if (array.rows != rows)
       return note("array \"" + array.name + "\" is left out: it has other rows than the mesh");
     for (const VtkArray& other : list)
@@ -286,6 +286,13 @@ class VtkParser {
     if (list.size() == kMaxVtkArrays)
       tetstream::fail(Status::kUnsupported, "%s: too many arrays", bytes_.name().c_str());
     list.push_back(std::move(array));
+  }
+
+  // Of what belongs to no vertex or cell: of all that only the time.
+  void keepTime(VtkArray array) {
+    if (!isVtkTime(array.name) || array.rows != 1 || array.components != 1)
+      return note("field data is left out: it belongs to no vertex or cell");
+    if (!file_.time) file_.time = std::move(array);
   }
 
   // Sets the name and the number of components; false if the array cannot be kept.

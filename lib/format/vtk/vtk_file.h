@@ -25,6 +25,7 @@ struct VtkFile {
   bool offsets = false;  // version 5 and later: cells as offsets and connectivity
   uint64_t cell_count = 0;
   std::optional<VtkArray> points, cells, cell_ends, types;  // cell_ends: one row more than cells
+  std::optional<VtkArray> time;                             // one number
   std::vector<VtkArray> point_data, cell_data;
   std::vector<std::string> notes;
 };

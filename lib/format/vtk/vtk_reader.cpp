@@ -3,6 +3,7 @@
 
 #include "pieced_mesh.h"
 #include "status.h"
+#include "time_steps.h"
 #include "vtk_file.h"
 #include "vtk_format.h"
 
@@ -114,6 +115,11 @@ Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   mesh.name = vtk->bytes->name();
   mesh.form = vtk->file.offsets ? CellForm::kOffsets : CellForm::kInterleaved;
   mesh.notes = vtk->file.notes;
+  if (vtk->file.time) {
+    double time = 0;
+    openValues(vtk, *vtk->file.time, 1)->read(0, 1, &time, ScalarType::kFloat64);
+    takeTime(mesh, time);
+  }
   mesh.add(pieceOf(vtk));
   return openPiecedMesh(std::move(mesh), options);
 }

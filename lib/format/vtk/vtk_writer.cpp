@@ -10,6 +10,7 @@
 
 #include "column_spool.h"
 #include "dropped_marks.h"
+#include "field_time.h"
 #include "status.h"
 #include "vtk_cells.h"
 #include "vtk_format.h"
@@ -104,6 +105,7 @@ class VtkWriter final : public Sink {
     const bool wide = 5 * cell_count_ > most_int32_ || vertex_count_ > most_int32_;
     writeText(sink, std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") +
                         "\ntetrahedra, written by tetstream\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
+    if (schema_.time) writeTime(sink, *schema_.time);
     writeText(sink, "POINTS " + std::to_string(vertex_count_) + " " +
                         vtkNameOf(schema_.position_type) + "\n");
     writeSpool(sink, *points_);
@@ -133,6 +135,14 @@ class VtkWriter final : public Sink {
 
   static void writeText(BufferedSink& sink, const std::string& text) {
     sink.write(text.data(), text.size());
+  }
+
+  static void writeTime(BufferedSink& sink, double time) {
+    writeText(sink, textOf("FIELD FieldData 1\n%s 1 1 double\n", kVtkTime));
+    NumberRun<uint64_t> run(sink);
+    run.add(std::bit_cast<uint64_t>(time));
+    run.flush();
+    writeText(sink, "\n");
   }
 
   static void writeSpool(BufferedSink& sink, ColumnSpool& spool) {

@@ -3,6 +3,7 @@
 #ifdef TETSTREAM_WITH_HDF5
 #include <algorithm>
 
+#include "field_time.h"
 #include "hdf5_file.h"
 #include "pieced_mesh.h"
 #include "status.h"
@@ -41,6 +42,7 @@ class VtkHdf {
     for (size_t i = 0; i < parts; ++i) addPart(static_cast<size_t>(begin.part) + i, place);
     addData("PointData", begin.point, place.point - begin.point, &MeshPiece::point_data);
     addData("CellData", begin.cell, place.cell - begin.cell, &MeshPiece::cell_data);
+    readFieldData();
   }
 
  private:
@@ -62,13 +64,11 @@ class VtkHdf {
                "the numbers of points, cells and ids are of different partitions");
     if (!file_->has("VTKHDF/Steps")) return points_.size();
     const std::string times = "VTKHDF/Steps/Values";
-    const uint64_t steps = file_->has(times) ? file_->shapeOf(times).rows : 1;
+    const bool is_told = file_->has(times);
+    const uint64_t steps = is_told ? file_->shapeOf(times).rows : 1;
     if (steps == 0) failFile(Status::kBadData, "there are no time steps");
-    step_ = chooseStep(mesh_, steps, options_, [&](uint64_t step) {
-      double time = 0;
-      openHdf5Values(file_, times, step)->read(0, 1, &time, ScalarType::kFloat64);
-      return time;
-    });
+    const auto time = [&](uint64_t step) { return timeAt(times, step); };
+    step_ = chooseStep(mesh_, steps, options_, is_told ? time : std::function<double(uint64_t)>());
     place.part = numberOfStep("PartOffsets", 0);
     place.point = numberOfStep("PointOffsets", 0);
     place.cell = numberOfStep("CellOffsets", 0);
@@ -165,8 +165,26 @@ class VtkHdf {
       checkRows(path, shape, begin, rows);
       addToParts(name, path, shape, begin, list);
     }
-    if (list == &MeshPiece::point_data && file_->has("VTKHDF/FieldData"))
-      mesh_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
+  }
+
+  // What belongs to no vertex or cell: of all that only the time.
+  void readFieldData() {
+    const std::string group = "VTKHDF/FieldData";
+    if (!file_->has(group)) return;
+    for (const std::string& name : file_->datasetsOf(group)) {
+      const std::string path = textOf("%s/%s", group.c_str(), name.c_str());
+      const Hdf5Shape shape = file_->shapeOf(path);
+      if (isVtkTime(name) && shape.numbers && shape.rows == 1 && shape.components == 1)
+        takeTime(mesh_, timeAt(path, 0));
+      else
+        mesh_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
+    }
+  }
+
+  double timeAt(const std::string& path, uint64_t place) const {
+    double time = 0;
+    openHdf5Values(file_, path, place)->read(0, 1, &time, ScalarType::kFloat64);
+    return time;
   }
 
   void checkRows(const std::string& path, const Hdf5Shape& shape, uint64_t first,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dropped_marks.h"
+#include "field_time.h"
 #include "hdf5_column.h"
 #include "held_names.h"
 #include "io_error.h"
@@ -111,6 +112,7 @@ class VtkHdfWriter final : public Sink {
       makeCount("NumberOfPoints", vertex_count_);
       makeCount("NumberOfCells", cell_count_);
       makeCount("NumberOfConnectivityIds", 4 * cell_count_);
+      if (schema_.time) makeTime(*schema_.time);
     }
     file_->close();
     copyOut();
@@ -166,6 +168,14 @@ class VtkHdfWriter final : public Sink {
     const Place column = makeColumn(name, ValueType::kInt64, 1);
     const int64_t value = static_cast<int64_t>(count);
     column->append(&value, 1);
+    column->finish();
+  }
+
+  // A step of version 2 would have it in a group that VTK before 9.3 does not read.
+  void makeTime(double time) {
+    file_->createGroup("VTKHDF/FieldData");
+    const Place column = makeColumn(std::string("FieldData/") + kVtkTime, ValueType::kFloat64, 1);
+    column->append(&time, 1);
     column->finish();
   }
 

@@ -9,6 +9,7 @@
 
 #include "dropped_marks.h"
 #include "face_label_column.h"
+#include "field_time.h"
 #include "held_names.h"
 #include "row_spool.h"
 #include "status.h"
@@ -254,9 +255,10 @@ class VtuWriter final : public Sink {
 
   // As VTK's readers look for it.
   void addTime(double time) {
-    text_ +=
-        "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" "
-        "NumberOfTuples=\"1\" format=\"ascii\">";
+    text_ += textOf(
+        "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"%s\" "
+        "NumberOfTuples=\"1\" format=\"ascii\">",
+        kVtkTime);
     printNumber(&time, ScalarType::kFloat64, text_);
     text_ += "</DataArray>\n    </FieldData>\n";
   }

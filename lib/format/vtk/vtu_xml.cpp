@@ -5,6 +5,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "field_time.h"
 #include "status.h"
 #include "vtu_blocks.h"
 #include "vtu_file.h"
@@ -160,8 +161,8 @@ class HeaderParser final : XmlFeed {
     const char *name = find(attributes, "Name"), *type = find(attributes, "type"),
                *rows = find(attributes, "NumberOfTuples");
     VtuArray array;
-    const bool is_time = name && std::strcmp(name, "TimeValue") == 0 && type &&
-                         parseType(type, &array.type) && rows && std::strcmp(rows, "1") == 0;
+    const bool is_time = name && isVtkTime(name) && type && parseType(type, &array.type) && rows &&
+                         std::strcmp(rows, "1") == 0;
     if (!is_time)
       file_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
     if (!is_time || file_.time || !times_.empty()) return false;

@@ -8,4 +8,4 @@ class UnstructuredGrid:
         if cells.ndim != 1 or celltypes.dtype != numpy.uint8 or points.shape[1:] != (3,):
             raise TypeError("cells are flat, types uint8, points [n][3]")
         self.cells, self.celltypes, self.points = cells, celltypes, points
-        self.point_data, self.cell_data = {}, {}
+        self.point_data, self.cell_data, self.field_data = {}, {}, {}

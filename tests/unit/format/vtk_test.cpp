@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "slow_run.h"
@@ -22,9 +23,11 @@ const char* const kOldVtkText =
     "a title\n"
     "ASCII\n"
     "DATASET UNSTRUCTURED_GRID\n"
-    "FIELD FieldData 2\n"
+    "FIELD FieldData 3\n"
     "TIME 1 1 double\n"
     "0.5\n"
+    "CYCLE 1 1 int\n"
+    "3\n"
     "who 1 2 string\n"
     "some%20body\n"
     "else\n"
@@ -84,6 +87,7 @@ TEST(Vtk, ReadsWhatOldProgramsWrite) {
     EXPECT_EQ(valuesAs<int32_t>(mesh.fields[3]), (std::vector<int32_t>{5, 4, 3, 2, 1}));
     EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]), (std::vector<int32_t>{8, 250}));
     EXPECT_TRUE(hasNote(mesh, "field data is left out"));
+    EXPECT_EQ(mesh.schema.time, 0.5);
     EXPECT_TRUE(hasNote(mesh, "\"short\" is left out"));
     EXPECT_TRUE(hasNote(mesh, "\"words\" is left out"));
     EXPECT_TRUE(hasNote(mesh, "1 cells of lower dimension"));
@@ -153,7 +157,7 @@ TEST(Vtk, SaysWhereAFileIsWrong) {
       {"POINTS 5 double", "POINTS -5 double", "the number of points is missing or no number"},
       {"POINTS 5 double", "POINTS 5 triple", "\"triple\" is no type of values"},
       {"POINTS 5", "POINTS 99999999999", "the file ends before the 99999999999 x 3 values"},
-      {"CELLS 4 17", "CELLS 4 18", "byte 244: \"4\" is no keyword"},
+      {"CELLS 4 17", "CELLS 4 18", "byte 260: \"4\" is no keyword"},
       {"CELLS 4 17", "CELLS 4 16", "BAD_DATA: test.vtk: byte"},
       {"CELLS 4 17", "CELLS 3 17", "CELLS and CELL_TYPES have different numbers of cells"},
       {"4 0 1 2 3", "5 0 1 2 3", "cell 1 is a tetrahedron with a wrong number of points"},
@@ -205,6 +209,23 @@ void damageVtkEverywhere(const std::string& good) {
   }
 }
 
+TEST(Vtk, TakesATimeThatIsOneNumberByItsName) {
+  const std::string file = binaryFile("4.2", kCellRows);
+  const size_t at = file.find("POINTS");
+  const auto timeOf = [&](const std::string& head, const std::string& values) {
+    return readAs("vtk", file.substr(0, at) + "FIELD FieldData 1\n" + head + "\n" + values + "\n" +
+                             file.substr(at))
+        .schema.time;
+  };
+  EXPECT_EQ(timeOf("TimeValue 1 1 double", big<double>({0.1})), 0.1);
+  EXPECT_EQ(timeOf("TIME 1 1 float", big<float>({0.5})), 0.5);
+  EXPECT_EQ(timeOf("TimeValue 1 1 int", big<int32_t>({-3})), -3);
+  EXPECT_FALSE(timeOf("Time 1 1 double", big<double>({0.1})));
+  EXPECT_FALSE(timeOf("TimeValue 1 2 double", big<double>({0.1, 0.2})));
+  EXPECT_FALSE(timeOf("TimeValue 2 1 double", big<double>({0.1, 0.2})));
+  EXPECT_FALSE(timeOf("TimeValue 1 1 double", big<double>({NAN})));
+}
+
 TEST(Vtk, SurvivesDamage) {
   damageVtkEverywhere(kOldVtkText);
   damageVtkEverywhere(binaryFile("4.2", kCellRows));
@@ -216,7 +237,8 @@ TEST(Vtk, WrittenInEitherVersionGivesBackEveryArray) {
   piece.point_data.push_back({"Float64", "a vector, 100 %", 3, {}, {}});
   piece.point_data.back().reals.assign(15, 0.1);
   piece.cell_data.push_back({"Int64", "long", 2, {}, {1, INT64_MIN, 3, INT64_MAX}});
-  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  mesh.schema.time = 0.1;
   for (const uint64_t most : {kVtkMostInt32, uint64_t{9}}) {
     std::vector<unsigned char> out;
     const std::string file =

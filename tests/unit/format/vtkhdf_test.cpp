@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "hdf5_testing.h"
@@ -118,6 +119,36 @@ TEST(VtkHdf, ReadsOneTimeStep) {
   EXPECT_THROW(readAs("vtkhdf", file, 1000, options), Error);
 }
 
+TEST(VtkHdf, StepsNeedNoTimes) {
+  const VtuMesh mesh = readAs("vtkhdf", makeVtkHdf({}, [](Hdf5File& out) {
+                                out.createGroup("VTKHDF/Steps");
+                                add<int64_t>(out, "Steps/NumberOfParts", ValueType::kInt64, 1, {2});
+                              }));
+  EXPECT_EQ(mesh.cells.size(), 8u);
+  EXPECT_FALSE(mesh.schema.time);
+}
+
+TEST(VtkHdf, TakesATimeThatIsOneNumberByItsName) {
+  const struct {
+    const char* name;
+    std::vector<double> values;
+    std::optional<double> time;
+    size_t notes;  // beside those on the triangle and the points
+  } cases[] = {{"TimeValue", {0.1}, 0.1, 0},
+               {"TIME", {0.5}, 0.5, 0},
+               {"TimeValue", {0.1, 0.2}, {}, 1},
+               {"CYCLE", {3}, {}, 1}};
+  for (const auto& c : cases) {
+    const VtuMesh mesh =
+        readAs("vtkhdf", makeVtkHdf({}, [&c](Hdf5File& out) {
+                 out.createGroup("VTKHDF/FieldData");
+                 add(out, std::string("FieldData/") + c.name, ValueType::kFloat64, 1, c.values);
+               }));
+    EXPECT_EQ(mesh.schema.time, c.time) << c.name;
+    EXPECT_EQ(mesh.notes.size(), 2 + c.notes) << c.name;
+  }
+}
+
 // Two hexahedra in two partitions: the points of the shared square are numbered the other way round
 // in the second, so that each cut of its own would go across.
 TEST(VtkHdf, SplitsCellsOfPartitionsAlikeWhereTheyMeet) {
@@ -155,7 +186,8 @@ TEST(VtkHdf, WrittenGivesBackEveryArrayInTheSameBytes) {
   piece.point_data.push_back({"Float64", "v", 3, {}, {}});
   piece.point_data.back().reals.assign(15, 0.1);
   piece.cell_data.push_back({"Int64", "wide", 1, {}, {INT64_MIN, INT64_MAX}});
-  const VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  VtuMesh mesh = readVtu(makeVtu({piece}, {}));
+  mesh.schema.time = 0.1;
   for (const bool compress : {true, false}) {
     const std::string file = writtenAs("vtkhdf", mesh, compress);
     VtuMesh read = readAs("vtkhdf", file);

@@ -246,19 +246,22 @@ TEST(VtuOfVtk, ReadsAsciiBinaryAndAppended) {
               (std::vector<float>{0, 1, 2, 0.1f, 1, 2, 0.2f, 1, 2, 0.3f, 1, 2, 0.4f, 1, 2}));
     ASSERT_EQ(mesh.schema.cell_data.size(), 1u);
     EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]), (std::vector<int32_t>{1, 2}));
-    EXPECT_EQ(mesh.notes.size(), 2u);  // the field data and the strings
-    EXPECT_FALSE(mesh.schema.time);
+    EXPECT_EQ(mesh.notes.size(), 1u);  // the strings
+    EXPECT_EQ(mesh.schema.time, 1);    // as VisIt calls it
   }
 }
 
-// As ParaView calls it, of one row.
-TEST(VtuOfVtk, TakesTheTime) {
+// Also as ParaView calls it; of one row.
+TEST(VtuOfVtk, TakesTheTimeByItsName) {
   for (const char* file : {kAscii, kBinary, kAppended}) {
     std::string text = file;
-    text.replace(text.find("\"TIME\""), 6, "\"TimeValue\"");
-    const VtuMesh mesh = readVtu(text);
-    EXPECT_EQ(mesh.schema.time, 1);
-    EXPECT_EQ(mesh.notes.size(), 1u);  // the strings
+    const size_t name = text.find("\"TIME\"");
+    text.replace(name, 6, "\"Time\"");
+    EXPECT_FALSE(readVtu(text).schema.time);
+    EXPECT_EQ(readVtu(text).notes.size(), 2u);  // the field data and the strings
+    text.replace(name, 6, "\"TimeValue\"");
+    EXPECT_EQ(readVtu(text).schema.time, 1);
+    EXPECT_EQ(readVtu(text).notes.size(), 1u);
     text.replace(text.find("NumberOfTuples=\"1\""), 18, "NumberOfTuples=\"2\"");
     EXPECT_FALSE(readVtu(text).schema.time);
     EXPECT_EQ(readVtu(text).notes.size(), 2u);

@@ -16,4 +16,5 @@ function mesh = collected (collector, cell_class)
   mesh.locked_faces = logical (collector.locked_faces ().');
   mesh.locked_edges = collector.locked_edges ().' + 1;
   mesh.label_names = label_names_of (info);
+  mesh.time = time_of (info);
 endfunction

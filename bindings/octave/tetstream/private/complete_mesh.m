@@ -3,7 +3,7 @@
 function mesh = complete_mesh (caller, mesh)
   whole = struct ("points", [], "cells", [], "fields", struct (), "cell_data", struct (),
                   "last_uses", [], "locked", [], "finalized", [], "faces", [], "face_labels", [],
-                  "locked_faces", [], "locked_edges", [], "label_names", []);
+                  "locked_faces", [], "locked_edges", [], "label_names", [], "time", []);
   if (! isstruct (mesh) || ! isscalar (mesh))
     error ("tetstream:bad-argument", "%s: a mesh is a struct with members points, cells, ..., not a %s",
            caller, class (mesh));
