@@ -3,6 +3,7 @@ module labels_cases
   use, intrinsic :: iso_fortran_env, only: int32, int64, real64
   use boxes
   use checks
+  use sinks
   use tetstream
   implicit none
 
@@ -15,13 +16,6 @@ module labels_cases
   contains
     procedure :: open => named_open
     procedure :: next => named_next
-  end type
-
-  type, extends(tetstream_sink) :: listening_sink
-    type(tetstream_stream_info) :: info
-  contains
-    procedure :: open => listening_open
-    procedure :: put => listening_put
   end type
 
 contains
@@ -52,27 +46,6 @@ contains
     batch%points = this%mesh%points
     batch%cells = this%mesh%cells
     batch%cell_data = this%mesh%cell_data
-  end subroutine
-
-  subroutine listening_open(this, info, stat, errmsg)
-    class(listening_sink), intent(inout) :: this
-    type(tetstream_stream_info), intent(in) :: info
-    integer, intent(inout) :: stat
-    character(*), intent(inout) :: errmsg
-
-    associate (stays => stat, stays_too => errmsg)
-    end associate
-    this%info = info
-  end subroutine
-
-  subroutine listening_put(this, batch, stat, errmsg)
-    class(listening_sink), intent(inout) :: this
-    type(tetstream_batch), intent(inout) :: batch
-    integer, intent(inout) :: stat
-    character(*), intent(inout) :: errmsg
-
-    associate (unused => this, not_looked_at => batch, stays => stat, stays_too => errmsg)
-    end associate
   end subroutine
 
   ! A box of two parts, whose floor is labelled 7.

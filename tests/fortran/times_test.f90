@@ -1,44 +1,16 @@
 ! The time of values, wherever a mesh comes from and goes to.
 module times_cases
-  use, intrinsic :: iso_fortran_env, only: int32, int64, real64
+  use, intrinsic :: iso_fortran_env, only: real64
   use, intrinsic :: ieee_arithmetic
   use boxes
   use checks
+  use sinks
   use tetstream
   implicit none
 
   real(real64), parameter :: noon = 1e-3_real64
 
-  ! What it is told of a stream.
-  type, extends(tetstream_sink) :: listening_sink
-    type(tetstream_stream_info) :: info
-  contains
-    procedure :: open => listening_open
-    procedure :: put => listening_put
-  end type
-
 contains
-
-  subroutine listening_open(this, info, stat, errmsg)
-    class(listening_sink), intent(inout) :: this
-    type(tetstream_stream_info), intent(in) :: info
-    integer, intent(inout) :: stat
-    character(*), intent(inout) :: errmsg
-
-    associate (stays => stat, stays_too => errmsg)
-    end associate
-    this%info = info
-  end subroutine
-
-  subroutine listening_put(this, batch, stat, errmsg)
-    class(listening_sink), intent(inout) :: this
-    type(tetstream_batch), intent(inout) :: batch
-    integer, intent(inout) :: stat
-    character(*), intent(inout) :: errmsg
-
-    associate (unused => this, not_looked_at => batch, stays => stat, stays_too => errmsg)
-    end associate
-  end subroutine
 
   subroutine check_time(time, what)
     real(real64), allocatable, intent(in) :: time

@@ -46,18 +46,11 @@ told = tetstream_info (setfield (mesh, "label_names", far)).label_names;
 assert ({told.label}, {-3, intmax("int64")});
 
 ## A stream has those of its first batch, and gives them with each.
-function batch = whole (state, mesh)
-  batch = [];
-  if (! state.isKey ("given"))
-    batch = mesh;
-    state("given") = true;
-  endif
-endfunction
 function take (state, batch)
   state("names") = batch.label_names;
 endfunction
 state = containers.Map ("KeyType", "char", "ValueType", "any");
-tetstream_simplify_stream (@() whole (state, mesh), @(batch) take (state, batch), "ratio", 0.5, ...
+tetstream_simplify_stream (once (mesh), @(batch) take (state, batch), "ratio", 0.5, ...
                            "indexed", true);
 assert (state("names"), names);
 

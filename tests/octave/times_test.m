@@ -24,19 +24,12 @@ assert (S.time, 0.5);
 assert (S.time, []);
 
 ## A stream has that of its first batch, and gives it with each.
-function batch = whole (state, mesh)
-  batch = [];
-  if (! state.isKey ("given"))
-    batch = mesh;
-    state("given") = true;
-  endif
-endfunction
 function take (state, batch)
   state("time") = batch.time;
 endfunction
 for given = {mesh, untimed; 1e-3, []}
   state = containers.Map ("KeyType", "char", "ValueType", "any");
-  tetstream_simplify_stream (@() whole (state, given{1}), @(batch) take (state, batch), ...
+  tetstream_simplify_stream (once (given{1}), @(batch) take (state, batch), ...
                              "ratio", 0.5, "indexed", true);
   assert (state("time"), given{2});
 endfor
