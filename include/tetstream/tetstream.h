@@ -321,8 +321,8 @@ typedef struct tetstream_stream_info {
   const tetstream_label_name *label_names; /* in any order, of a label one at most; may be NULL if
                                               there are none. Since 0.1 */
   double time; /* of the values, with TETSTREAM_STREAM_TIMED, finite, in units of the caller's. It
-                  changes nothing in a run and goes to formats that hold one (.tets, .vtu, .msh, .exo);
-                  of others a note of the writer tells it. Since 0.1 */
+                  changes nothing in a run and goes to formats that hold one (.tets, .msh, .exo and
+                  VTK's); of others a note of the writer tells it. Since 0.1 */
 } tetstream_stream_info;
 
 /* Events, some thousands at a time: the batch's vertices, then its cells in order, each with the

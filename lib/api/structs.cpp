@@ -84,6 +84,15 @@ static void takeBox(const tetstream_stream_info& info, Schema& schema) {
   schema.box_max.assign(info.box_max, info.box_max + size);
 }
 
+static bool hasPlaceOfTime(const tetstream_stream_info& info) {
+  return info.struct_size >= offsetof(tetstream_stream_info, time) + sizeof info.time;
+}
+
+void writeStruct(tetstream_stream_info* out, tetstream_stream_info value) {
+  if (!hasPlaceOfTime(*out)) value.flags &= ~static_cast<uint32_t>(TETSTREAM_STREAM_TIMED);
+  writeStruct<tetstream_stream_info>(out, value);
+}
+
 Schema schemaOf(const tetstream_stream_info& info) {
   if (info.flags & ~static_cast<uint32_t>(TETSTREAM_STREAM_INDEXED | TETSTREAM_STREAM_TIMED))
     fail(Status::kBadArgument, "info: the flags 0x%x are not all known", info.flags);
@@ -92,7 +101,7 @@ Schema schemaOf(const tetstream_stream_info& info) {
   schema.fields = columnsOf(info.fields, info.field_count, "field");
   schema.cell_data = columnsOf(info.cell_data, info.cell_data_count, "cell array");
   schema.label_names = labelNamesOf(info);
-  if (info.flags & TETSTREAM_STREAM_TIMED) schema.time = info.time;
+  if ((info.flags & TETSTREAM_STREAM_TIMED) && hasPlaceOfTime(info)) schema.time = info.time;
   checkSchema(schema);
   schema.vertex_count = knownOrMinusOne(info.vertex_count);
   schema.cell_count = knownOrMinusOne(info.cell_count);

@@ -64,6 +64,9 @@ void writeStruct(T* out, T value) {
   std::memcpy(out, &value, out->struct_size < sizeof(T) ? out->struct_size : sizeof(T));
 }
 
+// A time is told only with the place that it has.
+void writeStruct(tetstream_stream_info* out, tetstream_stream_info value);
+
 // Throw kBadArgument. A count of 0 beforehand is taken as not known.
 Schema schemaOf(const tetstream_stream_info& info);
 

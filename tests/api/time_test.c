@@ -48,7 +48,16 @@ static void it_needs_its_member(void) {
   tetstream_stream_info info = {0};
   info.struct_size = sizeof info;
   CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
+  CHECK_EQUAL(info.flags & TETSTREAM_STREAM_TIMED, 0);
   CHECK(info.time == 0);
+  tetstream_reader_destroy(reader);
+  w.info.struct_size = sizeof w.info;
+  CHECK_EQUAL(tetstream_reader_open_mesh(&w.info, &w.batch, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
+  CHECK(info.flags & TETSTREAM_STREAM_TIMED);
+  info.struct_size = offsetof(tetstream_stream_info, time);
+  CHECK_EQUAL(tetstream_reader_get_info(reader, &info), TETSTREAM_OK);
+  CHECK_EQUAL(info.flags & TETSTREAM_STREAM_TIMED, 0);
   tetstream_reader_destroy(reader);
   hostile_mesh_destroy(mesh);
 }

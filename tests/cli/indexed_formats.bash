@@ -114,6 +114,9 @@ for way in 100:first 100:0 200:1 300:2 300:last; do
 done
 sed 's/timestep="0"/timestep="nan"/' steps.pvd >step.nan.pvd
 expect_error 2 "step.nan.pvd: byte 148: a timestep is no number" info step.nan.pvd
+sed 's/timestep="[^"]*"//; /file="step[1-9]/d' steps.pvd >step.untold.pvd
+expect 0 info step.untold.pvd --json
+contains "$out" '"time": null'
 expect 0 info steps.pvd
 contains "$err" "of 3 time steps, 0 to 2, step 2 is read, at time 0.5"
 contains "$out" "time          0.5"

@@ -37,6 +37,15 @@ done
 expect 0 convert d.msh f.sva
 contains "$err" '.sva has no time of its values; it is left out: 0.1'
 
+# It stands beside data.
+sed '/NodeData/,$d' in.msh >bare.msh
+expect 0 convert b.vtu bare.tets --quiet
+expect 0 convert bare.msh bare.vtu --quiet
+sed 's|<Piece|<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">0.1\
+</DataArray></FieldData><Piece|' bare.vtu >timed.vtu
+expect 0 convert timed.vtu bare.msh
+contains "$err" 'without data there is no time, either; it is left out: 0.1'
+
 # Of two times nobody knows which counts.
 { cat in.msh && sed -n '/NodeData/,$p' in.msh | sed 's/"T"/"U"/; s/ 0.1 3 / 0.2 3 /; s/^0.1$/0.2/'; } >two.msh
 expect 0 info two.msh --json

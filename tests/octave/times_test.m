@@ -38,6 +38,7 @@ endfor
 refused = @(part, time) fails ("tetstream:bad-argument", part, ...
                                @() tetstream_info (setfield (mesh, "time", time)));
 refused ("the time is not finite", NaN);
-for time = {"noon", [1, 2], 2i, {1}}
+assert (tetstream_info (setfield (mesh, "time", sparse (2.5))).time, 2.5);
+for time = {"noon", "", [1, 2], 2i, {1}, true}
   refused ("time: a number is wanted", time{1});
 endfor

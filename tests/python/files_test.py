@@ -137,6 +137,19 @@ class Files(unittest.TestCase):
         self.assertIn("float32", " ".join(result.write(self.path("out.svb"))))
         self.assertGreater(tetstream.info(self.path("out.tets")).front_width, 0)
 
+    def test_fields_of_integers_are_written(self):
+        points, cells, _ = box(2)
+        for kind in (numpy.int32, numpy.int64, numpy.uint8):
+            values = numpy.arange(len(points)).astype(kind)
+            path = self.folder / "integers.tets"
+            tetstream.Mesh(points, cells, {"i": values}).write(path)
+            back = tetstream.read(path)
+            order = numpy.lexsort(points.T)
+            numpy.testing.assert_array_equal(back.points[numpy.lexsort(back.points.T)],
+                                             points[order])
+            numpy.testing.assert_array_equal(back.fields["i"][numpy.lexsort(back.points.T)],
+                                             values[order])
+
     def test_properties_of_a_format(self):
         for compress in ("yes", "no"):
             tetstream.convert(self.path("in.vtu"),

@@ -98,6 +98,8 @@ def limits(rows):
     """Of each column the lowest and the highest of what is finite: [2][columns]; infinity and
     -infinity where nothing is."""
     rows = rows.reshape(len(rows), -1)
+    if not numpy.issubdtype(rows.dtype, numpy.floating):
+        return numpy.stack([rows.min(0), rows.max(0)]).astype(float)
     finite = numpy.isfinite(rows)
     return numpy.stack([numpy.min(rows, 0, initial=numpy.inf, where=finite),
                         numpy.max(rows, 0, initial=-numpy.inf, where=finite)])

@@ -79,8 +79,13 @@ def whole(name, value, bits=64):
 
 def real(name, value):
     """A float."""
+    is_text = isinstance(value, (str, bytes))
     try:
+        if is_text or numpy.iscomplexobj(value) or isinstance(value, (bool, numpy.bool_)):
+            raise TypeError
         return float(value)
+    except OverflowError:
+        raise BadArgument(f"{name}: the number is too large") from None
     except (TypeError, ValueError):
         raise TypeError(f"{name}: a number is wanted, not {type(value).__name__}") from None
 

@@ -161,11 +161,8 @@ class Exodus {
         mesh_.addNote("the variables are left out: there is no time step");
       return;
     }
-    step_ = chooseStep(mesh_, steps, options_, [&](uint64_t step) {
-      double time = 0;
-      file_->open("time_whole", step, 1)->read(0, 1, &time, ScalarType::kFloat64);
-      return time;
-    });
+    step_ = chooseStep(mesh_, steps, options_,
+                       [&](uint64_t step) { return timeIn(*file_->open("time_whole", step, 1)); });
     for (size_t i = 0; i < of_nodes.size(); ++i)
       if (isNew(piece_.point_data, shown(of_nodes[i], i))) addNodal(i, of_nodes);
     for (size_t i = 0; i < of_elements.size(); ++i)

@@ -108,8 +108,16 @@ class MshWriter final : public MeshCollector {
         if (c.components != 1 && c.components != 3 && c.components != 9)
           note("Gmsh itself shows data of 1, 3 or 9 components; \"" + c.name + "\" has " +
                std::to_string(c.components));
+    noteTime();
     for (const LabelName& name : mesh_->schema().label_names)
       tellOfName(name.name, plain(name.name), [this](const std::string& text) { note(text); });
+  }
+
+  // It is told with data.
+  void noteTime() {
+    const double time = mesh_->schema().time.value_or(0);
+    if (time != 0 && mesh_->schema().fields.empty() && elementData() == 0)
+      note(textOf("without data there is no time, either; it is left out: %.9g", time));
   }
 
   void nameArrays() {

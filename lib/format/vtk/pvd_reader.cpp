@@ -18,8 +18,9 @@ namespace tetstream {
 namespace {
 
 struct StepFile {
-  double time;
   std::string name;
+  double time = 0;
+  bool is_told = false;
 };
 
 class StepFiles final : XmlFeed {
@@ -50,12 +51,13 @@ class StepFiles final : XmlFeed {
     const char *file = find(attributes, "file"), *timestep = find(attributes, "timestep");
     if (!file || !*file) failHere("a DataSet has no file");
     if (files_.size() == kMaxFiles) failHere("too many files", Status::kUnsupported);
-    StepFile row = {0, file};
+    StepFile row = {file};
     if (timestep) {
       const char* end = timestep + std::strlen(timestep);
       const std::from_chars_result r = std::from_chars(timestep, end, row.time);
       if (r.ec != std::errc() || r.ptr != end || std::isnan(row.time))
         failHere("a timestep is no number");
+      row.is_told = true;
     }
     files_.push_back(std::move(row));
   }
@@ -73,14 +75,18 @@ Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   mesh.name = bytes->name();
   mesh.join = true;
   std::vector<double> times;
+  bool are_told = false;
   times.reserve(files.size());
-  for (const StepFile& file : files) times.push_back(file.time);
+  for (const StepFile& file : files) {
+    times.push_back(file.time);
+    are_told = are_told || file.is_told;
+  }
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   if (times.empty()) fail(Status::kBadData, "%s: there is no <DataSet>", mesh.name.c_str());
   const double time =
       times[static_cast<size_t>(chooseStep(mesh, times.size(), options, [&](uint64_t step) {
-        return times[static_cast<size_t>(step)];
+        return are_told ? std::optional(times[static_cast<size_t>(step)]) : std::nullopt;
       }))];
   ReadOptions of_file = options;
   of_file.step = kLastStep;  // of those within a file: the one that was asked for is of the files

@@ -115,11 +115,8 @@ Input openVtk(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   mesh.name = vtk->bytes->name();
   mesh.form = vtk->file.offsets ? CellForm::kOffsets : CellForm::kInterleaved;
   mesh.notes = vtk->file.notes;
-  if (vtk->file.time) {
-    double time = 0;
-    openValues(vtk, *vtk->file.time, 1)->read(0, 1, &time, ScalarType::kFloat64);
-    takeTime(mesh, time);
-  }
+  if (vtk->file.time)
+    takeTime(mesh, readTime(mesh, [&] { return timeIn(*openValues(vtk, *vtk->file.time, 1)); }));
   mesh.add(pieceOf(vtk));
   return openPiecedMesh(std::move(mesh), options);
 }

@@ -105,13 +105,13 @@ class VtkWriter final : public Sink {
     const bool wide = 5 * cell_count_ > most_int32_ || vertex_count_ > most_int32_;
     writeText(sink, std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") +
                         "\ntetrahedra, written by tetstream\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
-    if (schema_.time) writeTime(sink, *schema_.time);
     writeText(sink, "POINTS " + std::to_string(vertex_count_) + " " +
                         vtkNameOf(schema_.position_type) + "\n");
     writeSpool(sink, *points_);
     cells_->close();
     wide ? writeOffsets(sink) : writeCells(sink);
     writeTypes(sink);
+    if (schema_.time) writeTime(sink, *schema_.time);
     writeData(sink, "POINT_DATA ", vertex_count_, schema_.fields, fields_);
     writeData(sink, "CELL_DATA ", cell_count_, schema_.cell_data, cell_data_);
     sink.flush();
@@ -137,6 +137,7 @@ class VtkWriter final : public Sink {
     sink.write(text.data(), text.size());
   }
 
+  // note: VTK writes it before the points, where Gmsh does not read the file then.
   static void writeTime(BufferedSink& sink, double time) {
     writeText(sink, textOf("FIELD FieldData 1\n%s 1 1 double\n", kVtkTime));
     NumberRun<uint64_t> run(sink);

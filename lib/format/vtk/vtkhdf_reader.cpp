@@ -42,7 +42,7 @@ class VtkHdf {
     for (size_t i = 0; i < parts; ++i) addPart(static_cast<size_t>(begin.part) + i, place);
     addData("PointData", begin.point, place.point - begin.point, &MeshPiece::point_data);
     addData("CellData", begin.cell, place.cell - begin.cell, &MeshPiece::cell_data);
-    readFieldData();
+    takeTime(mesh_, readTime(mesh_, [this] { return timeOfFieldData(); }));
   }
 
  private:
@@ -64,11 +64,12 @@ class VtkHdf {
                "the numbers of points, cells and ids are of different partitions");
     if (!file_->has("VTKHDF/Steps")) return points_.size();
     const std::string times = "VTKHDF/Steps/Values";
-    const bool is_told = file_->has(times);
-    const uint64_t steps = is_told ? file_->shapeOf(times).rows : 1;
+    const uint64_t steps = stepCount(times);
     if (steps == 0) failFile(Status::kBadData, "there are no time steps");
-    const auto time = [&](uint64_t step) { return timeAt(times, step); };
-    step_ = chooseStep(mesh_, steps, options_, is_told ? time : std::function<double(uint64_t)>());
+    StepTimes time;
+    if (file_->has(times) && file_->shapeOf(times).numbers)
+      time = [this, &times](uint64_t step) { return timeIn(*openHdf5Values(file_, times, step)); };
+    step_ = chooseStep(mesh_, steps, options_, time);
     place.part = numberOfStep("PartOffsets", 0);
     place.point = numberOfStep("PointOffsets", 0);
     place.cell = numberOfStep("CellOffsets", 0);
@@ -78,6 +79,14 @@ class VtkHdf {
     if (place.part > points_.size() || parts > points_.size() - place.part)
       failFile(Status::kBadData, "the time step has partitions that are not there");
     return static_cast<size_t>(parts);
+  }
+
+  // As many as times are told, or else as there are rows of what tells each step's partitions.
+  uint64_t stepCount(const std::string& times) const {
+    for (const std::string& told : {times, std::string("VTKHDF/Steps/NumberOfParts"),
+                                    std::string("VTKHDF/Steps/PartOffsets")})
+      if (file_->has(told)) return file_->shapeOf(told).rows;
+    return 1;
   }
 
   // What the step has in a list of one number each, or `otherwise` if the file has none.
@@ -168,22 +177,17 @@ class VtkHdf {
   }
 
   // What belongs to no vertex or cell: of all that only the time.
-  void readFieldData() {
+  std::optional<double> timeOfFieldData() {
     const std::string group = "VTKHDF/FieldData";
-    if (!file_->has(group)) return;
+    std::optional<double> time;
     for (const std::string& name : file_->datasetsOf(group)) {
       const std::string path = textOf("%s/%s", group.c_str(), name.c_str());
       const Hdf5Shape shape = file_->shapeOf(path);
-      if (isVtkTime(name) && shape.numbers && shape.rows == 1 && shape.components == 1)
-        takeTime(mesh_, timeAt(path, 0));
-      else
+      if (!isVtkTime(name) || !shape.numbers || shape.rows != 1 || shape.components != 1)
         mesh_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
+      else if (!time)
+        time = timeIn(*openHdf5Values(file_, path, 0));
     }
-  }
-
-  double timeAt(const std::string& path, uint64_t place) const {
-    double time = 0;
-    openHdf5Values(file_, path, place)->read(0, 1, &time, ScalarType::kFloat64);
     return time;
   }
 

@@ -37,11 +37,8 @@ void addVtuPieces(MeshPieces& mesh, std::unique_ptr<ByteSource> bytes, const Rea
   const auto vtu = std::make_shared<OpenVtu>(OpenVtu{std::move(bytes), std::move(parsed)});
   for (const std::string& note : vtu->file.notes) mesh.addNote(note);
   if (!vtu->file.global_ids.empty()) mesh.global_ids = vtu->file.global_ids;
-  if (vtu->file.time) {
-    double time = 0;
-    arrayOf(vtu, *vtu->file.time).open(1)->read(0, 1, &time, ScalarType::kFloat64);
-    takeTime(mesh, time);
-  }
+  if (vtu->file.time)
+    takeTime(mesh, readTime(mesh, [&] { return timeIn(*arrayOf(vtu, *vtu->file.time).open(1)); }));
   for (const VtuPiece& piece : vtu->file.pieces) {
     MeshPiece added;
     added.point_count = piece.point_count;

@@ -159,10 +159,12 @@ class HeaderParser final : XmlFeed {
   // What belongs to no vertex or cell: of all that only the time, of files without steps.
   bool enterFieldArray(Attributes attributes) {
     const char *name = find(attributes, "Name"), *type = find(attributes, "type"),
-               *rows = find(attributes, "NumberOfTuples");
+               *rows = find(attributes, "NumberOfTuples"),
+               *components = find(attributes, "NumberOfComponents");
     VtuArray array;
     const bool is_time = name && isVtkTime(name) && type && parseType(type, &array.type) && rows &&
-                         std::strcmp(rows, "1") == 0;
+                         std::strcmp(rows, "1") == 0 &&
+                         (!components || std::strcmp(components, "1") == 0);
     if (!is_time)
       file_.addNote("the file's FieldData is left out: it belongs to no vertex or cell");
     if (!is_time || file_.time || !times_.empty()) return false;

@@ -91,8 +91,7 @@ class Xdmf {
       std::vector<int> leaves = leavesOf(i);
       std::erase_if(leaves, [this](int leaf) { return !hasCells(leaf); });
       if (leaves.empty()) continue;
-      for (const int told : {i, leaves[0]})
-        if (at(told).time) takeTime(mesh_, *at(told).time);
+      for (const int told : {i, leaves[0]}) takeTime(mesh_, at(told).time);
       return leaves;
     }
     return {};
@@ -102,23 +101,21 @@ class Xdmf {
     const std::vector<int>& steps = childrenOf(collection);
     if (steps.empty()) failFile(Status::kBadData, nameOf(collection) + " has no time steps");
     step_count_ = steps.size();
-    step_ = static_cast<size_t>(chooseStep(mesh_, step_count_, options_, timesOf(collection)));
+    step_ = static_cast<size_t>(chooseStep(
+        mesh_, step_count_, options_, [&](uint64_t step) { return timeOf(collection, step); }));
     return leavesOf(steps[step_]);
   }
 
-  // Each step tells its time, or the collection those of all; empty: neither does.
-  std::function<double(uint64_t)> timesOf(int collection) {
+  // A step tells its time, or the collection those of all, or else the first grid in the step.
+  std::optional<double> timeOf(int collection, uint64_t step) {
     const std::vector<int>& steps = childrenOf(collection);
-    if (std::all_of(steps.begin(), steps.end(),
-                    [this](int step) { return at(step).time.has_value(); }))
-      return [this, &steps](uint64_t step) { return *at(steps[static_cast<size_t>(step)]).time; };
+    const int grid = steps[static_cast<size_t>(step)];
+    if (at(grid).time) return at(grid).time;
     const std::vector<XdmfItem>& lists = at(collection).times;
-    if (lists.size() != 1 || lists[0].count() != steps.size()) return {};
-    return [times = arrays_.arrayOf(lists[0], "times", 1), &steps](uint64_t step) {
-      double time = 0;
-      times.open(steps.size())->read(step, 1, &time, ScalarType::kFloat64);
-      return time;
-    };
+    if (lists.size() == 1 && lists[0].count() == steps.size())
+      return timeIn(*arrays_.arrayOf(lists[0], "times", 1).open(steps.size()), step);
+    const std::vector<int> leaves = leavesOf(grid);
+    return leaves.empty() ? std::nullopt : at(leaves[0]).time;
   }
 
   // ---------------------------------------------------------------------------------- includes

@@ -136,8 +136,11 @@ class XdmfTree final : XmlFeed {
     }
     if (std::strcmp(name, "Time") == 0) {
       const std::string value = wordOf(attributes, "Value", "");
+      const size_t begin = value.find_first_not_of(" \t\r\n");
       double time = 0;
-      if (std::from_chars(value.data(), value.data() + value.size(), time).ec == std::errc())
+      if (begin != std::string::npos &&
+          std::from_chars(value.data() + begin, value.data() + value.size(), time).ec ==
+              std::errc())
         grid.time = time;
       if (sameWord(wordOf(attributes, "TimeType", ""), "List")) {
         items_ = &grid.times;

@@ -18,12 +18,33 @@ int64_t parseStep(const std::string& text) {
   return step;
 }
 
-void takeTime(MeshPieces& mesh, double time) {
-  if (!mesh.time && std::isfinite(time)) mesh.time = time;
+void takeTime(MeshPieces& mesh, std::optional<double> time) {
+  if (mesh.time || !time) return;
+  if (std::isfinite(*time))
+    mesh.time = time;
+  else
+    mesh.addNote("the time is left out: it is not finite");
+}
+
+std::optional<double> readTime(MeshPieces& mesh,
+                               const std::function<std::optional<double>()>& read) {
+  try {
+    return read();
+  } catch (const Error& error) {
+    if (error.status() != Status::kBadData && error.status() != Status::kUnsupported) throw;
+    mesh.addNote("the time is left out: " + error.text());
+    return {};
+  }
+}
+
+double timeIn(Values& times, uint64_t step) {
+  double time = 0;
+  times.read(step, 1, &time, ScalarType::kFloat64);
+  return time;
 }
 
 uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options,
-                    const std::function<double(uint64_t)>& time) {
+                    const StepTimes& time) {
   mesh.has_steps = true;
   const uint64_t step = options.step == kLastStep ? count - 1 : static_cast<uint64_t>(options.step);
   if (step >= count)
@@ -32,12 +53,16 @@ uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options
          "to %llu",
          mesh.name.c_str(), static_cast<unsigned long long>(step),
          static_cast<unsigned long long>(count - 1));
-  if (time) takeTime(mesh, time(step));
-  if (count == 1) return step;
+  if (count == 1) {
+    if (time) takeTime(mesh, readTime(mesh, [&] { return time(step); }));
+    return step;
+  }
+  const std::optional<double> told = time ? time(step) : std::nullopt;
+  takeTime(mesh, told);
   std::string text = textOf(
       "of %llu time steps, 0 to %llu, step %llu is read", static_cast<unsigned long long>(count),
       static_cast<unsigned long long>(count - 1), static_cast<unsigned long long>(step));
-  if (time) text += textOf(", at time %.9g", time(step));
+  if (told) text += textOf(", at time %.9g", *told);
   mesh.addNote(text);
   return step;
 }

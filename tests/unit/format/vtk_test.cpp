@@ -224,6 +224,9 @@ TEST(Vtk, TakesATimeThatIsOneNumberByItsName) {
   EXPECT_FALSE(timeOf("TimeValue 1 2 double", big<double>({0.1, 0.2})));
   EXPECT_FALSE(timeOf("TimeValue 2 1 double", big<double>({0.1, 0.2})));
   EXPECT_FALSE(timeOf("TimeValue 1 1 double", big<double>({NAN})));
+  const VtuMesh mesh = readAs("vtk", replaced(kOldVtkText, "0.5\nCYCLE", "1e400\nCYCLE"));
+  EXPECT_FALSE(mesh.schema.time);
+  EXPECT_TRUE(hasNote(mesh, "the time is left out: test.vtk: array \"TIME\": byte"));
 }
 
 TEST(Vtk, SurvivesDamage) {
@@ -244,6 +247,8 @@ TEST(Vtk, WrittenInEitherVersionGivesBackEveryArray) {
     const std::string file =
         writtenBy(*createVtkWith(createMemory(out), WriteOptions(), most), out, mesh);
     EXPECT_TRUE(has(file, most == 9 ? "Version 5.1" : "Version 4.2"));
+    EXPECT_TRUE(has(file, "\nFIELD FieldData 1\nTimeValue 1 1 double\n"));
+    EXPECT_LT(file.find("CELL_TYPES"), file.find("TimeValue"));  // Gmsh does not read it elsewhere
     EXPECT_TRUE(has(file, "VECTORS a%20vector,%20100%20%25 double"));
     EXPECT_TRUE(readAs("vtk", file) == mesh);
     EXPECT_TRUE(readAs("vtk", file).notes.empty());

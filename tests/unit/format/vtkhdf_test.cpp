@@ -120,11 +120,14 @@ TEST(VtkHdf, ReadsOneTimeStep) {
 }
 
 TEST(VtkHdf, StepsNeedNoTimes) {
-  const VtuMesh mesh = readAs("vtkhdf", makeVtkHdf({}, [](Hdf5File& out) {
-                                out.createGroup("VTKHDF/Steps");
-                                add<int64_t>(out, "Steps/NumberOfParts", ValueType::kInt64, 1, {2});
-                              }));
+  const VtuMesh mesh =
+      readAs("vtkhdf", makeVtkHdf({}, [](Hdf5File& out) {
+               out.createGroup("VTKHDF/Steps");
+               add<int64_t>(out, "Steps/NumberOfParts", ValueType::kInt64, 1, {1, 2});
+             }));
   EXPECT_EQ(mesh.cells.size(), 8u);
+  EXPECT_TRUE(hasNote(mesh, "of 2 time steps, 0 to 1, step 1 is read"));
+  EXPECT_FALSE(hasNote(mesh, "at time"));
   EXPECT_FALSE(mesh.schema.time);
 }
 
@@ -137,6 +140,7 @@ TEST(VtkHdf, TakesATimeThatIsOneNumberByItsName) {
   } cases[] = {{"TimeValue", {0.1}, 0.1, 0},
                {"TIME", {0.5}, 0.5, 0},
                {"TimeValue", {0.1, 0.2}, {}, 1},
+               {"TimeValue", {INFINITY}, {}, 1},
                {"CYCLE", {3}, {}, 1}};
   for (const auto& c : cases) {
     const VtuMesh mesh =

@@ -262,6 +262,12 @@ TEST(VtuOfVtk, TakesTheTimeByItsName) {
     text.replace(name, 6, "\"TimeValue\"");
     EXPECT_EQ(readVtu(text).schema.time, 1);
     EXPECT_EQ(readVtu(text).notes.size(), 1u);
+    const size_t rows = text.find("NumberOfTuples=\"1\"");
+    text.insert(rows, "NumberOfComponents=\"3\" ");
+    EXPECT_FALSE(readVtu(text).schema.time);
+    EXPECT_EQ(readVtu(text).notes.size(), 2u);
+    text.replace(rows, 22, "NumberOfComponents=\"1\"");
+    EXPECT_EQ(readVtu(text).schema.time, 1);
     text.replace(text.find("NumberOfTuples=\"1\""), 18, "NumberOfTuples=\"2\"");
     EXPECT_FALSE(readVtu(text).schema.time);
     EXPECT_EQ(readVtu(text).notes.size(), 2u);

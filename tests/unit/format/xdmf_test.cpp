@@ -88,7 +88,36 @@ TEST(Xdmf, EmptyWordsMakeNoFunction) {
 TEST(Xdmf, AGridMayTellItsTime) {
   const std::string grid = kXdmfCells + kXdmfPoints;
   EXPECT_EQ(readAs("xdmf", file(uniform("mesh", grid + "<Time Value=\"0.5\"/>"))).schema.time, 0.5);
+  EXPECT_EQ(readAs("xdmf", file(uniform("mesh", grid + "<Time Value=\" 0.5 \"/>"))).schema.time,
+            0.5);
   EXPECT_FALSE(readAs("xdmf", file(uniform("mesh", grid))).schema.time);
+}
+
+TEST(Xdmf, AStepHasTheTimeThatIsToldOfItAlone) {
+  const std::string grid = kXdmfCells + kXdmfPoints, time = "<Time Value=\"5\"/>";
+  const auto timeOf = [](const std::string& steps) {
+    return readAs("xdmf", file(collection("all", "Temporal", steps))).schema.time;
+  };
+  EXPECT_EQ(timeOf(uniform("a", grid) + uniform("b", grid + time)), 5);
+  EXPECT_FALSE(timeOf(uniform("a", grid + time) + uniform("b", grid)));
+  EXPECT_EQ(timeOf(collection("in space", "Spatial", uniform("a", grid + time))), 5);
+  EXPECT_EQ(
+      timeOf("<Time TimeType=\"List\"><DataItem Dimensions=\"2\" Format=\"XML\">1 2</DataItem>"
+             "</Time>" +
+             uniform("a", grid) + uniform("b", grid)),
+      2);
+}
+
+// What cannot be read of a time is no reason not to read the mesh.
+TEST(Xdmf, ATimeThatIsNoNumberIsLeftOut) {
+  const VtuMesh mesh =
+      readAs("xdmf", file(collection("all", "Temporal",
+                                     "<Time TimeType=\"List\"><DataItem Dimensions=\"1\" "
+                                     "Format=\"XML\">soon</DataItem></Time>" +
+                                         uniform("a", kXdmfCells + kXdmfPoints))));
+  EXPECT_EQ(mesh.cells, kTwoCells);
+  EXPECT_FALSE(mesh.schema.time);
+  EXPECT_TRUE(hasNote(mesh, "the time is left out: test.xdmf: array \"times\": byte"));
 }
 
 // As FEniCS writes functions: the mesh once, then grids that include it.
