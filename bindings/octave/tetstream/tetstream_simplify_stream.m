@@ -9,8 +9,8 @@
 ##   from 1 on, counted through all batches), cell_data (struct of m x k), last_uses (m x 4 logicals:
 ##   no later cell uses that point), finalized (points that no later cell uses); faces, face_labels,
 ##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries;
-##   its label_names and time, as in tetstream_read, are the stream's. Messages number points and cells of the
-##   stream from 0.
+##   its label_names and time, as in tetstream_read, are the stream's. Messages number points and
+##   cells of the stream from 0.
 ## writer: a function that is called with such batches.
 ## report: what was done.
 ##

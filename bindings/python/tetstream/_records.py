@@ -41,6 +41,6 @@ class StreamInfo(Record):
     faces); the front, in ``front_width``, ``front_span``, ``front_cells``, and ``front``, which
     has more; ``box``, [2][3]: least and largest coordinates; ``ranges``, a dict of field to
     [2][components]: least and largest values; ``label_names`` and ``time``, as of a Mesh;
-    ``indexed``; ``notes``. Counts that are not known are -1, boxes None. ``front`` and ``face_labels``, a dict
-    of label to the number of its faces (empty where more than 65536 number the faces), are there
-    where all was read."""
+    ``indexed``; ``notes``. Counts that are not known are -1, boxes None. ``front`` and
+    ``face_labels``, a dict of label to the number of its faces (empty where more than 65536 number
+    the faces), are there where all was read."""
