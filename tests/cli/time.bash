@@ -39,12 +39,18 @@ contains "$err" '.sva has no time of its values; it is left out: 0.1'
 
 # It stands beside data.
 sed '/NodeData/,$d' in.msh >bare.msh
-expect 0 convert b.vtu bare.tets --quiet
 expect 0 convert bare.msh bare.vtu --quiet
 sed 's|<Piece|<FieldData><DataArray type="Float64" Name="TimeValue" NumberOfTuples="1" format="ascii">0.1\
 </DataArray></FieldData><Piece|' bare.vtu >timed.vtu
 expect 0 convert timed.vtu bare.msh
 contains "$err" 'without data there is no time, either; it is left out: 0.1'
+
+# Of a .pvd that of the step counts, or else that of its file.
+for step in 'timestep="7" 7' ' 0.1'; do
+  echo "<VTKFile type=\"Collection\"><Collection><DataSet ${step% *} file=\"timed.vtu\"/></Collection></VTKFile>" >one.pvd
+  expect 0 info one.pvd --json
+  contains "$out" "\"time\": ${step##* },"
+done
 
 # Of two times nobody knows which counts.
 { cat in.msh && sed -n '/NodeData/,$p' in.msh | sed 's/"T"/"U"/; s/ 0.1 3 / 0.2 3 /; s/^0.1$/0.2/'; } >two.msh

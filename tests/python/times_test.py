@@ -56,7 +56,8 @@ class Times(unittest.TestCase):
             self.mesh.time = time
             with self.assertRaisesRegex(TypeError, "time: a number is wanted, not "):
                 tetstream.info(self.mesh)
-        for time, says in ((numpy.nan, "the time is not finite"), (10 ** 400, "time: the number is too large")):
+        for time, says in ((numpy.nan, "the time is not finite"),
+                           (10 ** 400, "time: the number is too large")):
             self.mesh.time = time
             with self.assertRaisesRegex(tetstream.BadArgument, says):
                 tetstream.info(self.mesh)

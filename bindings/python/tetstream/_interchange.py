@@ -102,7 +102,7 @@ def _take_names(made, mesh, by):
 def to_meshio(mesh):
     """A meshio.Mesh of a Mesh. Labelled faces are triangles, whose labels stand in the cell data
     "gmsh:physical", or in "medit:ref" if the mesh has that; other cell data are 0 there, and all cells
-    have the label 1 if there was none. Names of these labels are field_data."""
+    have the label 1 if there was none. Names of these labels are field_data. The time is left out."""
     import meshio
     by = next((name for name in _LABELS if name in mesh.cell_data), _LABELS[0])
     count = 0 if mesh.faces is None else len(mesh.faces)

@@ -79,9 +79,8 @@ def whole(name, value, bits=64):
 
 def real(name, value):
     """A float."""
-    is_text = isinstance(value, (str, bytes))
     try:
-        if is_text or numpy.iscomplexobj(value) or isinstance(value, (bool, numpy.bool_)):
+        if isinstance(value, (str, bytes, bool, numpy.bool_)) or numpy.iscomplexobj(value):
             raise TypeError
         return float(value)
     except OverflowError:

@@ -75,12 +75,10 @@ Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   mesh.name = bytes->name();
   mesh.join = true;
   std::vector<double> times;
-  bool are_told = false;
   times.reserve(files.size());
-  for (const StepFile& file : files) {
-    times.push_back(file.time);
-    are_told = are_told || file.is_told;
-  }
+  for (const StepFile& file : files) times.push_back(file.time);
+  const bool are_told =
+      std::any_of(files.begin(), files.end(), [](const StepFile& file) { return file.is_told; });
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   if (times.empty()) fail(Status::kBadData, "%s: there is no <DataSet>", mesh.name.c_str());

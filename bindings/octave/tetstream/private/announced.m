@@ -10,12 +10,5 @@ function info = announced (caller, mesh)
     info.add_cell_data (name, columns (values), type_of (caller, name, values));
   endfor
   add_label_names (caller, info, mesh.label_names);
-  if (isnumeric (mesh.time) && isempty (mesh.time))
-    return;
-  endif
-  if (! isnumeric (mesh.time) || ! isreal (mesh.time) || ! isscalar (mesh.time))
-    error ("tetstream:bad-argument", "%s: time: a number is wanted", caller);
-  endif
-  info.time = full (double (mesh.time));
-  info.is_timed = true;
+  add_time (caller, info, mesh.time);
 endfunction
