@@ -78,7 +78,9 @@ void SampleStretch::addCell(const BatchView& batch, size_t row_in_batch) {
   for (uint32_t row : rows)
     if (row != kNone) (whole ? used_ : cut_)[row] = true;
   const auto all = static_cast<uint64_t>(schema_.cell_count);
-  if (whole) copyCell(batch, row_in_batch, rows, std::min(number * kParts / all, kParts - 1));
+  if (!whole) return;
+  copyCell(batch, row_in_batch, rows,
+           std::min<uint64_t>(number * kStreamParts / all, kStreamParts - 1));
 }
 
 void SampleStretch::put(const BatchView& batch) {

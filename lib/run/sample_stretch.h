@@ -1,11 +1,12 @@
 // run: what a stretch of a stream puts into the bricks that are sampled. Depends on bricks.h,
-// stream.
+// sample_rates.h, stream.
 #pragma once
 
 #include <vector>
 
 #include "batch.h"
 #include "bricks.h"
+#include "sample_rates.h"
 #include "source.h"
 
 namespace tetstream {
@@ -13,8 +14,6 @@ namespace tetstream {
 // Of several, each has cache lines of its own: threads fill them side by side.
 class alignas(64) SampleStretch {
  public:
-  static constexpr uint64_t kParts = 64;  // of the stream, by which cells are counted
-
   // Vertices are known until `reach` others have been declared behind them. A brick has no more
   // than `most` vertices. Borrows the schema and the bricks.
   SampleStretch(const Schema& schema, const Bricks& bricks, uint64_t reach, uint64_t most,

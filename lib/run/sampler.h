@@ -12,6 +12,7 @@
 #include "bricks.h"
 #include "options.h"
 #include "pilot.h"
+#include "sample_rates.h"
 #include "sample_stretch.h"
 
 namespace tetstream {
@@ -53,15 +54,14 @@ class Sampler {
   void countSurvivors(const BatchView& simplified);
 
  private:
-  static constexpr size_t kParts = SampleStretch::kParts;
   struct Brick {
-    int64_t cells[kParts] = {};  // that were sampled, by when they came
+    int64_t cells[kStreamParts] = {};  // that were sampled, by when they came
     int64_t locked = 0, free = 0, survivors = 0;
+    BrickLeft left() const;
   };
 
   void countBricks();
   double ratioFor(double left) const;
-  static std::vector<double> ratesFrom(const double* left, const double* met, size_t bricks);
   Pilot pilot(double ratio) const;
 
   const Schema schema_;

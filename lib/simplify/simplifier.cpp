@@ -54,6 +54,7 @@ class WindowedEngine final : public Simplifier::Engine {
         core_(plan_, options_, account_, static_cast<size_t>(capacity_), verticesOf(capacity_),
               expectedSpan(plan_.schema)),
         knows_pilot_(pilot.known()),
+        knows_parts_(pilot.known() && !pilot.isEven()),
         parked_times_(parkedTimes(plan_.schema, options_, capacity_, pilot)),
         budget_(makeBudget(plan_.schema, options, pilot, parked_times_)),
         intake_(core_, account_),
@@ -262,11 +263,12 @@ class WindowedEngine final : public Simplifier::Engine {
 
   // Cells that may stay in the window. Simplified ones wait there for their neighbours, and even
   // out what is simplified more and what less, but are loaded again at every turn: in a stream of
-  // many windows, or one that a pilot knows, as many as the front has are enough. Not for strong
-  // reductions, whose cells are large, nor up to an error, where no bound is passed to make room.
+  // many windows, or one of which a pilot knows the parts, as many as the front has are enough. Not
+  // for strong reductions, whose cells are large, nor up to an error, where no bound is passed to
+  // make room.
   int64_t keptCells() const {
     const int64_t cells = plan_.schema.cell_count;
-    const bool is_long = knows_pilot_ || cells >= kLongStream * capacity_;
+    const bool is_long = knows_parts_ || cells >= kLongStream * capacity_;
     const int64_t wanted = targetOf(plan_.schema, options_).cellsOf(cells);
     const bool is_mild = !isMoreThan(cells, kMildReduction, wanted);
     if (followsPaper(options_.mode) || options_.error > 0 || !is_long || !is_mild)
@@ -414,7 +416,7 @@ class WindowedEngine final : public Simplifier::Engine {
   double told_ = 0;  // the last fraction of the progress
   Core<S> core_;
   std::optional<Tracer<S>> tracer_;
-  bool knows_pilot_;
+  bool knows_pilot_, knows_parts_;
   double parked_times_;  // above 1: the windows' cells are parked
   std::unique_ptr<Budget> budget_;
   Intake<S> intake_;

@@ -26,6 +26,8 @@ struct Pilot {
   Balance balance = {};       // of what was looked at
 
   bool known() const { return !share.empty(); }
+  // As far as it can tell, all parts of the stream should keep the same.
+  bool isEven() const { return share.size() == 2; }
   // The share of the cells out that the first `part` (0 to 1) of the cells in leaves.
   double shareOf(double part) const {
     const double place = part * static_cast<double>(share.size() - 1);

@@ -253,6 +253,23 @@ TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   EXPECT_GT(pilot.shareOf(0.5), 0.65);
 }
 
+// What comes at the same time has detail and has none: nothing tells what a part should keep.
+TEST(Sampler, TellsTheSameOfAllWhereTheStreamIsAsUnevenThroughout) {
+  TestMesh mesh = fullGrid(slowRun() ? 30 : 60, 16, 16, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [](double x, double y, double z) {
+    return y < 8 && z > 8 ? std::sin(x) * std::cos(1.3 * y) * std::sin(0.9 * z) : 0.001 * x;
+  });
+  Swept swept(mesh);
+  SimplifyOptions options;
+  options.ratio = 0.3;
+  Sampler sampler(swept.stream.schema(), options);
+  read(swept, sampler, [](const BatchView&) {});
+  const Pilot pilot = sampler.simplify();
+  ASSERT_TRUE(pilot.known());
+  EXPECT_TRUE(pilot.isEven());
+  EXPECT_EQ(pilot.shareOf(0.25), 0.25);
+}
+
 // As if no brick lay where these cells do: what they should keep is told by the cells before and
 // after them, which have detail, too, not by all.
 TEST(Sampler, TellsOfPartsThatItHasNotMet) {

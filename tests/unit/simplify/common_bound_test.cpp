@@ -323,6 +323,11 @@ TEST(CommonBound, ApproachesInFewerPassesWithoutAPilot) {
   }
   EXPECT_EQ(second(0.5, pilot, false).approaches, 4) << "the bound is the final one";
   EXPECT_EQ(second(0.5, {0, {0, 0.5, 1}}, false).approaches, 0);
+  const Pilot even{0, {0, 1}};
+  EXPECT_EQ(second(0.5, even, false).approaches, 1) << "no part is known";
+  EXPECT_EQ(second(0.1, even, false).approaches, 0);
+  EXPECT_EQ(second(0.5, even, true).approaches, 0) << "memory is bounded";
+  EXPECT_EQ(second(0.02, even, false).approaches, 4) << "as with any pilot";
   const Goal known = second(0.02, pilot, false);
   EXPECT_EQ(known.approaches, 4);
   EXPECT_EQ(known.step, 2);
