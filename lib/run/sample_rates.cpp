@@ -73,8 +73,8 @@ double meanWhere(const BrickLeft& brick, const std::vector<double>& rates) {
 }
 
 // Each brick is foretold by the others: once by those near in the stream, once by all. On meshes
-// where all do it better, sampled rates gave 1.05 to 2.7 times the errors without a sample at ratios
-// of 0.3 to 0.7; on a layered one where those near do it better by far, a tenth.
+// where all do it better, sampled rates gave 1.05 to 2.7 times the errors without a sample at
+// ratios of 0.3 to 0.7; on a layered one where those near do it better by far, a tenth.
 bool foretellEachOther(const std::vector<BrickLeft>& bricks, Sums others, double scale) {
   double by_near = 0, by_all = 0;
   for (const BrickLeft& brick : bricks) {
