@@ -4,7 +4,7 @@
 
 namespace tetstream {
 
-constexpr size_t kLeastBricks = 8;  // with fewer that have vertices to spare nothing is known
+constexpr size_t kLeastBricks = 8;  // with fewer that have vertices inside nothing is known
 // Of the mean: a part of the stream for which bricks left nothing is not the same all along.
 constexpr double kLeastRate = 0.1;
 
@@ -14,19 +14,19 @@ class Sums {
  public:
   // Or, with a sign of -1, takes it away again.
   void add(const BrickLeft& brick, double sign = 1) {
-    free_ += sign * brick.free;
+    inside_ += sign * brick.inside;
     left_ += sign * brick.left;
     for (size_t k = 0; k < kStreamParts; ++k) {
       kept_[k] += sign * brick.left * brick.cells[k];
-      met_[k] += sign * brick.free * brick.cells[k];
+      met_[k] += sign * brick.inside * brick.cells[k];
     }
   }
-  double mean() const { return left_ / free_; }
+  double mean() const { return left_ / inside_; }
   std::vector<double> rates(size_t bricks) const;
 
  private:
   std::array<double, kStreamParts> kept_ = {}, met_ = {};
-  double free_ = 0, left_ = 0;
+  double inside_ = 0, left_ = 0;
 };
 
 // Of each part the share that is left of what was met in it and in its neighbours, as many as come
@@ -80,9 +80,9 @@ bool foretellEachOther(const std::vector<BrickLeft>& bricks, Sums others, double
   for (const BrickLeft& brick : bricks) {
     others.add(brick, -1);
     const auto off = [&](double rate) {
-      const double left = std::min(scale * brick.left / brick.free, 1.0);
+      const double left = std::min(scale * brick.left / brick.inside, 1.0);
       const double difference = std::min(scale * rate, 1.0) - left;
-      return brick.free * difference * difference;
+      return brick.inside * difference * difference;
     };
     by_near += off(meanWhere(brick, others.rates(bricks.size())));
     by_all += off(others.mean());

@@ -10,10 +10,11 @@ namespace tetstream {
 
 constexpr size_t kStreamParts = 64;
 
-// Of a brick: its cells by when they came, its vertices that might go, and those that did not.
+// Of a brick: its cells by when they came, its vertices that are on no cut, and those that are
+// left.
 struct BrickLeft {
   std::array<double, kStreamParts> cells = {};
-  double free = 0, left = 0;
+  double inside = 0, left = 0;
 };
 
 // For each part of the stream, of as many cells each, the share of it that should be left, so that

@@ -31,6 +31,7 @@ size_t SampleStretch::copyVertex(const BatchView& from, size_t row, uint64_t ran
   brick_of_.push_back(brick);
   used_.push_back(false);
   cut_.push_back(false);
+  held_.push_back(false);
   return to;
 }
 
@@ -53,7 +54,7 @@ void SampleStretch::addVertex(const BatchView& batch, size_t row) {
   if (brick == kNone || ++met_[brick] > most_) return;
   const size_t to = copyVertex(batch, row, rank, brick);
   row_of = static_cast<uint32_t>(to);
-  cut_[to] = batch.locked && batch.locked[row];
+  held_[to] = batch.locked && batch.locked[row];
 }
 
 // A span larger than announced gives fewer samples, not wrong ones.
@@ -106,6 +107,7 @@ std::vector<uint32_t> SampleStretch::appendVertices(const SampleStretch& next,
       continue;
     }
     if (next.cut_[row]) cut_[becomes[row]] = true;
+    if (next.held_[row]) held_[becomes[row]] = true;
   }
   return becomes;
 }

@@ -28,10 +28,12 @@ class alignas(64) SampleStretch {
 
   Batch& mesh() { return sample_; }
   const Batch& mesh() const { return sample_; }
-  // Of a row of the mesh: its brick; whether it is in a cell of the sample, and in one that is not.
+  // Of a row of the mesh: its brick; whether it is in a cell of the sample, and in one that is not;
+  // whether the stream locks it.
   uint32_t brickOf(size_t row) const { return brick_of_[row]; }
   bool isUsed(size_t row) const { return used_[row]; }
   bool isCut(size_t row) const { return cut_[row]; }
+  bool isHeld(size_t row) const { return held_[row]; }
   // Of a cell: when it came.
   uint64_t partOf(size_t cell) const { return part_of_[cell]; }
 
@@ -56,7 +58,7 @@ class alignas(64) SampleStretch {
   std::vector<uint32_t> row_of_;   // of a rank, modulo the size, a power of two; or kNone
   std::vector<uint64_t> rank_of_;  // of a row: they rise
   std::vector<uint32_t> brick_of_;
-  std::vector<bool> used_, cut_;
+  std::vector<bool> used_, cut_, held_;
   std::vector<uint8_t> part_of_;  // of a cell
   std::vector<uint64_t> met_;     // vertices in a brick
   uint64_t declared_ = 0;         // vertices, of the stream

@@ -162,15 +162,16 @@ BatchView Sampler::mesh() {
   return stretches_[0].mesh().view();
 }
 
-// And locks what is cut.
+// And locks what is cut, and what the stream does.
 void Sampler::countBricks() {
   SampleStretch& all = stretches_[0];
   Batch& mesh = all.mesh();
   brick_.assign(counts_[0].size(), {});
   for (size_t row = 0; row < mesh.vertexCount(); ++row) {
-    if (all.isCut(row)) mesh.lock(row);
+    const bool is_cut = all.isCut(row), is_held = all.isHeld(row);
+    if (is_cut || is_held) mesh.lock(row);
     Brick& brick = brick_[all.brickOf(row)];
-    if (all.isUsed(row)) ++(all.isCut(row) ? brick.locked : brick.free);
+    if (all.isUsed(row)) ++(is_cut ? brick.cut : is_held ? brick.held : brick.free);
   }
   for (size_t cell = 0; cell < mesh.cellCount(); ++cell)
     ++brick_[all.brickOf(static_cast<size_t>(mesh.cell(cell)[0]))].cells[all.partOf(cell)];
@@ -212,15 +213,15 @@ void Sampler::countSurvivors(const BatchView& simplified) {
 BrickLeft Sampler::Brick::left() const {
   BrickLeft brick;
   std::copy_n(cells, kStreamParts, brick.cells.begin());
-  brick.free = static_cast<double>(free);
-  brick.left = static_cast<double>(std::max<int64_t>(survivors - locked, 0));
+  brick.inside = static_cast<double>(free + held);
+  brick.left = static_cast<double>(std::max<int64_t>(survivors - cut, 0));
   return brick;
 }
 
 Pilot Sampler::pilot(double ratio) const {
   std::vector<BrickLeft> bricks;
   for (const Brick& brick : brick_)
-    if (brick.free > 0) bricks.push_back(brick.left());
+    if (brick.free + brick.held > 0) bricks.push_back(brick.left());
   Pilot pilot;
   const std::vector<double> rates = sampledRates(bricks, ratio);
   if (rates.empty()) return pilot;

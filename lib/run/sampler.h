@@ -55,8 +55,9 @@ class Sampler {
 
  private:
   struct Brick {
-    int64_t cells[kStreamParts] = {};  // that were sampled, by when they came
-    int64_t locked = 0, free = 0, survivors = 0;
+    int64_t cells[kStreamParts] = {};     // that were sampled, by when they came
+    int64_t cut = 0, held = 0, free = 0;  // vertices: on its cuts, locked by the stream, others
+    int64_t survivors = 0;
     BrickLeft left() const;
   };
 

@@ -9,11 +9,11 @@
 namespace tetstream::test {
 namespace {
 
-// A brick of a hundred cells in each of some parts, with a thousand vertices to spare.
+// A brick of a hundred cells in each of some parts, with a thousand vertices inside.
 BrickLeft brickAt(size_t first_part, size_t parts, double rate) {
   BrickLeft brick;
   for (size_t k = first_part; k < first_part + parts; ++k) brick.cells[k] = 100;
-  brick.free = 1000;
+  brick.inside = 1000;
   brick.left = std::round(1000 * rate);
   return brick;
 }

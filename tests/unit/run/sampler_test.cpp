@@ -253,6 +253,24 @@ TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   EXPECT_GT(pilot.shareOf(0.5), 0.65);
 }
 
+// What the stream locks stays, and so that part of it needs more than the others.
+TEST(Sampler, TellsOfPartsThatAreLocked) {
+  TestMesh mesh = fullGrid(slowRun() ? 30 : 60, 16, 16, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return std::sin(x) * std::cos(y + z); });
+  for (size_t v = 0; v < mesh.vertexCount(); ++v)
+    mesh.locked.push_back(mesh.position(v, 0) > (slowRun() ? 15 : 30));
+  Swept swept(mesh);
+  SimplifyOptions options;
+  options.ratio = 0.6;
+  Sampler sampler(swept.stream.schema(), options);
+  read(swept, sampler, [](const BatchView&) {});
+  const Pilot pilot = sampler.simplify();
+  ASSERT_TRUE(pilot.known());
+  EXPECT_FALSE(pilot.isEven());
+  EXPECT_LT(pilot.shareOf(0.5), 0.4);
+}
+
 // What comes at the same time has detail and has none: nothing tells what a part should keep.
 TEST(Sampler, TellsTheSameOfAllWhereTheStreamIsAsUnevenThroughout) {
   TestMesh mesh = fullGrid(slowRun() ? 30 : 60, 16, 16, 0.1);
