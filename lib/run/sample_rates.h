@@ -1,5 +1,4 @@
-// run: how much of each part of a stream is left, as bricks of a sample tell it. Depends on
-// nothing.
+// run: how much of each part of a stream is left, by bricks of a sample. Depends on nothing.
 #pragma once
 
 #include <array>
@@ -10,8 +9,7 @@ namespace tetstream {
 
 constexpr size_t kStreamParts = 64;
 
-// Of a brick: its cells by when they came, its vertices that are on no cut, and those that are
-// left.
+// Of a brick: its cells by when they came, its vertices that are on no cut, and how many are left.
 struct BrickLeft {
   std::array<double, kStreamParts> cells = {};
   double inside = 0, left = 0;

@@ -78,10 +78,9 @@ void SampleStretch::addCell(const BatchView& batch, size_t row_in_batch) {
     whole = whole && rows[j] != kNone && brick_of_[rows[j]] == brick_of_[rows[0]];
   for (uint32_t row : rows)
     if (row != kNone) (whole ? used_ : cut_)[row] = true;
-  const auto all = static_cast<uint64_t>(schema_.cell_count);
   if (!whole) return;
-  copyCell(batch, row_in_batch, rows,
-           std::min<uint64_t>(number * kStreamParts / all, kStreamParts - 1));
+  const uint64_t part = number * kStreamParts / static_cast<uint64_t>(schema_.cell_count);
+  copyCell(batch, row_in_batch, rows, std::min<uint64_t>(part, kStreamParts - 1));
 }
 
 void SampleStretch::put(const BatchView& batch) {

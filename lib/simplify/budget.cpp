@@ -46,8 +46,8 @@ constexpr double kLongStep = 3;
 // fronts of 2,000 to 33,000 cells it would be 1 to 4 % more.
 constexpr int kWideApproaches = 1;
 constexpr double kWideStep = 8;
-// Nor does a sample by which all parts are alike know of a window; but one of a stream reduced by
-// less than this needs a single pass: errors at 0.3 and 0.5 were 0.7 to 0.99 times those without,
+// A sample by which all parts are alike knows of no window, either. Where a stream is reduced by
+// less than this a single pass does: errors at 0.3 and 0.5 were 0.67 to 0.99 times those without,
 // in 1.0 to 1.25 times the time. At 0.1 it changes them by 1 to 3 %.
 constexpr int kEvenApproaches = 1;
 constexpr double kEvenStep = 4, kEvenReduction = 5;
