@@ -22,7 +22,15 @@ uint64_t Curves::firstOf(uint32_t v) const {
 bool Curves::has(uint32_t u, uint32_t v) const {
   if (empty()) return false;
   const std::shared_lock lock(mutex_);
-  return holds(u, v);
+  return find(u, v) != kEmpty;
+}
+
+bool Curves::leads(uint32_t u, uint32_t v) const {
+  if (empty()) return false;
+  const std::shared_lock lock(mutex_);
+  const uint64_t edge = find(u, v);
+  if (edge == kEmpty || !(edge & kFold)) return edge != kEmpty;
+  return !isOnStratum(u) || !isOnStratum(v);
 }
 
 bool Curves::passes(uint32_t v) const {
@@ -31,10 +39,18 @@ bool Curves::passes(uint32_t v) const {
   return holdsAny(v);
 }
 
-bool Curves::holds(uint32_t u, uint32_t v) const {
-  if (count_ == 0) return false;
-  for (size_t i = placeOf(u); places_[i] != kEmpty; i = (i + 1) & (places_.size() - 1))
-    if (places_[i] == entryOf(u, v)) return true;
+// The entry of u; kEmpty if there is none.
+uint64_t Curves::find(uint32_t u, uint32_t v) const {
+  if (count_ == 0) return kEmpty;
+  size_t i = placeOf(u);
+  while (places_[i] != kEmpty && (places_[i] & ~kFold) != entryOf(u, v))
+    i = (i + 1) & (places_.size() - 1);
+  return places_[i];
+}
+
+bool Curves::isOnStratum(uint32_t v) const {
+  for (size_t i = placeOf(v); places_[i] != kEmpty; i = (i + 1) & (places_.size() - 1))
+    if (places_[i] >> 32 == v && !(places_[i] & kFold)) return true;
   return false;
 }
 
@@ -53,27 +69,32 @@ void Curves::remove(uint64_t entry) {
   --count_;
 }
 
-void Curves::add(uint32_t u, uint32_t v) {
+void Curves::add(uint32_t u, uint32_t v, bool is_fold) {
   const std::unique_lock lock(mutex_);
-  put(u, v);
+  put(u, v, is_fold ? kFold : 0);
   any_ = count_ > 0;
 }
 
-void Curves::put(uint32_t u, uint32_t v) {
-  if (holds(u, v)) return;
+void Curves::put(uint32_t u, uint32_t v, uint64_t fold) {
+  if (const uint64_t there = find(u, v); there != kEmpty) {
+    if (fold || !(there & kFold)) return;
+    remove(there);
+    remove(entryOf(v, u) | kFold);
+  }
   if (2 * (used_ + 2) > places_.size()) rebuild(2, nullptr);
-  insert(entryOf(u, v));
-  insert(entryOf(v, u));
+  insert(entryOf(u, v) | fold);
+  insert(entryOf(v, u) | fold);
 }
 
 void Curves::merge(uint32_t u, uint32_t v) {
   if (!passes(v)) return;
   const std::unique_lock lock(mutex_);
   while (holdsAny(v)) {
-    const auto other = static_cast<uint32_t>(firstOf(v));
-    remove(entryOf(v, other));
-    remove(entryOf(other, v));
-    if (other != u) put(u, other);
+    const uint64_t edge = firstOf(v), fold = edge & kFold;
+    const uint32_t other = otherOf(edge);
+    remove(edge);
+    remove(entryOf(other, v) | fold);
+    if (other != u) put(u, other, fold);
   }
   any_ = count_ > 0;
 }
@@ -102,8 +123,8 @@ void Curves::rebuild(size_t more, const uint32_t* keep) {
 uint64_t Curves::renamed(uint64_t entry, const uint32_t* keep) {
   if (entry >= kRemoved) return kEmpty;
   if (!keep) return entry | kWaits;
-  const uint32_t u = keep[entry >> 32], v = keep[static_cast<uint32_t>(entry)];
-  return u == ~0u || v == ~0u ? kEmpty : entryOf(u, v) | kWaits;
+  const uint32_t u = keep[entry >> 32], v = keep[otherOf(entry)];
+  return u == ~0u || v == ~0u ? kEmpty : entryOf(u, v) | (entry & kFold) | kWaits;
 }
 
 void Curves::place(uint64_t entry, size_t mask) {

@@ -41,6 +41,10 @@ struct Embedded {
     return curves && curves->passes(slotOf(v)) ? Stratum::kCurve : Stratum::kSheet;
   }
   bool onCurve(uint32_t u, uint32_t v) const { return curves && curves->has(slotOf(u), slotOf(v)); }
+  // Whether two vertices of curves may become one, as far as the edge between them tells.
+  bool alongCurve(uint32_t u, uint32_t v) const {
+    return curves && curves->leads(slotOf(u), slotOf(v));
+  }
 };
 
 }  // namespace tetstream

@@ -23,7 +23,7 @@ bool StrataCondition::mayHold(End u, End v, const Star& ring, const Embedded& em
     case Within::kAnything:
       return true;
     case Within::kCurve:
-      return embedded.onCurve(u.vertex, v.vertex);
+      return embedded.alongCurve(u.vertex, v.vertex);
     case Within::kSheet:
       if (in_labelled || (u.outside && v.outside)) return true;
       for (const StarCell& s : ring)
@@ -81,7 +81,7 @@ bool StrataCondition::holds(End u, End v, const Stars& stars, const uint8_t* fla
   listSheets(stars.v, stars.ring_from_v, flags, embedded.labels, labelled.v, faces_v_);
   if (!linksAgree(v.vertex)) return false;
   if (u.stratum != Stratum::kCurve || v.stratum != Stratum::kCurve) return true;
-  if (!embedded.onCurve(u.vertex, v.vertex)) return false;
+  if (!embedded.alongCurve(u.vertex, v.vertex)) return false;
   for (uint32_t a : shared_)
     if (embedded.onCurve(u.vertex, a) && embedded.onCurve(v.vertex, a)) return false;
   return true;

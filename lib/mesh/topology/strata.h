@@ -26,6 +26,10 @@ namespace tetstream {
 //       X2;
 //   (1) where both are on curves: uv is in X1, and no vertex is joined to both by edges of X1.
 //
+// Folds that nobody asked for (curves.h) are taken as edges of X1 where that only forbids more. A
+// vertex that is on no other edge of X1 is of the kind sheet, and uv being a fold in X2 is enough
+// for it, but not for two that are on others.
+//
 // Proof that this suffices. Let u be the one of the lower kind, S the link of v, P its pattern:
 // the labels of its triangles, with X2 and X1 cut by S as labelled arcs and nodes between them. The
 // neighbourhood of v is the cone over (S, P). By (3) the two stars make up a ball, the collapse

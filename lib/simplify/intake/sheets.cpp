@@ -104,9 +104,10 @@ bool Sheets<S>::classify(uint32_t v, bool folds) {
       continue;
     }
     // A fold that nobody asked for is held by its quadrics, wherever it ends or branches.
-    if (asks_ || divides(&uses_[i], j - i)) nodes_.push_back(a);
+    const bool is_stratum = asks_ || divides(&uses_[i], j - i);
+    if (is_stratum) nodes_.push_back(a);
     if (core_.window.curves.has(v, a)) continue;
-    core_.window.curves.add(v, a);
+    core_.window.curves.add(v, a, !is_stratum);
     const bool inner = std::any_of(&uses_[i], &uses_[i] + (j - i), [this](const Use& use) {
       return faces_[use.face].kind == SheetFace::kInner;
     });

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -16,11 +16,15 @@ namespace {
 
 using Edge = std::pair<uint32_t, uint32_t>;
 
-// A set of pairs beside it.
+// A map of pairs beside it, and whether they are folds.
 struct Both {
-  void add(uint32_t u, uint32_t v) {
-    curves.add(u, v);
-    edges.insert(std::minmax(u, v));
+  void add(uint32_t u, uint32_t v, bool is_fold) {
+    curves.add(u, v, is_fold);
+    put(edges, std::minmax(u, v), is_fold);
+  }
+  static void put(std::map<Edge, bool>& edges, const Edge& edge, bool is_fold) {
+    const auto [at, is_new] = edges.emplace(edge, is_fold);
+    at->second = at->second && is_fold;
   }
   void merge(uint32_t u, uint32_t v) {
     curves.merge(u, v);
@@ -32,27 +36,40 @@ struct Both {
   }
   template <class Name>
   void rename(const Name& name) {
-    std::set<Edge> renamed;
-    for (const auto& [a, b] : edges)
+    std::map<Edge, bool> renamed;
+    for (const auto& [edge, is_fold] : edges) {
+      const auto [a, b] = edge;
       if (name(a) != name(b) && name(a) != ~0u && name(b) != ~0u)
-        renamed.insert(std::minmax(name(a), name(b)));
+        put(renamed, std::minmax(name(a), name(b)), is_fold);
+    }
     edges.swap(renamed);
+  }
+  // Folds do not join two vertices that are both on other curves.
+  bool leads(const Edge& edge, bool is_fold) const {
+    const auto is_on_other = [this](uint32_t v) {
+      return std::any_of(edges.begin(), edges.end(), [v](const auto& e) {
+        return !e.second && (e.first.first == v || e.first.second == v);
+      });
+    };
+    return !is_fold || !is_on_other(edge.first) || !is_on_other(edge.second);
   }
   void expectSame(uint32_t vertices) const {
     EXPECT_EQ(curves.empty(), edges.empty());
     for (uint32_t u = 0; u < vertices; ++u) {
       bool any = false;
       for (uint32_t v = 0; v < vertices; ++v) {
-        const bool is_there = u != v && edges.count(std::minmax(u, v)) > 0;
+        const auto at = u != v ? edges.find(std::minmax(u, v)) : edges.end();
+        const bool is_there = at != edges.end();
         any = any || is_there;
         ASSERT_EQ(curves.has(u, v), is_there) << u << " " << v;
+        ASSERT_EQ(curves.leads(u, v), is_there && leads(at->first, at->second)) << u << " " << v;
       }
       ASSERT_EQ(curves.passes(u), any) << u;
     }
   }
   Account account;
   Curves curves{account};
-  std::set<Edge> edges;
+  std::map<Edge, bool> edges;
 };
 
 TEST(Curves, AreASetOfEdges) {
@@ -62,7 +79,7 @@ TEST(Curves, AreASetOfEdges) {
   for (int turn = 0; turn < 40; ++turn) {
     const auto any = [&] { return static_cast<uint32_t>(random.below(kVertices)); };
     for (int i = 0; i < 30; ++i)
-      if (const uint32_t u = any(), v = any(); u != v) both.add(u, v);
+      if (const uint32_t u = any(), v = any(); u != v) both.add(u, v, random.below(2) > 0);
     both.expectSame(kVertices);
     for (int i = 0; i < 10; ++i)
       if (const uint32_t u = any(), v = any(); u != v) both.merge(u, v);

@@ -206,6 +206,21 @@ TEST(StrataCondition, ForbidsWhatWouldPinchASheet) {
   EXPECT_TRUE(neck.holds(neck.at(3, 2, 3), neck.at(3, 3, 3)));
 }
 
+// A fold of the boundary is a curve that may lead across a strip, from one stretch of its rim to
+// another; what ends in the rim, or in nothing, is merged along it.
+TEST(StrataCondition, ForbidsPinchingASheetAlongAFold) {
+  Labelled strip(6, oneRegion);
+  strip.addSheet([](double x, double y) { return inSquare(x, y) && y > 2 && y < 3; });
+  strip.curves.add(strip.at(3, 2, 3), strip.at(3, 3, 3), true);
+  EXPECT_FALSE(strip.holds(strip.at(3, 2, 3), strip.at(3, 3, 3)));
+  EXPECT_TRUE(strip.holds(strip.at(3, 2, 3), strip.at(4, 2, 3)));
+  Labelled wide(6, oneRegion);
+  wide.addSheet(inSquare);
+  for (int y = 1; y < 4; ++y) wide.curves.add(wide.at(3, y, 3), wide.at(3, y + 1, 3), true);
+  EXPECT_TRUE(wide.holds(wide.at(3, 2, 3), wide.at(3, 1, 3)));
+  EXPECT_TRUE(wide.holds(wide.at(3, 2, 3), wide.at(3, 3, 3)));
+}
+
 // A triangle stays: each of its edges is the one that is left of two if it went.
 TEST(StrataCondition, KeepsASingleFace) {
   Labelled k(6, oneRegion);
