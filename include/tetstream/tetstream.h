@@ -477,8 +477,7 @@ typedef struct tetstream_front_info {
   double mean_life;             /* cells read while a vertex is active, over the vertices */
   int64_t longest_life;         /* cells */
   int64_t window_cells;         /* room of the window, in cells, of a simplification that knows this
-                                   front beforehand, to a quarter of the cells or fewer, without
-                                   the option `window` */
+                                   front beforehand, without the options `window` and `error` */
 } tetstream_front_info;
 
 /* The front as `inspect` found it. BAD_STATE before. Since 0.1. */

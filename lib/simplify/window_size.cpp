@@ -8,10 +8,11 @@ namespace tetstream {
 // A window holds at least this many cells, some tiles: smaller ones save no memory worth having.
 constexpr int64_t kLeastWindow = 1 << 17, kLeastPaperWindow = 1 << 14;
 // A mesh of so many cells is held whole: finding out about it beforehand would take as much. Larger
-// ones, where one of four cells or fewer are to be left, have 0.93 times the RMS error that a
-// window and a sample leave (eight generated meshes of 5e5 and 1e6 cells at 0.1; 0.95 to 1.03 times
-// from 0.05 to 0.01, but a fifth where a field is zero nearly everywhere) in as much time, with 75
-// MB for 1e6. At 0.5 it would be 0.87 times in 1.2 to 1.4 times the time.
+// ones have 0.93 times the RMS error that a window and a sample leave (eight generated meshes of
+// 5e5 and 1e6 cells at 0.1; 0.95 to 1.03 times from 0.05 to 0.01, but a fifth where a field is zero
+// nearly everywhere), and at 0.5 0.77 times (eighteen of 2.7e5 to 9e5 cells: 0.11 to 1.11), in as
+// much time, with 75 MB for 1e6. Up to an error they leave 0.65 to 1.01 times the cells, in 1.0 to
+// 1.6 times the time.
 constexpr int64_t kSmallMesh = 1 << 18, kLargestWhole = 1 << 20;
 // Of the paper's modes, without knowledge of the front: it grows as the front is met.
 constexpr int64_t kFirstPaperWindow = 32768;
@@ -47,12 +48,9 @@ int64_t WindowSize::forFront(int64_t front) const {
   return front < kWideFront ? kFrontsPerWindow * front : kQuarterFrontsOfWide * front / 4;
 }
 
+// By an order of all its edges.
 bool WindowSize::gainsWhole() const {
-  if (options_.error > 0) return false;
-  const auto count = static_cast<double>(schema_.cell_count);
-  const double ratio = options_.countsCells() ? options_.ratio : kUsualRatio;
-  const double left = std::max(ratio * count, static_cast<double>(options_.cells));
-  return kStrongReduction * left <= count;
+  return !(options_.error > 0) && options_.ratio < 1 && options_.cells < schema_.cell_count;
 }
 
 // Where nobody knows how long the stream is, a small mesh shall be held whole.
