@@ -10,6 +10,7 @@ namespace {
 
 int64_t windowOf(int64_t cells, int64_t front, const SimplifyOptions& options) {
   Schema schema;
+  schema.fields = {{"f", 1, ScalarType::kFloat32}};
   schema.cell_count = cells;
   schema.front_cells = front;
   return Simplifier::windowCells(schema, options);
