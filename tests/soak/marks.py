@@ -30,6 +30,7 @@ def boundary_labels(mesh, faces, random):
             "halves": 1 + (middle[:, 0] > 0),
             "sides": 1 + numpy.argmax(numpy.abs(normals(mesh, faces)), 1),
             "patch": 3 * (middle[:, 0] + middle[:, 1] > 0),
+            "strips": (numpy.abs(middle[:, 1]) * 1.5).astype(int) % 3,
             "random": random.integers(0, 3, len(faces))}
     way = str(random.choice(list(ways)))
     return way, ways[way]
@@ -75,11 +76,14 @@ class Marks:
         self.labels = sorted(set(map(int, mesh.face_labels)))
 
     def surface(self, label):
-        """Euler characteristic and components of the faces of a label."""
+        """Euler characteristic and components of the faces of a label, and the parts of them that hang
+        together by edges: what is pinched has more."""
         faces = numpy.sort(self.mesh.faces[self.mesh.face_labels == label], 1)
-        edges = numpy.unique(faces[:, [[0, 1], [0, 2], [1, 2]]].reshape(-1, 2), axis=0)
+        edges, sides = numpy.unique(faces[:, [[0, 1], [0, 2], [1, 2]]].reshape(-1, 2), axis=0,
+                                    return_inverse=True)
         return (len(numpy.unique(faces)) - len(edges) + len(faces),
-                components(faces, len(self.mesh.points)))
+                components(faces, len(self.mesh.points)),
+                components(sides.reshape(-1, 3), len(edges)))
 
     def is_covered(self):
         """Whether all of the boundary is labelled."""
