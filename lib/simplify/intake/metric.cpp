@@ -226,9 +226,12 @@ void Metric<S>::noteConstant() {
   std::vector<Variation>& varies = core_.balance.varies;
   varies.assign(core_.plan.schema.fields.size(), Variation::kVaries);
   for (size_t i = 3; i < low_.size(); ++i) {
+    if (core_.scale[i] > 0) continue;
+    const Variation component = !(high_[i] > low_[i]) ? Variation::kConstant
+                                : used_range_[i] == 0 ? Variation::kByRounding
+                                                      : Variation::kOutOfReach;
     Variation& field = varies[static_cast<size_t>(core_.plan.measured_column[i - 3])];
-    if (used_range_[i] > 0 || field == Variation::kByRounding) continue;
-    field = high_[i] > low_[i] ? Variation::kByRounding : Variation::kConstant;
+    field = field == Variation::kVaries ? component : std::min(field, component);
   }
 }
 

@@ -332,7 +332,9 @@ std::string inWords(const Balance& balance, bool has_interfaces,
   for (const std::string& part :
        {sheetsInWords(balance, has_interfaces), fieldsInWords(balance, fields),
         constantInWords(balance, Variation::kConstant, "constant: ", fields),
-        constantInWords(balance, Variation::kByRounding, "constant but for rounding: ", fields)})
+        constantInWords(balance, Variation::kByRounding, "constant but for rounding: ", fields),
+        constantInWords(balance, Variation::kOutOfReach,
+                        "of too large or too small a range to be followed: ", fields)})
     if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
   return text;
 }

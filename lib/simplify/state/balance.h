@@ -27,8 +27,8 @@
 
 namespace tetstream {
 
-// How the values of a measured field differ.
-enum class Variation : uint8_t { kVaries, kByRounding, kConstant };
+// How the values of a measured field differ; kOutOfReach: by what cannot be divided by.
+enum class Variation : uint8_t { kVaries, kOutOfReach, kByRounding, kConstant };
 
 // Times the weight of all sheets, and that of interfaces besides; 1 where it is not known.
 struct Balance {

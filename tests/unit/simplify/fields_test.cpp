@@ -138,6 +138,17 @@ TEST(SeveralFields, WithoutExtentAreTold) {
   EXPECT_EQ(told(measuring({{"front", 1}})), "");
 }
 
+// What has a range by which nothing can be divided is not followed.
+TEST(SeveralFields, OfARangeOutOfReachAreTold) {
+  TestMesh mesh = fullGrid(4, 4, 4, 0.1);
+  addPositionField(mesh, {"front", 1, k64}, front);
+  mesh.addField({"huge", 1, k64}, [](size_t v, int) { return v % 2 ? 1.7e308 : -1.7e308; });
+  mesh.addField({"tiny", 2, k64}, [](size_t v, int i) { return v % 2 ? 1e-310 * i : 0; });
+  const Report report = simplified(mesh, measuring({})).report;
+  EXPECT_EQ(report.balance, "of too large or too small a range to be followed: huge, tiny");
+  EXPECT_EQ(simplified(mesh, measuring({{"front", 1}})).report.balance, "");
+}
+
 // Values that are one number but for rounding are as constant as that number.
 TEST(SeveralFields, ThatAreConstantButForRoundingLeaveTheOthersAlone) {
   TestMesh mesh = fullGrid(fieldsSide(), fieldsSide(), 2 * fieldsSide(), 0.1);
