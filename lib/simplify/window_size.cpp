@@ -48,7 +48,8 @@ int64_t WindowSize::forFront(int64_t front) const {
   return front < kWideFront ? kFrontsPerWindow * front : kQuarterFrontsOfWide * front / 4;
 }
 
-// By an order of all its edges.
+// A larger mesh: where cells are to go, and it is not kept to an error, for which it takes longer
+// than it gains.
 bool WindowSize::gainsWhole() const {
   return !(options_.error > 0) && options_.ratio < 1 && options_.cells < schema_.cell_count;
 }

@@ -76,8 +76,8 @@ class Marks:
         self.labels = sorted(set(map(int, mesh.face_labels)))
 
     def surface(self, label):
-        """Euler characteristic and components of the faces of a label, and the parts of them that hang
-        together by edges: what is pinched has more."""
+        """Euler characteristic and components of the faces of a label, and the parts of them that
+        hang together by edges: what is pinched has more."""
         faces = numpy.sort(self.mesh.faces[self.mesh.face_labels == label], 1)
         edges, sides = numpy.unique(faces[:, [[0, 1], [0, 2], [1, 2]]].reshape(-1, 2), axis=0,
                                     return_inverse=True)

@@ -213,7 +213,7 @@ void Metric<S>::updateScales() {
     core_.inverse_scale[i] = usable ? inverse : scale;
   }
   used_range_ = range;
-  noteConstant();
+  noteVariations();
   fields_together_ = fieldsTogether();
   core_.extent = extent() > 0 ? extent() / length_unit_ : 1;
   const double unit_share = extent() > 0 ? length_unit_ / extent() : 1;
@@ -222,7 +222,7 @@ void Metric<S>::updateScales() {
 }
 
 template <class S>
-void Metric<S>::noteConstant() {
+void Metric<S>::noteVariations() {
   std::vector<Variation>& varies = core_.balance.varies;
   varies.assign(core_.plan.schema.fields.size(), Variation::kVaries);
   for (size_t i = 3; i < low_.size(); ++i) {

@@ -43,7 +43,7 @@ class Metric {
   bool canWeighFields(uint32_t cells) const;
   void chooseLengthUnit(uint32_t first, uint32_t end);
   void updateScales();
-  void noteConstant();
+  void noteVariations();
   void keepRange();
   double slackOf(size_t component) const;
   double largestNumberOf(size_t component) const;

@@ -318,8 +318,8 @@ static std::string fieldsInWords(const Balance& balance, const std::vector<Colum
 }
 
 // The names of those that do not count at all.
-static std::string constantInWords(const Balance& balance, Variation variation, const char* what,
-                                   const std::vector<Column>& fields) {
+static std::string variationInWords(const Balance& balance, Variation variation, const char* what,
+                                    const std::vector<Column>& fields) {
   std::string names;
   for (size_t f = 0; f < balance.varies.size(); ++f)
     if (balance.varies[f] == variation) names += (names.empty() ? what : ", ") + fields[f].name;
@@ -331,10 +331,10 @@ std::string inWords(const Balance& balance, bool has_interfaces,
   std::string text;
   for (const std::string& part :
        {sheetsInWords(balance, has_interfaces), fieldsInWords(balance, fields),
-        constantInWords(balance, Variation::kConstant, "constant: ", fields),
-        constantInWords(balance, Variation::kByRounding, "constant but for rounding: ", fields),
-        constantInWords(balance, Variation::kOutOfReach,
-                        "of too large or too small a range to be followed: ", fields)})
+        variationInWords(balance, Variation::kConstant, "constant: ", fields),
+        variationInWords(balance, Variation::kByRounding, "constant but for rounding: ", fields),
+        variationInWords(balance, Variation::kOutOfReach,
+                         "of too large or too small a range to be followed: ", fields)})
     if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
   return text;
 }

@@ -52,6 +52,16 @@ void read(Swept& swept, Sampler& sampler, Use use) {
   }
 }
 
+// What a sample of the mesh tells of a simplification to the ratio.
+Pilot pilotOf(TestMesh& mesh, double ratio) {
+  Swept swept(mesh);
+  SimplifyOptions options;
+  options.ratio = ratio;
+  Sampler sampler(swept.stream.schema(), options);
+  read(swept, sampler, [](const BatchView&) {});
+  return sampler.simplify();
+}
+
 using Place = std::array<double, 3>;
 
 Place placeIn(const BatchView& batch, size_t row) {
@@ -239,12 +249,7 @@ TEST(Sampler, TakesNoMoreThanABrickOfWhatLiesInOnePlace) {
 
 TEST(Sampler, TellsWhereTheCellsShouldBeLeft) {
   TestMesh mesh = halfDetailed(slowRun() ? 30 : 60, slowRun() ? 14 : 16);
-  Swept swept(mesh);
-  SimplifyOptions options;
-  options.ratio = 0.2;
-  Sampler sampler(swept.stream.schema(), options);
-  read(swept, sampler, [](const BatchView&) {});
-  const Pilot pilot = sampler.simplify();
+  const Pilot pilot = pilotOf(mesh, 0.2);
   ASSERT_TRUE(pilot.known());
   EXPECT_EQ(pilot.shareOf(0), 0);
   EXPECT_EQ(pilot.shareOf(1), 1);
@@ -260,12 +265,7 @@ TEST(Sampler, TellsOfPartsThatAreLocked) {
                    [](double x, double y, double z) { return std::sin(x) * std::cos(y + z); });
   for (size_t v = 0; v < mesh.vertexCount(); ++v)
     mesh.locked.push_back(mesh.position(v, 0) > (slowRun() ? 15 : 30));
-  Swept swept(mesh);
-  SimplifyOptions options;
-  options.ratio = 0.6;
-  Sampler sampler(swept.stream.schema(), options);
-  read(swept, sampler, [](const BatchView&) {});
-  const Pilot pilot = sampler.simplify();
+  const Pilot pilot = pilotOf(mesh, 0.6);
   ASSERT_TRUE(pilot.known());
   EXPECT_FALSE(pilot.isEven());
   EXPECT_LT(pilot.shareOf(0.5), 0.4);
@@ -277,12 +277,7 @@ TEST(Sampler, TellsTheSameOfAllWhereTheStreamIsAsUnevenThroughout) {
   addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [](double x, double y, double z) {
     return y < 8 && z > 8 ? std::sin(x) * std::cos(1.3 * y) * std::sin(0.9 * z) : 0.001 * x;
   });
-  Swept swept(mesh);
-  SimplifyOptions options;
-  options.ratio = 0.3;
-  Sampler sampler(swept.stream.schema(), options);
-  read(swept, sampler, [](const BatchView&) {});
-  const Pilot pilot = sampler.simplify();
+  const Pilot pilot = pilotOf(mesh, 0.3);
   ASSERT_TRUE(pilot.known());
   EXPECT_TRUE(pilot.isEven());
   EXPECT_EQ(pilot.shareOf(0.25), 0.25);
@@ -321,12 +316,7 @@ TEST(Sampler, TellsOfPartsThatItHasNotMet) {
 TEST(Sampler, SpreadsTheCellsForAnyTarget) {
   TestMesh mesh = halfDetailed(slowRun() ? 30 : 60, slowRun() ? 14 : 16);
   for (double ratio : {0.9, 0.6, 0.01}) {
-    SimplifyOptions options;
-    options.ratio = ratio;
-    Swept swept(mesh);
-    Sampler sampler(swept.stream.schema(), options);
-    read(swept, sampler, [](const BatchView&) {});
-    const Pilot pilot = sampler.simplify();
+    const Pilot pilot = pilotOf(mesh, ratio);
     ASSERT_TRUE(pilot.known());
     for (double part = 0; part < 1; part += 0.125) {
       const double share = pilot.shareOf(part + 0.125) - pilot.shareOf(part);
