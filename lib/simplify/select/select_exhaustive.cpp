@@ -67,8 +67,10 @@ class ExhaustiveSelector final : public Selector {
 
 template <class Mesh>
 typename Mesh::Scalar ExhaustiveSelector<Mesh>::minimize(uint32_t u, uint32_t v, S* z) {
-  return core_.kernels.minimizeEdge(mesh_.quadric(u), mesh_.values(u), mesh_.quadric(v),
-                                    mesh_.values(v), core_.scale.data(), core_.plan.dimension, z);
+  const auto solve =
+      followsPaper(core_.options.mode) ? core_.kernels.minimizeEdge : core_.kernels.solveEdge;
+  return solve(mesh_.quadric(u), mesh_.values(u), mesh_.quadric(v), mesh_.values(v),
+               core_.scale.data(), core_.plan.dimension, z);
 }
 
 // The edges of the cells from `first_cell` on, in order of their error; returns the first cell that

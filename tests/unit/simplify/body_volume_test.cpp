@@ -152,9 +152,9 @@ TEST(BodyVolume, CostsALinearFieldNothing) {
 
 // Simplified to a part, and ready to be simplified again.
 struct Halfway : WholePatch<double> {
-  Halfway() : WholePatch<double>(rounded(6, -0.3)) {
+  Halfway() : WholePatch<double>(rounded(8, -0.3)) {
     Collapser<Patch<double>> collapser(core, patch, account);
-    makeExhaustiveSelector(core, collapser)->decimate({200, 0, false}, [] {});
+    makeExhaustiveSelector(core, collapser)->decimate({500, 0, false}, [] {});
     patch.store();
     load();
   }

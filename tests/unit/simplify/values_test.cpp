@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "field_error.h"
+#include "mix.h"
 #include "simplify_testing.h"
 
 namespace tetstream::test {
@@ -210,6 +211,26 @@ TEST(SimplifierValues, OfMeasuredLinearFieldsStayLinear) {
                   3 * out.position(v, 0) - out.position(v, 1) + 0.5 * out.position(v, 2) + 11,
                   1e-6);
   }
+}
+
+// Beside interfaces that weigh far more than cells, where the target is out of reach and edges are
+// tried one by one.
+TEST(SimplifierValues, OfMeasuredLinearFieldsStayLinearAmongManyRegions) {
+  TestMesh mesh = fullGrid(10, 10, 10, 0.1);
+  addPositionField(mesh, {"linear", 1, ScalarType::kFloat64},
+                   [](double x, double y, double z) { return x - 2 * y + 3 * z; });
+  mesh.addIntegerCellData("material",
+                          [](size_t c) { return static_cast<int64_t>(mix(c / 24 + 1) % 3); });
+  SimplifyOptions options = toRatio(0.1);
+  options.regions = "material";
+  options.boundary_weight = 1000;
+  const Result result = simplified(mesh, options);
+  const TestMesh& out = result.out.mesh;
+  EXPECT_NE(result.report.limited_by, "");
+  EXPECT_LT(out.cellCount(), mesh.cellCount() * 3 / 4);
+  for (size_t v = 0; v < out.vertexCount(); ++v)
+    EXPECT_NEAR(out.field(0, v),
+                out.position(v, 0) - 2 * out.position(v, 1) + 3 * out.position(v, 2), 1e-6);
 }
 
 // Constants are the test of an average: (a w + a v) / (w + v) must give a, to the last bit.
