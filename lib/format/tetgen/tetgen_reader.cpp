@@ -12,7 +12,8 @@ namespace tetstream {
 namespace {
 
 constexpr int64_t kMostAttributes = 512;
-constexpr size_t kMostFaceBytes = 512;  // of a face's line that are looked at: at most ten numbers
+constexpr size_t kMostLineBytes =
+    512;  // of a line that are looked at: of a face at most ten numbers
 
 std::unique_ptr<ByteSource> openBeside(const ReadOptions& options, const char* extension) {
   return unwrapped(options.watched(openFile(withExtension(options.path, extension))));
@@ -21,7 +22,7 @@ std::unique_ptr<ByteSource> openBeside(const ReadOptions& options, const char* e
 // Numbers of the next line that is no comment, which stays the next one.
 size_t numbersOfNextLine(FileScan& file) {
   file.peekWord();
-  const std::string_view text = file.peekBytes(kMostFaceBytes);
+  const std::string_view text = file.peekBytes(kMostLineBytes);
   const std::string_view line = text.substr(0, text.find_first_of("\n#"));
   size_t numbers = 0;
   for (size_t at = 0; (at = line.find_first_not_of(" \t\r", at)) != line.npos; ++numbers)
@@ -59,8 +60,10 @@ class TetgenReader {
     for (int64_t a = 0; a < attributes; ++a)
       columns.push_back(
           intake_.addData({"attribute" + std::to_string(a), 1, ScalarType::kFloat64}, false));
-    nodes_.expectRows(count,
-                      {{{false, 1}, {true, 3 + columns.size()}, {false, markers ? 1U : 0U}}});
+    const bool has_more = hasMore(nodes_, 4 + columns.size() + markers);
+    nodes_.expectRows(
+        count,
+        {{{false, 1}, {true, 3 + columns.size()}, {false, markers ? 1U : 0U}}, nullptr, has_more});
     for (uint64_t i = 0; i < count; ++i) {
       int64_t number;
       nodes_.integers(&number, 1, "the number of a point");
@@ -77,7 +80,19 @@ class TetgenReader {
         intake_.putData(column, i, &value);
       }
       if (markers) intake_.labelPoint(nodes_.integer("the marker of a point"));
+      if (has_more) nodes_.passLine();
     }
+  }
+
+  // Whether the rows that follow have more numbers than the file's first line tells: some programs
+  // write them, and TetGen passes over them.
+  bool hasMore(FileScan& file, size_t told) {
+    const size_t numbers = numbersOfNextLine(file);
+    if (numbers <= told) return false;
+    intake_.note((&file == &nodes_ ? "" : "of " + file.name() + " ") +
+                 "what each line has at its end is left out: " + std::to_string(numbers - told) +
+                 " more than its header tells");
+    return true;
   }
 
   void readCorners(FileScan& file, size_t count, int64_t* corners) {
@@ -99,18 +114,22 @@ class TetgenReader {
       columns.push_back(
           intake_.addCellNumbers(a == 0 ? "region" : "attribute" + std::to_string(a)));
     const CellKind kind = {CellShape::kTetra, static_cast<int>(nodes)};
-    file.expectRows(count, {{{false, 1 + static_cast<size_t>(nodes)}, {true, columns.size()}}});
+    const auto corner_count = static_cast<size_t>(nodes);
+    const bool has_more = hasMore(file, 1 + corner_count + columns.size());
+    file.expectRows(count,
+                    {{{false, 1 + corner_count}, {true, columns.size()}}, nullptr, has_more});
     for (uint64_t i = 0; i < count; ++i) {
       int64_t number;
       file.integers(&number, 1, "the number of a cell");
       int64_t corners[10];
-      readCorners(file, static_cast<size_t>(nodes), corners);
+      readCorners(file, corner_count, corners);
       intake_.addCell(kind, corners, nullptr, number);
       for (size_t column : columns) {
         double value;
         file.reals(&value, 1, "an attribute of a cell");
         intake_.putData(column, i, &value);
       }
+      if (has_more) file.passLine();
     }
   }
 

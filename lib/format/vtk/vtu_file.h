@@ -26,6 +26,7 @@ struct VtuArray {
   // Bytes of the file: of inline values exactly their text; of appended ones from their length word
   // or block table to, at the latest, the end of the file.
   uint64_t begin = 0, end = 0;
+  bool is_doubtful = false;  // while the header is read: perhaps of another step
 };
 
 // Cells use the points of their own piece, counted from 0.

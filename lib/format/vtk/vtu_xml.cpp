@@ -1,6 +1,7 @@
 // The XML part of .vtu files, up to the start tag of AppendedData, after which the file need not be
 // XML any more. Elements that are not known are passed over with everything in them.
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstring>
 #include <iterator>
@@ -39,7 +40,7 @@ class HeaderParser final : XmlFeed {
   VtuFile run() {
     feed();
     if (file_.pieces.empty()) failAt(lastEvent(), "there is no <Piece>");
-    if (pieces_are_steps_) keepPiecesOfStep();
+    if (some_claim_first_) keepStep();
     if (stopped()) placeAppended();
     for (VtuPiece& piece : file_.pieces) finishPiece(piece);
     if (file_.time) finishArray(*file_.time);
@@ -190,18 +191,31 @@ class HeaderParser final : XmlFeed {
     return format ? format : find(attributes, "offset") ? "appended" : "ascii";
   }
 
-  // VTK appends the arrays of all steps to one piece, each with its own step or a list of them;
-  // those without are of all. Values that are not appended it writes as pieces for one step after
-  // the other, in which all arrays claim step 0.
-  bool isOfStep(Attributes attributes) {
+  // Arrays of all steps are in one piece, each with its own step or a list of them; those without
+  // are of all. But values that are not appended VTK writes as pieces for one step after the other,
+  // in which all arrays claim step 0: such are kept until the end tells.
+  bool mayBeOfStep(Attributes attributes) {
     const char* steps = times_.empty() ? nullptr : find(attributes, "TimeStep");
+    is_doubtful_ = false;
     if (!steps) return true;
-    if (std::strcmp(formatOf(attributes), "appended") != 0) {
-      pieces_are_steps_ = true;
-      return true;
-    }
     const std::vector<uint64_t> all = numbersOf<uint64_t>("TimeStep", steps);
-    return std::find(all.begin(), all.end(), step_) != all.end();
+    if (std::strcmp(formatOf(attributes), "appended") != 0) {
+      const bool is_first = all == std::vector<uint64_t>{0};
+      (is_first ? some_claim_first_ : some_claim_others_) = true;
+      is_doubtful_ = is_first && step_ != 0;
+    }
+    return is_doubtful_ || std::find(all.begin(), all.end(), step_) != all.end();
+  }
+
+  void keepStep() {
+    if (!some_claim_others_) return keepPiecesOfStep();
+    const auto isDoubtful = [](const VtuArray& array) { return array.is_doubtful; };
+    for (VtuPiece& piece : file_.pieces) {
+      std::erase_if(piece.point_data, isDoubtful);
+      std::erase_if(piece.cell_data, isDoubtful);
+      for (std::optional<VtuArray>* array : meshOf(piece))
+        if (*array && isDoubtful(**array)) array->reset();
+    }
   }
 
   void keepPiecesOfStep() {
@@ -217,7 +231,7 @@ class HeaderParser final : XmlFeed {
   }
 
   bool enterArray(const char* element, Attributes attributes) {
-    if (!isOfStep(attributes)) return true;
+    if (!mayBeOfStep(attributes)) return true;
     const char* name = find(attributes, "Name");
     const char* type = find(attributes, "type");
     const bool data = section_ == Section::kPointData || section_ == Section::kCellData;
@@ -227,6 +241,7 @@ class HeaderParser final : XmlFeed {
       failHere("too many arrays", Status::kUnsupported);
     VtuArray array;
     array.name = nameOf(name);
+    array.is_doubtful = is_doubtful_;
     if (std::strcmp(element, "DataArray") != 0 || !type || !parseType(type, &array.type)) {
       if (data || std::strcmp(element, "DataArray") != 0)
         file_.addNote("array \"" + array.name + "\" is left out: its values are no numbers");
@@ -290,20 +305,19 @@ class HeaderParser final : XmlFeed {
     }
   }
 
+  // Of arrays of the same name the first one, but for one of which it is known that it is of the
+  // step; null if that is not the new one.
+  static VtuArray* replace(VtuArray& old, VtuArray& array) {
+    if (!old.is_doubtful || array.is_doubtful) return nullptr;
+    old = std::move(array);
+    return &old;
+  }
+
   // Where the array went; null if it is not wanted.
   VtuArray* keep(VtuArray array) {
     VtuPiece& piece = file_.pieces.back();
-    if (section_ == Section::kPointData || section_ == Section::kCellData) {
-      std::vector<VtuArray>& list =
-          section_ == Section::kPointData ? piece.point_data : piece.cell_data;
-      for (const VtuArray& other : list)
-        if (other.name == array.name) {
-          file_.addNote("array \"" + array.name + "\" is there twice: the second one is left out");
-          return nullptr;
-        }
-      list.push_back(std::move(array));
-      return &list.back();
-    }
+    if (section_ == Section::kPointData) return keepAmong(piece.point_data, array);
+    if (section_ == Section::kCellData) return keepAmong(piece.cell_data, array);
     std::optional<VtuArray>* place = &piece.points;
     if (section_ == Section::kCells) {
       place = array.name == "connectivity" ? &piece.connectivity
@@ -311,9 +325,21 @@ class HeaderParser final : XmlFeed {
               : array.name == "types"      ? &piece.types
                                            : nullptr;
     }
-    if (!place || *place) return nullptr;
+    if (!place) return nullptr;
+    if (*place) return replace(**place, array);
     *place = std::move(array);
     return &**place;
+  }
+
+  VtuArray* keepAmong(std::vector<VtuArray>& list, VtuArray& array) {
+    for (VtuArray& old : list) {
+      if (old.name != array.name) continue;
+      if (old.is_doubtful == array.is_doubtful)
+        file_.addNote("array \"" + array.name + "\" is there twice: the second one is left out");
+      return replace(old, array);
+    }
+    list.push_back(std::move(array));
+    return &list.back();
   }
 
   // Inline values end at the first tag after them.
@@ -336,9 +362,12 @@ class HeaderParser final : XmlFeed {
   void finishPiece(VtuPiece& piece) const {
     for (VtuArray& array : piece.point_data) finishArray(array);
     for (VtuArray& array : piece.cell_data) finishArray(array);
-    for (std::optional<VtuArray>* array :
-         {&piece.points, &piece.connectivity, &piece.offsets, &piece.types})
+    for (std::optional<VtuArray>* array : meshOf(piece))
       if (*array) finishArray(**array);
+  }
+
+  static std::array<std::optional<VtuArray>*, 4> meshOf(VtuPiece& piece) {
+    return {&piece.points, &piece.connectivity, &piece.offsets, &piece.types};
   }
 
   void finishArray(VtuArray& array) const {
@@ -361,9 +390,10 @@ class HeaderParser final : XmlFeed {
 
   const ChooseVtuStep& choose_;
   VtuFile file_;
-  std::vector<double> times_;  // of steps; empty: there are none
-  uint64_t step_ = 0;          // that is read
-  bool pieces_are_steps_ = false;
+  std::vector<double> times_;                                  // of steps; empty: there are none
+  uint64_t step_ = 0;                                          // that is read
+  bool some_claim_first_ = false, some_claim_others_ = false;  // arrays that are not appended
+  bool is_doubtful_ = false;                                   // the array that is entered
   std::string compressor_;
   int depth_ = 0, skip_from_ = 0;
   bool skipping_ = false, raw_ = false, in_field_data_ = false;

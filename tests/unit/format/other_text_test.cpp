@@ -130,6 +130,22 @@ TEST_F(Tetgen, ReadsPointsCellsAndFacesFromZeroOrOne) {
   }
 }
 
+// As TetGen itself, and several of its users' programs that write markers without telling of them.
+TEST_F(Tetgen, PassesOverWhatLinesHaveBeyondTheirHeader) {
+  put(".node", "4 3 1 0\n0 0 0 0 0.5 7 # first\n1 1 0 0 1.5 7\n2 0 1 0 2.5\n3 0 0 1 3.5 7 8\n");
+  put(".ele", "2 4 0\n0 0 1 2 3 -1 1\n1 0 1 2 3 -1 1\n");
+  std::vector<std::string> notes;
+  Input input = open(".ele", &notes);
+  const SvMesh m = readAll(input);
+  EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {0, 1, 2, 3}}));
+  ASSERT_EQ(m.fields.size(), 1u);
+  EXPECT_EQ(m.fields[0], (std::vector<double>{0.5, 1.5, 2.5, 3.5}));
+  EXPECT_TRUE(anyNote(notes, "m.node: what each line has at its end is left out: 1 more than"));
+  EXPECT_TRUE(anyNote(notes, "m.ele what each line has at its end is left out: 2 more than"));
+  put(".node", "4 3 1 0\n0 0 0 0 0.5 7\n1 1 0 0\n2 0 1 0 2.5 7\n3 0 0 1 3.5 7\n");
+  EXPECT_NE(problem().find("m.node: line "), std::string::npos) << problem();
+}
+
 // As tetgen -o2 writes them, and with -nn, by which cells follow the marker; three nodes are those
 // of a face of first order, however many cells have.
 TEST_F(Tetgen, ReadsMarkersBehindTheNodesOfFacesOfSecondOrder) {

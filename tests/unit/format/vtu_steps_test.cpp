@@ -1,5 +1,6 @@
-// .vtu files with time steps of their own, as VTK writes them: appended, all steps in one piece;
-// otherwise a piece for each step, in which every array claims step 0.
+// .vtu files with time steps of their own: all in one piece, as VTK writes them if they are
+// appended and others write them inline, too; or, as VTK writes them inline, a piece for each step,
+// in which every array claims step 0.
 #include <gtest/gtest.h>
 
 #include "status.h"
@@ -77,6 +78,8 @@ TEST(VtuSteps, ReadsTheOneThatIsAskedForOrTheLast) {
   const std::string files[] = {
       timed({allSteps()}, {VtuCoding::kAppendedRaw}),
       timed({allSteps()}, {VtuCoding::kAppendedBase64, true}),
+      timed({allSteps()}, {}),
+      timed({allSteps()}, {VtuCoding::kInline, true}),
       timed({pieceOf(0, 0), pieceOf(1, 0), pieceOf(2, 0)}, {}),
       timed({pieceOf(0, 0), pieceOf(1, 0), pieceOf(2, 0)}, {VtuCoding::kInline, true})};
   for (const std::string& file : files) {
@@ -99,13 +102,30 @@ TEST(VtuSteps, ReadsArraysOfSeveralStepsAndOfAll) {
   piece.cells_element = twoCellPiece().cells_element;
   piece.cell_data.resize(2);
   piece.cell_data[1].attributes = "TimeStep='1  2'";
-  const std::string file = timed({piece}, {VtuCoding::kAppendedRaw});
-  EXPECT_EQ(valuesAs<int32_t>(readStep(file, 0).cell_data[0])[0], 100);
-  for (const int64_t step : {1, 2}) {
-    const VtuMesh mesh = readStep(file, step);
-    EXPECT_EQ(mesh.cells, kTwoCells);
-    EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0])[0], 101);
-    EXPECT_EQ(valuesAs<float>(mesh.fields[0])[0], 10 * static_cast<float>(step));
+  for (const VtuCoding coding : {VtuCoding::kAppendedRaw, VtuCoding::kInline}) {
+    const std::string file = timed({piece}, {coding});
+    EXPECT_EQ(valuesAs<int32_t>(readStep(file, 0).cell_data[0])[0], 100);
+    for (const int64_t step : {1, 2}) {
+      const VtuMesh mesh = readStep(file, step);
+      EXPECT_EQ(mesh.cells, kTwoCells);
+      EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0])[0], 101);
+      EXPECT_EQ(valuesAs<float>(mesh.fields[0])[0], 10 * static_cast<float>(step));
+      EXPECT_EQ(mesh.notes.size(), 1u);
+    }
+  }
+}
+
+// Nor an array that the step lacks.
+TEST(VtuSteps, ReadsNothingOfOthersThatAreNotAppended) {
+  VtuTestPiece piece = allSteps();
+  piece.points_element = twoCellPiece().points_element;
+  piece.cells_element = twoCellPiece().cells_element;
+  piece.cell_data.resize(1);
+  for (const VtuStyle style : {VtuStyle{}, VtuStyle{VtuCoding::kAppendedRaw}}) {
+    const std::string file = timed({piece}, style);
+    EXPECT_EQ(readStep(file, 0).cell_data.size(), 1u);
+    EXPECT_EQ(readStep(file, 2).cell_data.size(), 0u);
+    EXPECT_EQ(valuesAs<float>(readStep(file, 2).fields[0])[0], 20);
   }
 }
 
