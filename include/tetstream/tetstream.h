@@ -460,9 +460,9 @@ TETSTREAM_API void tetstream_reader_destroy(tetstream_reader *reader);
  * *info live as long as the reader. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reader,
                                                          tetstream_stream_info *info);
-/* What the reader left out or assumed, and after tetstream_inspect which fields have values that
- * are not finite, as sentences: note `index`, or NULL if there are fewer.
- * Lives as long as the reader. Since 0.1. */
+/* What the reader left out or assumed; after tetstream_inspect also which fields have values that
+ * are not finite, and after that or tetstream_convert how many vertices are in no cell: sentences,
+ * note `index`, or NULL if there are fewer. Lives as long as the reader. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_note(const tetstream_reader *reader, int32_t index);
 /* The sentence for the last failure with this handle, "" if there was none. Lives until the next
  * call with the handle. Since 0.1. */

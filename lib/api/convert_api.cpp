@@ -5,6 +5,12 @@
 
 using namespace tetstream;
 
+static void noteUnused(tetstream_reader& reader, int64_t vertices) {
+  if (vertices > 0)
+    reader.notes.push_back(
+        textOf("vertices that are in no cell, left out: %lld", static_cast<long long>(vertices)));
+}
+
 // From the reader to the output, which is started and stays incomplete after a failure.
 static LayoutReport convertInto(Output& output, tetstream_reader& reader, const RunOptions& options,
                                 const ProgressFunction& progress) {
@@ -40,6 +46,8 @@ static void copyTo(tetstream_writer& w, tetstream_reader* reader, RunOptions run
   const Busy busy(w);
   try {
     w.laid_out = convertInto(output, *reader, run, progress);
+    if (automatic == RunOptions::Auto::kKeeps)  // a layout's report has it
+      noteUnused(*reader, w.laid_out.unused_vertices);
     output.complete();
   } catch (...) {
     output.stop(State::kBroken);
@@ -93,6 +101,7 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     Input& input = use.input(false, run.temp_dir);
     const Inspection found =
         readNamed(input, [&] { return inspect(input, run, progressOf(progress, user)); });
+    noteUnused(r, found.unused_vertices);
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
     for (size_t f = 0; f < found.not_finite.size(); ++f)
       if (found.not_finite[f] > 0)

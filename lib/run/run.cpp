@@ -232,7 +232,11 @@ Inspection inspect(Input& input, const RunOptions& options, const ProgressFuncti
   const Schema schema = facts.schema();
   SimplifyOptions simplify;  // the option `window` is one of simplifying alone
   simplify.memory_bytes = options.simplify.memory_bytes;
-  return {schema, facts.figures(), Simplifier::windowCells(schema, simplify), facts.notFinite(),
+  return {schema,
+          facts.figures(),
+          Simplifier::windowCells(schema, simplify),
+          facts.notFinite(),
+          stream.unusedVertices(),
           facts.faceLabels()};
 }
 

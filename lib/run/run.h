@@ -81,6 +81,7 @@ struct Inspection {
   DiagramFigures figures;           // means and lifetimes
   int64_t window_cells;             // that a simplification takes
   std::vector<int64_t> not_finite;  // values of each field
+  int64_t unused_vertices;          // in no cell, left out
   FaceLabels face_labels;           // without areas
 };
 // Reads the whole input.

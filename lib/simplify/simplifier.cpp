@@ -343,16 +343,18 @@ class WindowedEngine final : public Simplifier::Engine {
     pilot_.share = left;
   }
 
-  // The window's cells beyond its goal are what is left to do of what was read.
+  // What is left to do of what was read are the window's cells beyond its goal, and of them this.
+  static constexpr double kLeftAfterReading = 0.8;
   void tell(int64_t goal) {
     if (!progress_) return;
     Progress p;
     p.cells_read = static_cast<int64_t>(intake_.cellsRead());
     p.cells_total = plan_.schema.cell_count;
     p.cells_written = static_cast<int64_t>(release_.cellsWritten());
-    const int64_t done = p.cells_read - std::max<int64_t>(mesh().liveCells() - goal, 0);
+    const auto left = static_cast<double>(std::max<int64_t>(mesh().liveCells() - goal, 0));
+    const double done = static_cast<double>(p.cells_read) - kLeftAfterReading * left;
     if (p.cells_total > 0) {
-      const double fraction = static_cast<double>(done) / static_cast<double>(p.cells_total);
+      const double fraction = done / static_cast<double>(p.cells_total);
       p.fraction = told_ = std::clamp(fraction, told_, 1.0);  // a new goal never turns it back
     }
     p.phase = "simplify";

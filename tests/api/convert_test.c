@@ -198,6 +198,29 @@ static void values_too_large_for_float32_are_refused_where_nothing_else_is_held(
   tetstream_writer_destroy(writer);
 }
 
+/* Both tell of the points that no cell has. */
+static void what_is_in_no_cell_is_told(void) {
+  static const char text[] =
+      "MeshVersionFormatted 2 Dimension 3 Vertices 6 0 0 0 0  9 9 9 0  1 0 0 0  0 1 0 0  0 0 1 0  "
+      "8 8 8 0 Tetrahedra 1 1 3 4 5 0 End";
+  static const char told[] = "vertices that are in no cell, left out: 2";
+  for (int inspects = 0; inspects < 2; ++inspects) {
+    tetstream_stream_info info = {0};
+    tetstream_writer* writer = NULL;
+    tetstream_reader* reader = NULL;
+    info.struct_size = sizeof info;
+    CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_reader_open_memory(text, sizeof text - 1, "mesh", &reader), TETSTREAM_OK);
+    CHECK_EQUAL(inspects ? tetstream_inspect(reader, NULL, NULL, NULL, &info)
+                         : tetstream_convert(reader, writer, NULL, NULL, NULL),
+                TETSTREAM_OK);
+    CHECK_SAYS(tetstream_reader_note(reader, 0), told);
+    CHECK(tetstream_reader_note(reader, 1) == NULL);
+    tetstream_reader_destroy(reader);
+    tetstream_writer_destroy(writer);
+  }
+}
+
 static int32_t cancel(void* user, const tetstream_progress* progress) {
   CHECK(progress->phase && progress->phase[0]);
   return *(int32_t*)user;
@@ -248,6 +271,7 @@ int main(void) {
   RUN_CASE(inspection_finds_the_same_however_the_mesh_comes);
   RUN_CASE(failures_of_the_reader_are_told_by_the_writer);
   RUN_CASE(values_too_large_for_float32_are_refused_where_nothing_else_is_held);
+  RUN_CASE(what_is_in_no_cell_is_told);
   RUN_CASE(progress_cancels);
   RUN_CASE(null_is_refused_everywhere);
   hostile_mesh_destroy(mesh);

@@ -346,6 +346,20 @@ TEST(SimplifierProgress, GrowsAndEndsAtTheWhole) {
   for (Mode mode : kModes) expectProgress(mode);
 }
 
+// Or the time left would seem to be many times what it is.
+TEST(SimplifierProgress, CountsWhatWasReadOfAMeshHeldWhole) {
+  const TestMesh mesh = fullGrid(8, 8, 8);
+  Recorder out;
+  std::vector<double> told;
+  Simplifier simplifier(toRatio(0.02, 0, Mode::kQueue), out,
+                        [&](const Progress& p) { told.push_back(p.fraction); });
+  MeshStream stream(mesh, {});
+  copyStream(stream, simplifier);
+  ASSERT_GT(told.size(), 2u);
+  EXPECT_GT(told.front(), 0.2);
+  EXPECT_LT(told.front(), 0.25);
+}
+
 TEST(SimplifierProgress, CanCancelAtAnyCall) {
   const TestMesh mesh = fullGrid(4, 4, 16);
   for (Mode mode : kModes)
