@@ -117,10 +117,20 @@ class Arrays(unittest.TestCase):
         labels = halves(points, cells)
         result = tetstream.simplify(points, cells, {"f": field}, regions=labels, ratio=0.2)
         self.assertEqual(result.regions.dtype, labels.dtype)
-        self.assertEqual(result.cell_data, {})
+        self.assertIs(result.cell_data["region"], result.regions)
+        self.assertIn("region", result.simplify(ratio=0.9).report.regions)
+        self.assertEqual(set(result.cell_data), {"region"})
         for label in (3, 8):
             self.assertAlmostEqual(volume(result.points, result.cells[result.regions == label]), 1,
                                    places=6)
+
+    def test_regions_may_be_one_of_the_cell_data(self):
+        points, cells, field = box(4)
+        labels = halves(points, cells)
+        result = tetstream.simplify(points, cells, {"f": field}, cell_data={"part": labels},
+                                    regions=labels, ratio=0.3)
+        self.assertEqual(set(result.cell_data), {"part"})
+        self.assertIs(result.regions, result.cell_data["part"])
 
     def test_regions_may_be_named(self):
         points, cells, field = box(4)
@@ -317,7 +327,11 @@ class Refused(unittest.TestCase):
         p, c = self.points, self.cells
         self.refused(tetstream.BadArgument, "ratio", p, c, ratio=1.5)
         self.refused(tetstream.BadArgument, "mode", p, c, mode="fast")
-        self.refused(TypeError, "there is no option quality; there are ratio, cells", p, c, quality=3)
+        self.refused(TypeError, "there is no option quality; there are ratio, cells((?!samples).)*$",
+                     p, c, quality=3)
+        self.refused(TypeError, "there is no option rato: is ratio meant\\?", p, c, rato=0.1)
+        self.refused(TypeError, "no option boundary-weight: is boundary_weight meant", p, c,
+                     **{"boundary-weight": 3})
         self.refused(TypeError, "window: an int is wanted, not float", p, c, window=3.5)
         for wrong in (numpy.float32(3.5), float("inf"), float("nan")):
             self.refused(TypeError, "cells: an int is wanted, not float", p, c, cells=wrong)

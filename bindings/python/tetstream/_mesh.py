@@ -100,7 +100,7 @@ class Simplified(Mesh):
     """The result of a simplification: a Mesh, and
 
     report: what was done, a Report.
-    regions: [m], the labels, if some were given; else None.
+    regions: [m], the labels, if some were given, also one of `cell_data`; else None.
     vertex_map: where the input's points went, a VertexMap, if it was asked for; else None.
     """
 

@@ -1,5 +1,6 @@
 """The library's options as properties and as a mapping, made from its own table."""
 import collections.abc
+import difflib
 import functools
 import operator
 
@@ -92,10 +93,12 @@ def real(name, value):
 ROWS = {row.name: row for row in map(_Row, range(core.option_count()))}
 
 
-def _named(name):
-    if name not in ROWS:
-        raise TypeError(f"there is no option {name}; there are {', '.join(ROWS)}")
-    return ROWS[name]
+def _named(name, rows=ROWS):
+    if name in ROWS:
+        return ROWS[name]
+    close = difflib.get_close_matches(name.replace("-", "_"), [*rows, "weights"], 1)
+    raise TypeError(f"there is no option {name}" + (f": is {close[0]} meant?" if close else ";") +
+                    f" there are {', '.join(rows)}")
 
 
 class Options(collections.abc.Mapping):
@@ -167,9 +170,9 @@ _DOING = {core.SCOPE_READ: "opened", core.SCOPE_ORDER: "ordered or copied",
 
 def made(values, scope, weights=None):
     """Options from keyword arguments, each of which counts there, and a dict of fields' weights."""
+    rows = {name: row for name, row in ROWS.items() if row.scope & (scope | core.SCOPE_READ)}
     for name, value in values.items():
-        row = _named(name)
-        if value is not None and not row.scope & (scope | core.SCOPE_READ):
+        if value is not None and _named(name, rows).name not in rows:
             raise TypeError(f"the option {name} does not count where a mesh is {_DOING[scope]}")
     return Options(weights=weights, **values)
 

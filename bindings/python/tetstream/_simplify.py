@@ -37,11 +37,15 @@ def _reported(simplifier, depth, *handles):
 
 
 def _with_regions(mesh, regions, options):
-    """The mesh with labels of its own as one more cell array, and the option that names it."""
+    """The mesh with labels of its own as a cell array, one more unless they are one of its own, and
+    the option that names it."""
     if regions is None:
         return mesh, options
     if isinstance(regions, str):
         return mesh, {**options, "regions": regions}
+    for name, array in mesh.cell_data.items():
+        if array is regions:
+            return mesh, {**options, "regions": name}
     name = "region"
     while name in mesh.cell_data or name in mesh.label_names:
         name += "_"
@@ -74,8 +78,8 @@ def simplify_mesh(mesh, *, regions=None, weights=None, vertex_map=False, progres
         report = _run(made, reader, writer, tell, prepare, 5)
     result = _mesh.collected(collector, columns, cell_columns, _mesh.Simplified)
     result.report = report
-    if labelled is not mesh:
-        result.regions = result.cell_data.pop(options["regions"])
+    if regions is not None and not isinstance(regions, str):
+        result.regions = result.cell_data[options["regions"]]
     if vertex_map:
         result.vertex_map = _mesh.VertexMap(mapped.cells(), mapped.weights(), result.cells,
                                             len(result.points))
@@ -99,8 +103,9 @@ def simplify(points, tetrahedra, /, fields=None, *, cell_data=None, regions=None
         cell_data: dict of name to [m] or [m][components]. Floats are averaged by volume, integers
             picked.
         regions: [m], integers: the region of each cell; regions and the interfaces between them are
-            kept, and the result has `regions`, too. Or the name of one of `cell_data`, "auto" or
-            "none", as the option.
+            kept, and the result has `regions`, too, which is also one of its `cell_data`: "region"
+            unless they are one of those that were given. Or the name of one of `cell_data`, "auto"
+            or "none", as the option.
         locked: [n] of bool: points that are never moved.
         faces: [f][3], labelled faces of cells, with `face_labels`: [f], and `locked_faces`: [f] of
             bool; `locked_edges`: [e][2].
