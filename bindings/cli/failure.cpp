@@ -35,7 +35,9 @@ static std::string withoutFunction(std::string text) {
 }
 
 [[noreturn]] static void fail(tetstream_status status, const char* message) {
-  std::string text = withoutFunction(message ? message : "");
+  const bool is_misuse = status == TETSTREAM_BAD_ARGUMENT || status == TETSTREAM_BAD_STATE;
+  std::string text = message ? message : "";
+  if (is_misuse) text = withoutFunction(std::move(text));
   if (text.empty())
     text = status == TETSTREAM_NO_MEMORY ? "out of memory" : tetstream_status_name(status);
   throw Failure{exitCodeOf(status), std::move(text)};

@@ -1,5 +1,6 @@
 #include "text.h"
 
+#include <poll.h>
 #include <tetstream/tetstream.h>
 #include <unistd.h>
 
@@ -84,13 +85,19 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-// Returns 0 or the error's number.
+// Returns 0 or the error's number. Others may have made the descriptor one that does not wait.
 static int writeAll(int fd, std::string_view text) {
   size_t done = 0;
   while (done < text.size()) {
     const ssize_t put = ::write(fd, text.data() + done, text.size() - done);
-    if (put < 0 && errno != EINTR) return errno;
-    if (put > 0) done += static_cast<size_t>(put);
+    if (put > 0) {
+      done += static_cast<size_t>(put);
+    } else if (put < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+      struct pollfd writable = {fd, POLLOUT, 0};
+      ::poll(&writable, 1, -1);
+    } else if (put < 0 && errno != EINTR) {
+      return errno;
+    }
   }
   return 0;
 }

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "compressed_bytes.h"
+
 namespace tetstream {
 
 std::string pathBeside(const std::string& file, const std::string& name) {
@@ -48,7 +50,7 @@ ByteSource& FilePool::open(size_t file) {
       files_[opened_.front()].reset();
       opened_.pop_front();
     }
-    std::unique_ptr<ByteSource> bytes = openFile(paths_[file]);
+    std::unique_ptr<ByteSource> bytes = unwrapped(openFile(paths_[file]));
     if (bytes->seekable()) opened_.push_back(file);
     files_[file] = makeSeekable(std::move(bytes), temp_dir_);
   }

@@ -35,6 +35,11 @@ expect_error 6 "two files" convert - none.tets --format-in tetgen <mesh.tets
 kinds=gz
 expect 0 --version
 [[ $out == *zstd* ]] && kinds="gz zst"
+expect 0 convert mesh.tets beside.mesh --quiet
+gzip beside.sol && mv beside.sol.gz beside.sol
+expect 0 info beside.mesh
+contains "$out" "field"
+rm beside.*
 for kind in $kinds; do
   for format in sva msh mesh vtu tets; do
     expect 0 convert mesh.tets "packed.$format.$kind" --quiet
@@ -44,6 +49,12 @@ for kind in $kinds; do
     [[ $(cells_in "named.$format") == "$cells" ]] || fail "$kind under another name"
     rm "named.$format"
   done
+  # What a file names, and what lies beside it, may be wrapped as well.
+  expect 0 convert mesh.tets "piece.vtu.$kind" --quiet
+  printf '<VTKFile type="Collection"><Collection><DataSet timestep="0" file="piece.vtu.%s"/>%s' \
+    "$kind" '</Collection></VTKFile>' >one.pvd
+  [[ $(cells_in one.pvd) == "$cells" ]] || fail "a piece in $kind is not read"
+  rm one.pvd "piece.vtu.$kind"
   expect 0 convert mesh.tets "cut.sva.$kind" --quiet
   head -c 1000 "cut.sva.$kind" >short.sva
   expect_error 2 "ends within its compressed data" convert short.sva none.tets

@@ -37,4 +37,21 @@ for name in - /dev/stdout; do
   tetstream convert named.tets "$name" --format vtu 1<named.tets 2>"$logs/err" || code=$?
   [[ $code == 3 ]] || fail "output to what is read, $name: exit code $code"
 done
+# An output that somebody else has made one that does not wait is waited for all the same.
+if [[ -n ${TETSTREAM_PYTHON:-} ]]; then
+  "$TETSTREAM_PYTHON" - <<'PYTHON' || fail "what does not fit into a pipe at once is lost"
+import fcntl, os, subprocess, time
+command = [os.environ["TETSTREAM_COMMAND"], "simplify", "--help"]
+ours, theirs = os.pipe()
+fcntl.fcntl(theirs, 1031, 4096)  # F_SETPIPE_SZ: less than the help
+fcntl.fcntl(theirs, fcntl.F_SETFL, fcntl.fcntl(theirs, fcntl.F_GETFL) | os.O_NONBLOCK)
+run = subprocess.Popen(command, stdout=theirs)
+os.close(theirs)
+time.sleep(0.3)
+with os.fdopen(ours, "rb") as pipe:
+    text = pipe.read()
+assert run.wait() == 0 and len(text) > 4096, (run.returncode, len(text))
+assert text == subprocess.run(command, capture_output=True).stdout
+PYTHON
+fi
 only_files a.tets b.tets named.tets piped.tets small.vtu

@@ -21,6 +21,9 @@ refuses() {
 twice="twice.mesh: cell 3: point 5 is there twice"
 refuses "$twice" convert twice.mesh out.tets
 refuses "$twice" convert twice.mesh out.tets --order none
+cp twice.mesh tetstream_mesh
+expect_error 2 "tetstream_mesh: cell 3" info tetstream_mesh --format mesh
+rm tetstream_mesh
 refuses "$twice" convert twice.mesh out.tets --order spectral
 refuses "$twice" simplify twice.mesh out.tets --ratio 0.5
 refuses "$twice" info twice.mesh

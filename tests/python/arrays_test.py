@@ -1,7 +1,9 @@
 """simplify on arrays: types, shapes, what is copied and what is refused."""
 import collections
 import gc
+import os
 import sys
+import tempfile
 import unittest
 import warnings
 
@@ -178,6 +180,15 @@ class Arrays(unittest.TestCase):
                                         mode=mode).report
             self.assertGreater(report.collapses, 0)
             self.assertEqual(report.rejected_locked, 0, mode)
+
+    def test_faces_without_labels_have_0(self):
+        points, cells, field = box(2)
+        mesh = tetstream.Mesh(points, cells, {"f": field}, faces=cells[:1, :3])
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "mesh.tets")
+            mesh.write(path)
+            for same in (tetstream.read(path), mesh.simplify(ratio=1.0)):
+                self.assertEqual(same.face_labels.tolist(), [0])
 
     def test_labelled_faces_go_along(self):
         points, cells, field = box(5)

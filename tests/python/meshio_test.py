@@ -31,6 +31,19 @@ class Meshio(unittest.TestCase):
         numpy.testing.assert_array_equal(again.fields["f"], small.fields["f"])
         numpy.testing.assert_array_equal(again.cell_data["part"].ravel(), small.cell_data["part"])
 
+    def test_labels_and_names_that_meshio_holds_otherwise(self):
+        points, cells, _ = box(2)
+        regions = numpy.full(len(cells), 3, numpy.uint8)
+        names = {None: {300: "wall"}, "gmsh:physical": {3: "wall"}}
+        mesh = tetstream.Mesh(points, cells, {}, {"gmsh:physical": regions}, faces=cells[:1, :3],
+                              face_labels=[300], label_names=names)
+        there = mesh.to_meshio()
+        self.assertEqual(there.cell_data["gmsh:physical"][1].tolist(), [300])
+        self.assertEqual({name: group.tolist() for name, group in there.field_data.items()},
+                         {"wall": [300, 2], "wall_": [3, 3]})
+        mesh.face_labels = None
+        self.assertEqual(mesh.to_meshio().cell_data["gmsh:physical"][1].tolist(), [0])
+
     def test_labelled_faces_and_names_go_there_and_back(self):
         points, cells, field = box(4)
         bottom = cells[(points[cells][:, :, 2] == 0).sum(axis=1) == 3]

@@ -1,7 +1,7 @@
 """Meshes of pyvista and meshio, which are imported when they are needed."""
 import numpy
 
-from ._mesh import Mesh
+from ._mesh import Mesh, face_labels_of
 from .errors import Unsupported
 
 _VTK_TETRA = 10
@@ -102,22 +102,28 @@ def _take_names(made, mesh, by):
 def to_meshio(mesh):
     """A meshio.Mesh of a Mesh. Labelled faces are triangles, whose labels stand in the cell data
     "gmsh:physical", or in "medit:ref" if the mesh has that; other cell data are 0 there, and all cells
-    have the label 1 if there was none. Names of these labels are field_data. The time is left out."""
+    have the label 1 if there was none. Names of these labels are field_data; of labels that share a
+    name the later ones have "_" behind it. The time is left out."""
     import meshio
     by = next((name for name in _LABELS if name in mesh.cell_data), _LABELS[0])
-    count = 0 if mesh.faces is None else len(mesh.faces)
+    faces = [] if mesh.faces is None else numpy.asarray(mesh.faces)
     blocks = [("tetra", numpy.asarray(mesh.cells))]
     cell_data = {name: [numpy.asarray(values)] for name, values in mesh.cell_data.items()}
-    if count > 0:
-        blocks.append(("triangle", numpy.asarray(mesh.faces)))
+    if len(faces) > 0:
+        blocks.append(("triangle", faces))
         # Gmsh passes over cells of no group where there are groups.
         cell_data.setdefault(by, [numpy.ones(len(mesh.cells), numpy.int64)])
         for name, of_blocks in cell_data.items():
-            shape = (count, *of_blocks[0].shape[1:])
-            of_blocks.append(numpy.asarray(mesh.face_labels).astype(of_blocks[0].dtype)
-                             if name == by else numpy.zeros(shape, of_blocks[0].dtype))
-    names = {name: numpy.array([label, dimension])
-             for array, dimension in ((None, 2), (by, 3))
-             for label, name in mesh.label_names.get(array, {}).items()}
+            shape = (len(faces), *of_blocks[0].shape[1:])
+            of_blocks.append(numpy.asarray(face_labels_of(mesh)) if name == by
+                             else numpy.zeros(shape, of_blocks[0].dtype))
+        kind = numpy.result_type(*cell_data[by])  # of which both are
+        cell_data[by] = [values.astype(kind) for values in cell_data[by]]
+    names = {}
+    for array, dimension in ((None, 2), (by, 3)):
+        for label, name in mesh.label_names.get(array, {}).items():
+            while name in names:
+                name += "_"
+            names[name] = numpy.array([label, dimension])
     return meshio.Mesh(mesh.points, blocks, point_data=dict(mesh.fields), cell_data=cell_data,
                        field_data=names)

@@ -13,7 +13,8 @@ class Mesh:
     cell_data: dict of name to [m] or [m][components]; integers are labels.
     locked: [n] of bool: points that are never moved; None: none.
     faces: [f][3] of int64, labelled faces of cells, with face_labels: [f] of int64, and
-        locked_faces: [f] of bool or None; locked_edges: [e][2] of int64 or None.
+        locked_faces: [f] of bool or None; locked_edges: [e][2] of int64 or None. Without
+        face_labels all faces have the label 0.
     label_names: what labels mean, a dict of the name of a cell array of integers, or None for
         faces, to a dict of label to name: {None: {1: "inlet"}, "material": {3: "steel"}}.
     time: of the values, a float in any unit; None: not known.
@@ -56,6 +57,13 @@ class Mesh:
         """A meshio.Mesh. Needs meshio."""
         from ._interchange import to_meshio
         return to_meshio(self)
+
+
+def face_labels_of(mesh):
+    """[f], where the Mesh has faces; else None."""
+    if mesh.faces is None or mesh.face_labels is not None:
+        return mesh.face_labels
+    return numpy.zeros(len(mesh.faces), numpy.int64)
 
 
 class VertexMap:
@@ -176,7 +184,7 @@ def batches_of(mesh):
                         locked=None if locked is None else locked[new], cells=cells[part],
                         last_uses=last_uses[part],
                         cell_data={c.name: c.rows[part] for c in cell_data},
-                        **(dict(faces=mesh.faces, face_labels=mesh.face_labels,
+                        **(dict(faces=mesh.faces, face_labels=face_labels_of(mesh),
                                 locked_faces=mesh.locked_faces, locked_edges=mesh.locked_edges)
                            if first == 0 else {}))
             begin = end

@@ -120,7 +120,7 @@ class Reader:
             put(batch.set_locked, _arrays.flags("locked", mesh.locked, len(points)))
         if mesh.faces is not None:
             faces = _arrays.wide_ids("faces", mesh.faces, 3)
-            labels = numpy.zeros(len(faces), int) if mesh.face_labels is None else mesh.face_labels
+            labels = _mesh.face_labels_of(mesh)
             put(batch.set_faces, faces)
             put(batch.set_face_labels, _arrays.wide_ids("face_labels", labels, 1))
             if mesh.locked_faces is not None:

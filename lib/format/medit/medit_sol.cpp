@@ -2,6 +2,7 @@
 
 #include <sys/stat.h>
 
+#include "compressed_bytes.h"
 #include "status.h"
 
 namespace tetstream {
@@ -114,7 +115,7 @@ std::unique_ptr<ByteSource> openMeditSolution(const std::string& mesh_path) {
       mesh_path.size() > 6 && mesh_path.compare(mesh_path.size() - 6, 6, ".meshb") == 0;
   for (const char* extension : {binary ? ".solb" : ".sol", binary ? ".sol" : ".solb"}) {
     const std::string path = withExtension(mesh_path, extension);
-    if (exists(path)) return openFile(path);
+    if (exists(path)) return unwrapped(openFile(path));
   }
   return nullptr;
 }

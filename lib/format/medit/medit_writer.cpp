@@ -143,12 +143,9 @@ class MeditWriter final : public MeshCollector {
            isWide(schema.fields, point_reference_) || anyWideFaceLabel(mesh);
     if (wide) return 4;
     if (!binary_) return 2;
-    const uint64_t most = 28 * (mesh.pointCount() + mesh.cellCount() + mesh.faceCount());
-    if (most + fieldBytes() >= 0x7fff0000) return 3;
+    if (meditNeedsWidePlaces(schema, mesh.pointCount(), mesh.cellCount(), mesh.faceCount()))
+      return 3;
     return allSingle() ? 1 : 2;
-  }
-  uint64_t fieldBytes() const {
-    return 8 * mesh_->schema().fieldComponents() * mesh_->pointCount();
   }
   bool allSingle() const {
     const auto single = [](const std::vector<Column>& columns, int reference) {
@@ -332,6 +329,14 @@ class MeditWriter final : public MeshCollector {
 };
 
 }  // namespace
+
+bool meditNeedsWidePlaces(const Schema& schema, uint64_t points, uint64_t cells, uint64_t faces) {
+  constexpr uint64_t kRowBytes = 28, kRealBytes = 8, kMostBytes = 0x7fff0000;
+  uint64_t of_cell = 0;
+  for (const Column& column : schema.cell_data) of_cell += static_cast<uint64_t>(column.components);
+  const uint64_t reals = schema.fieldComponents() * points + of_cell * cells;
+  return kRowBytes * (points + cells + faces) + kRealBytes * reals >= kMostBytes;
+}
 
 std::unique_ptr<Sink> createMesh(std::unique_ptr<ByteSink> bytes, const WriteOptions& options) {
   return std::make_unique<MeditWriter>(std::move(bytes), options, false);

@@ -10,8 +10,12 @@ namespace tetstream {
 
 namespace {
 
+std::string nameOf(const XdmfAttribute& attribute) {
+  return attribute.name.empty() ? "values" : attribute.name;
+}
+
 std::string shown(const XdmfAttribute& attribute) {
-  return textOf("array \"%s\"", cutName(attribute.name).c_str());
+  return textOf("array \"%s\"", cutName(nameOf(attribute)).c_str());
 }
 
 bool hasName(const std::vector<MeshArray>& list, const std::string& name) {
@@ -33,7 +37,7 @@ void XdmfFields::add(const std::vector<XdmfAttribute>& attributes, uint64_t cell
     auto& list = of_points ? piece_.point_data : piece_.cell_data;
     if (!of_points && !sameWord(attribute.center, "Cell"))
       mesh_.addNote(shown(attribute) + " is left out: it is of " + cutName(attribute.center));
-    else if (hasName(list, attribute.name))
+    else if (hasName(list, nameOf(attribute)))
       mesh_.addNote(shown(attribute) + " is left out: there is another one of its name");
     else if (rows > 0)
       add(attribute, rows, of_points ? Spread() : spread, list);
@@ -63,7 +67,7 @@ std::optional<MeshArray> XdmfFields::valuesOf(const XdmfAttribute& attribute, ui
                   " components, 1 to 9 are possible");
     return {};
   }
-  const std::string name = attribute.name.empty() ? "values" : attribute.name;
+  const std::string name = nameOf(attribute);
   const auto width = static_cast<int>(components);
   std::optional<MeshArray> whole;
   if (may_be_whole) whole = wholeOf(item, name, width);

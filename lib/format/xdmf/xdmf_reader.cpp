@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "made_values.h"
+#include "mixed_cells.h"
 #include "pieced_mesh.h"
 #include "status.h"
 #include "time_steps.h"
@@ -184,7 +185,15 @@ class Xdmf {
     addPoints(*geometry, piece);
     addXdmfCells(*topology, arrays_, options_.temp_dir, piece);
     XdmfFields(arrays_, mesh_, piece).add(at(grid).attributes);
+    noteLeftOut(grid);
     return piece;
+  }
+
+  void noteLeftOut(int grid) {
+    if (at(grid).has_sets) mesh_.addNote("sets of nodes, faces or cells are left out");
+    for (const std::string& pointer : at(grid).includes)
+      if (pointer.find("Attribute") != std::string::npos || pointer.ends_with("/*)"))
+        mesh_.addNote("attributes that a grid includes from another one are left out");
   }
 
   void addPoints(const XdmfGeometry& geometry, MeshPiece& piece) {
@@ -272,11 +281,12 @@ class Xdmf {
     return geometry && !geometry->items.empty() ? arrays_.placeOf(geometry->items[0]) : "";
   }
 
-  // Where all are tetrahedra, they need no types and stay where they are.
+  // Where all are tetrahedra, they need no types and stay where they are, unless some are ghosts.
   void takeForm(std::vector<MeshPiece>& pieces) {
     const auto isTetrahedra = [](const MeshPiece& piece) {
       int64_t type = 0;
       if (piece.cell_count == 0) return true;
+      if (ghostMarks(piece)) return false;
       if (!piece.types || piece.types->type != ValueType::kInt32) return false;
       piece.types->open(piece.cell_count)->read(0, 1, &type, ScalarType::kInt64);
       return type == kVtkTetra;

@@ -2,6 +2,7 @@
 
 #include <strings.h>
 #include <charconv>
+#include <cstdlib>
 #include <cstring>
 
 #include "mesh_pieces.h"
@@ -112,6 +113,8 @@ class XdmfTree final : XmlFeed {
   Open addToGrid(const char* name, Attributes attributes) {
     XdmfGrid& grid = grids_[static_cast<size_t>(grid_)];
     if (std::strcmp(name, "Topology") == 0) {
+      needCounting(attributes, "BaseOffset");
+      needCounting(attributes, "Order");
       grid.topology.emplace();
       grid.topology->type =
           wordOf(attributes, "TopologyType", wordOf(attributes, "Type", "").c_str());
@@ -150,7 +153,21 @@ class XdmfTree final : XmlFeed {
     const char* local = std::strrchr(name, ':');
     if (std::strcmp(local ? local + 1 : name, "include") == 0)
       grid.includes.push_back(wordOf(attributes, "xpointer", ""));
+    grid.has_sets = grid.has_sets || std::strcmp(name, "Set") == 0;
     return kOther;
+  }
+
+  // Of a word whose numbers are 0, 1, 2 ... unless cells have other points than those of their
+  // numbers, or in another order.
+  void needCounting(Attributes attributes, const char* word) const {
+    const char* at = find(attributes, word);
+    char* end = nullptr;
+    for (long count = 0; at; ++count, at = end) {
+      const long number = std::strtol(at, &end, 10);
+      if (end == at) return;
+      if (number != count)
+        failHere(textOf("the %s of a Topology is not followed", word), Status::kUnsupported);
+    }
   }
 
   static bool isSlab(Attributes attributes) {

@@ -56,6 +56,7 @@ struct XdmfGrid {
   std::optional<XdmfGeometry> geometry;
   std::vector<XdmfAttribute> attributes;
   std::vector<std::string> includes;  // xpointers to what the grid takes from others
+  bool has_sets = false;              // of nodes, faces or cells
   std::vector<XdmfItem> times;        // of the grids in it, in a list
 };
 

@@ -185,6 +185,18 @@ struct OneCell {
   }
 };
 
+TEST(Medit, TellsPlacesOf64BitsWhereTheMeshOrItsSolutionIsLong) {
+  Schema schema;
+  EXPECT_FALSE(meditNeedsWidePlaces(schema, 5000000, 25000000, 1000000));
+  EXPECT_TRUE(meditNeedsWidePlaces(schema, 20000000, 100000000, 1000000));
+  schema.cell_data.push_back({"stress", 9, ScalarType::kFloat64});
+  EXPECT_FALSE(meditNeedsWidePlaces(schema, 5000000, 18000000, 1000000));
+  EXPECT_TRUE(meditNeedsWidePlaces(schema, 5000000, 25000000, 1000000));
+  schema.cell_data.clear();
+  schema.fields.push_back({"velocity", 3, ScalarType::kFloat64});
+  EXPECT_TRUE(meditNeedsWidePlaces(schema, 60000000, 15000000, 0));
+}
+
 TEST(Medit, HoldsLabelsOfFacesOfAnySize) {
   for (const bool binary : {false, true})
     for (const int64_t label : {int64_t{7}, int64_t{-7000000000}}) {

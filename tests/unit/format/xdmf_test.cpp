@@ -193,6 +193,51 @@ TEST(Xdmf, GridsInSpaceAreJoined) {
   EXPECT_EQ(mesh.schema.cell_count, 4);
 }
 
+// As those of .pvtu.
+TEST(Xdmf, GhostsOfGridsInSpaceAreLeftOut) {
+  const auto piece = [](const std::string& marks) {
+    return uniform("part", kXdmfCells + kXdmfPoints + attribute("p", "1 2 3 4 5") +
+                               replaced(attribute("vtkGhostType", marks, "Cell", "2"), "Format",
+                                        "NumberType=\"UChar\" Precision=\"1\" Format"));
+  };
+  const VtuMesh mesh =
+      readAs("xdmf", file(collection("all", "Spatial", piece("0 1") + piece("1 0"))));
+  EXPECT_EQ(mesh.cells, kTwoCells);
+  EXPECT_TRUE(mesh.cell_data.empty());
+  EXPECT_TRUE(hasNote(mesh, "2 ghost cells"));
+}
+
+TEST(Xdmf, TellsWhatItLeavesOut) {
+  const std::string values = "<DataItem Dimensions=\"5\" Format=\"XML\">1 2 3 4 5</DataItem>";
+  const VtuMesh mesh = readAs(
+      "xdmf", file(uniform("mesh", kXdmfCells + kXdmfPoints + "<Attribute>" + values +
+                                       "</Attribute>" + "<Attribute>" + values +
+                                       "</Attribute><Set Name=\"s\" "
+                                       "SetType=\"Node\">" +
+                                       values +
+                                       "</Set><xi:include xpointer=\""
+                                       "xpointer(/Xdmf/Domain/Grid[2]/*[self::Attribute])\"/>") +
+                   uniform("other", kXdmfCells + kXdmfPoints + attribute("f", "1 2 3 4 5"))));
+  ASSERT_EQ(mesh.fields.size(), 1u);
+  EXPECT_EQ(mesh.schema.fields[0].name, "values");
+  EXPECT_TRUE(hasNote(mesh, "array \"values\" is left out: there is another one of its name"));
+  EXPECT_TRUE(hasNote(mesh, "sets of nodes, faces or cells are left out"));
+  EXPECT_TRUE(hasNote(mesh, "attributes that a grid includes from another one are left out"));
+}
+
+TEST(Xdmf, RefusesCellsWithOtherPointsThanThoseOfTheirNumbers) {
+  const auto with = [](const std::string& words) {
+    return file(
+        uniform("m", replaced(kXdmfCells, "<Topology", "<Topology " + words) + kXdmfPoints));
+  };
+  for (const char* plain : {"BaseOffset=\"0\"", "Order=\"0 1 2 3\"", "Order=\"\" BaseOffset=\" \""})
+    EXPECT_EQ(readAs("xdmf", with(plain)).cells, kTwoCells);
+  EXPECT_TRUE(has(failureAs("xdmf", with("BaseOffset=\"1\"")),
+                  "the BaseOffset of a Topology is not followed"));
+  EXPECT_TRUE(
+      has(failureAs("xdmf", with("Order=\"0 2 1 3\"")), "the Order of a Topology is not followed"));
+}
+
 TEST(Xdmf, SaysWhatIsWrong) {
   const auto failure = [](const std::string& content) {
     return failureAs("xdmf", file(uniform("m", content)));
