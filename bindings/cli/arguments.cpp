@@ -8,13 +8,12 @@
 
 #include "completion.h"
 #include "failure.h"
+#include "help_format.h"
 #include "text.h"
 
 namespace tetstream::cli {
 
 namespace {
-
-constexpr size_t kHelpColumn = 26;  // where the texts of a help page begin
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 ok, 1 usage, 2 bad data, 3 input or output, 4 memory, 5 target missed (the\n"
@@ -146,12 +145,7 @@ Failure Parser::unknownCommand(const std::string& word) {
 // Where the first word is a command that stands alone the others are left out: to tell of them
 // takes longer than to read a small mesh.
 Parser::Parser(const std::string& first) {
-  app_.get_formatter()->column_width(kHelpColumn);
-  app_.get_formatter()->label("Positionals", "Arguments");
-  app_.get_formatter()->label("Usage", "usage");
-  app_.get_formatter()->label("OPTIONS", "options");
-  app_.get_formatter()->label("SUBCOMMAND", "command");
-  app_.get_formatter()->label("REQUIRED", "");
+  app_.formatter(helpFormat());
   app_.require_subcommand(0, 1);  // further words are names, whatever they are
   app_.set_help_flag("-h,--help", "Show this text and stop");
   app_.add_flag("--version", version_, "Show the library's version and formats and stop");

@@ -1,6 +1,5 @@
 #include "progress.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -86,19 +85,13 @@ std::string ProgressBar::lineOf(const tetstream_progress& progress, Clock::time_
   return line;
 }
 
-static size_t terminalWidth() {
-  struct winsize size = {};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return 80;
-  return size.ws_col;
-}
-
 void ProgressBar::draw(std::string line) {
   if (!terminal_) {
     printError("tetstream: " + line + "\n");
     return;
   }
   // A line of the full width would wrap.
-  line.resize(std::min(line.size(), terminalWidth() - 1));
+  line.resize(std::min(line.size(), terminalWidth(STDERR_FILENO) - 1));
   const size_t length = line.size();
   if (length < length_) line.append(length_ - length, ' ');
   length_ = length;

@@ -20,8 +20,9 @@ static std::string rateText(int64_t cells, double seconds) {
 
 template <class R>
 static std::string frontText(const R& r) {
-  return "width " + countText(r.front_width) + ", span " + countText(r.front_span) + ", " +
-         countText(r.front_cells) + " cells";
+  const std::string cells =
+      r.front_cells < 0 ? "cells not known" : countText(r.front_cells) + " cells";
+  return "width " + countText(r.front_width) + ", span " + countText(r.front_span) + ", " + cells;
 }
 
 static std::string memoryText(const tetstream_report& r) {

@@ -1,6 +1,7 @@
 #include "text.h"
 
 #include <poll.h>
+#include <sys/ioctl.h>
 #include <tetstream/tetstream.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include "failure.h"
@@ -83,6 +85,15 @@ std::string oneLine(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
   return text;
+}
+
+size_t terminalWidth(int fd) {
+  struct winsize size = {};
+  if (::ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 1) return size.ws_col;
+  const std::string_view columns = std::getenv("COLUMNS") ? std::getenv("COLUMNS") : "";
+  size_t width = 0;
+  std::from_chars(columns.data(), columns.data() + columns.size(), width);
+  return width > 1 ? width : 80;
 }
 
 // Returns 0 or the error's number. Others may have made the descriptor one that does not wait.

@@ -24,6 +24,9 @@ constexpr size_t kMostListed = 40;
 // The text on one line: control characters, which file names may hold, become blanks.
 std::string oneLine(std::string text);
 
+// In characters, of the terminal; where the descriptor is none, what COLUMNS says, or 80.
+size_t terminalWidth(int fd);
+
 // To standard output, at once; throws Failure if it does not get there.
 void printOut(const std::string& text);
 // To standard error; nobody is left to be told of a failure.

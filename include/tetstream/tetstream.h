@@ -190,8 +190,8 @@ TETSTREAM_API tetstream_status tetstream_options_set_double(tetstream_options *o
 TETSTREAM_API tetstream_status tetstream_options_set_text(tetstream_options *options, int32_t id,
                                                           const char *value);
 /* Sets an option of any type by its name and the text of its value, as on a command line; integers
- * may have a suffix k, M, G (powers of 1024 for memory, of 1000 otherwise) or an exponent. Since
- * 0.1. */
+ * may have a suffix k, M, G (powers of 1024 for memory, where B or iB may follow, of 1000 otherwise)
+ * or an exponent. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_parse(tetstream_options *options,
                                                        const char *name, const char *value);
 /* Reads one option. A text lives until the option is set again or the handle destroyed. Since 0.1.
@@ -559,7 +559,8 @@ typedef struct tetstream_report {
   int64_t cells_in, vertices_in, cells_out, vertices_out; /* in: those that are left out, too */
   int64_t target_cells;      /* the larger one of ratio and cells; 0: only an error was given */
   int64_t window_cells;      /* room of the window, in cells, at most; it need not be full */
-  int64_t front_width, front_span, front_cells; /* of the input, as it was streamed */
+  int64_t front_width, front_span, front_cells; /* of the input, as it was streamed; cells -1: not
+                                                   known, of a mesh held whole that does not tell */
   int64_t collapses;
   int64_t rejected_orientation; /* a cell would have been flat or inverted */
   int64_t rejected_link;        /* the topology would have changed, or the boundary crossed itself */

@@ -115,9 +115,10 @@ static int64_t checked(const OptionRow& row, int64_t value) {
 static double checked(const OptionRow& row, double value) {
   // note: written so that NaN is outside.
   if (!(value >= row.minimum && value <= row.maximum))
-    fail(Status::kBadArgument, "option \"%s\": %s is outside %s to %s", row.name,
+    fail(Status::kBadArgument, "option \"%s\": %s is outside %s to %s%s", row.name,
          numberText(value).c_str(), numberText(row.minimum).c_str(),
-         numberText(row.maximum).c_str());
+         numberText(row.maximum).c_str(),
+         row.id == TETSTREAM_OPTION_RATIO ? ", a fraction: 0.1 leaves ten percent" : "");
   return value;
 }
 
@@ -145,21 +146,31 @@ static std::string checked(const OptionRow& row, std::string value) {
   fail(Status::kBadArgument, "option \"%s\": \"%s\" %s", row.name, text.c_str(), why);
 }
 
-// The factor of a suffix at the end of `text`, which is taken off.
+static bool isBytes(const OptionRow& row) {
+  return row.id == TETSTREAM_OPTION_MEMORY;
+}
+
+// The factor of a suffix at the end of `text`, which is taken off: k, M or G, of bytes also K, and
+// with B or iB behind it.
 static int64_t takeSuffix(const OptionRow& row, std::string& text) {
   static const char kSuffixes[] = "kMG";
-  const char* found = text.empty() ? nullptr : std::strchr(kSuffixes, text.back());
+  std::string before = text;
+  if (isBytes(row))
+    for (const char* unit : {"B", "i"})
+      if (before.ends_with(unit)) before.pop_back();
+  if (isBytes(row) && before.ends_with('K')) before.back() = 'k';
+  const char* found = before.empty() ? nullptr : std::strchr(kSuffixes, before.back());
   if (!found) return 1;
-  const int64_t step = row.id == TETSTREAM_OPTION_MEMORY ? 1024 : 1000;
-  text.pop_back();
+  const int64_t step = isBytes(row) ? 1024 : 1000;
+  text.assign(before, 0, before.size() - 1);
   int64_t factor = step;
   for (; found != kSuffixes; --found) factor *= step;
   return factor;
 }
 
-constexpr char kNoInteger[] = "is no integer, which k, M or G may follow";
-
 static int64_t parseInteger(const OptionRow& row, const std::string& whole) {
+  const char* const kNoInteger = isBytes(row) ? "is no number of bytes, such as 64M or 1.5G"
+                                              : "is no integer, which k, M or G may follow";
   std::string text = whole;
   const int64_t factor = takeSuffix(row, text);
   const char* end = text.data() + text.size();

@@ -97,6 +97,7 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   if (!format.reads_pipes) bytes = makeSeekable(std::move(bytes), options.temp_dir);
   std::shared_ptr<Waiting> waiting = bytes->waiting();
   const std::string name = bytes->name();
+  if (bytes->seekable() && bytes->size() == 0) fail(Status::kBadData, "%s: is empty", name.c_str());
   reader.input = format.open(std::move(bytes), options);
   checkUses(reader.input, options, name);
   if (run.cells_to_points == "yes") takeCellsToPoints(reader.input, run.temp_dir, name);

@@ -209,6 +209,9 @@ static void suffixes_and_exponents_are_understood(void) {
   CHECK_EQUAL(parsed(options, "memory", memory, "2G"), INT64_C(2) << 30);
   CHECK_EQUAL(parsed(options, "memory", memory, "20M"), 20 << 20);
   CHECK_EQUAL(parsed(options, "memory", memory, "0.5k"), 512);
+  CHECK_EQUAL(parsed(options, "memory", memory, "0.5GB"), 512 << 20);
+  CHECK_EQUAL(parsed(options, "memory", memory, "64MiB"), 64 << 20);
+  CHECK_EQUAL(parsed(options, "memory", memory, "4KB"), 4096);
   CHECK_EQUAL(parsed(options, "memory", memory, "1e6"), 1000000);
   CHECK_EQUAL(parsed(options, "seed", TETSTREAM_OPTION_SEED, "-9223372036854775808"), INT64_MIN);
   tetstream_options_destroy(options);
@@ -219,6 +222,8 @@ static void texts_that_are_no_values_are_refused_and_change_nothing(void) {
                                     "k",
                                     "1.5",
                                     "12kk",
+                                    "12kB",
+                                    "12K",
                                     "0x10",
                                     " 12",
                                     "12 ",
@@ -242,6 +247,8 @@ static void texts_that_are_no_values_are_refused_and_change_nothing(void) {
     CHECK_EQUAL(value, 5);
   }
   CHECK_EQUAL(tetstream_options_parse(options, "ratio", "0.25x"), TETSTREAM_BAD_ARGUMENT);
+  CHECK_EQUAL(tetstream_options_parse(options, "memory", "64 MB"), TETSTREAM_BAD_ARGUMENT);
+  CHECK_SAYS(tetstream_options_message(options), "is no number of bytes, such as 64M");
   CHECK_EQUAL(tetstream_options_parse(options, "no-such", "1"), TETSTREAM_BAD_ARGUMENT);
   CHECK_SAYS(tetstream_options_message(options), "no-such");
   tetstream_options_destroy(options);

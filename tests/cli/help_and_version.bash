@@ -22,8 +22,16 @@ for command in simplify info convert layout generate diagram compare completion;
   [[ -z $err ]] || fail "help writes to standard error"
 done
 
+# Texts are broken between words, for the width that is told or else for 80 characters.
+for columns in "" 60 200; do
+  COLUMNS=$columns expect 0 simplify --help
+  longest=$(grep -E '^ ' <<<"$out" | wc -L)
+  ((longest <= ${columns:-80})) || fail "a line of $longest characters in ${columns:-80} columns"
+  contains "$(tr -s ' \n' ' ' <<<"$out")" "cells out / cells in (above 0, at most 1)"
+done
+
 # The flags come from the library's table.
-expect 0 simplify --help
+COLUMNS=1000 expect 0 simplify --help
 for flag in ratio cells boundary-weight balance field-range regions feature-angle mode seed quadric candidates effort shape window memory tmpdir \
   axis field format-in format report quiet progress; do
   contains "$out" "  --$flag"
@@ -37,7 +45,8 @@ expect_error 1 'no command "smplify", but simplify, info, convert' smplify a.tet
 expect_error 1 "there is no option --nonsense" --nonsense
 expect_error 1 "options follow the command, but --quiet comes before it; see" --quiet info f.tets
 expect_error 1 "one argument too many: --quiet" convert -- -in.tets out.tets --quiet
-expect_error 1 "which k, M or G may follow" simplify a.tets b.tets --ratio 0.1 --memory 16MiB
+expect_error 1 "which k, M or G may follow" simplify a.tets b.tets --cells 16KiB
+expect_error 1 "such as 64M or 1.5G" simplify a.tets b.tets --ratio 0.1 --memory 16MiBs
 expect_error 1 "tetstream simplify --help" simplify --nonsense 1 a.tets b.tets --ratio 0.1
 expect_error 1 "there is no option --memory;" generate ball --cells 100 --memory 3 x.tets
 expect_error 1 "one argument too many: c.tets;" simplify a.tets b.tets c.tets --ratio 0.1

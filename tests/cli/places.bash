@@ -21,6 +21,11 @@ refuses() {
 twice="twice.mesh: cell 3: point 5 is there twice"
 refuses "$twice" convert twice.mesh out.tets
 refuses "$twice" convert twice.mesh out.tets --order none
+for name in e.vtu e.exo e.mesh e.xdmf e.tets; do
+  : >"$name"
+  expect_error 2 "$name: is empty" info "$name"
+  rm "$name"
+done
 cp twice.mesh tetstream_mesh
 expect_error 2 "tetstream_mesh: cell 3" info tetstream_mesh --format mesh
 rm tetstream_mesh

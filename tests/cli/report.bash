@@ -15,6 +15,13 @@ contains_not "$out" "caution"
 expect 0 simplify in.tets coarse.tets --cells 30
 contains "$out" $'\ncaution       the error is large'
 
+# The front is the input's: where no windows have met it, and the stream does not tell its cells, they are
+# not known.
+expect 0 convert in.tets in.sva
+expect 0 simplify in.sva small.tets --ratio 0.5
+[[ $out == *$'\nfront         width '*', cells not known'* ]] || fail "the front of in.sva: $out"
+rm in.sva
+
 # The volume is told where it is another, as where a ball becomes coarse as the paper has it.
 expect 0 generate ball --cells 6000 ball.tets
 expect 0 simplify ball.tets small.tets --ratio 0.05

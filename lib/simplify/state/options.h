@@ -71,7 +71,8 @@ struct SimplifyOptions {
 struct Report {
   int64_t cells_in = 0, vertices_in = 0, cells_out = 0, vertices_out = 0;
   int64_t target_cells = 0, window_cells = 0;
-  int64_t front_width = 0, front_span = 0, front_cells = 0;
+  int64_t front_width = 0, front_span = 0;
+  int64_t front_cells = -1;  // as the stream tells it, or as windows met it; -1: neither
   int64_t collapses = 0, flips = 0;
   int64_t rejected_orientation = 0, rejected_link = 0, rejected_locked = 0, rejected_other = 0;
   int64_t locked_cells = 0, unused_vertices = 0;
@@ -81,9 +82,9 @@ struct Report {
                                // NaN where no field is measured
   double seconds = 0;
   uint64_t peak_window_bytes = 0;
-  std::string order;       // how the input was ordered
-  std::string regions;     // what was taken as region labels, a sentence
-  std::string balance;     // of sheets that count less than asked for, in words; or empty
+  std::string order;             // how the input was ordered
+  std::string regions = "none";  // what was taken as region labels, a sentence
+  std::string balance;           // of sheets that count less than asked for, in words; or empty
   std::string reached;     // the target that ended the run: "ratio", "cells", "error"; or empty
   std::string limited_by;  // what stopped the run short of its target; empty: reached
 };

@@ -1,7 +1,7 @@
 /* In parallel: each process of an MPI program simplifies the part of a mesh that it has.
  *
  *   mpirun -n 4 ranks MESH OUT [RATIO]
- *   mpicc ranks.c $(pkg-config --cflags --libs tetstream) -o ranks
+ *   mpicc ranks.c $(pkg-config --cflags --libs tetstream) -lm -o ranks
  *
  * A solver has its mesh in parts already; here each process reads MESH, a file in any format that
  * tetstream reads, and keeps its share of the cells, in the order of the stream. Vertices that

@@ -1,5 +1,7 @@
 /* Arrays in, arrays out: a box with a linear field, in the solver's own memory.
  *
+ *   cc 02_arrays.c $(pkg-config --cflags --libs tetstream) -lm -o 02_arrays
+ *
  * Introduces what describes a stream (tetstream_stream_info) and what carries it (tetstream_batch),
  * a mesh that lies in arrays in any order, and the one callback that a writer must have. A linear
  * field and flat sides cost nothing: the result has the same volume and, at its vertices, no error.

@@ -1,5 +1,6 @@
 /* A field that was solved for on the small mesh, carried back to the vertices of the large one.
  *
+ *   cc 11_map.c $(pkg-config --cflags --libs tetstream) -lm -o 11_map
  *   ./11_map CELLS
  *
  * Introduces the map: each vertex of the input lies in a cell of the output, with the weights of
@@ -96,6 +97,7 @@ int main(int argc, char** argv) {
   tetstream_reader *once = NULL, *again = NULL;
   tetstream_simplifier* simplifier = NULL;
   const int64_t cells = argc == 2 ? atoll(argv[1]) : 0;
+  if (cells < 1) return fprintf(stderr, "usage: 11_map CELLS\n"), 1;
   tetstream_writer *to_large = writer_to(&large), *to_small = writer_to(&small);
 
   const char* problem = NULL;
