@@ -148,8 +148,10 @@ const Format& needFormat(const std::string& name, const std::string& path, Forma
   if (!name.empty())
     fail(Status::kUnsupported, "there is no format \"%s\"; there are %s", name.c_str(),
          known.c_str());
-  fail(Status::kUnsupported, "%s: the name does not tell the format; there are %s", path.c_str(),
-       known.c_str());
+  fail(Status::kUnsupported,
+       "%s: the name does not tell the format, and none is given (--format, --format-in); there "
+       "are %s",
+       path.c_str(), known.c_str());
 }
 
 }  // namespace tetstream

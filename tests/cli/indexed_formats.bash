@@ -102,7 +102,7 @@ expect 0 info one.node
 printf 'NDIME= 3\nNELEM= 1\n10 0 1 2 3\nNPOIN= 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >one.su2
 [[ $(cells_in one.su2) == 1 ]] || fail "one cell of SU2"
 expect_error 6 "read, but not written" convert mesh.tets none.su2
-expect_error 6 "does not tell the format; there are tets, vtu, vtk, " convert mesh.tets none.stl
+expect_error 6 "does not tell the format, and none is given (--format, --format-in); there are tets, vtu, vtk, " convert mesh.tets none.stl
 contains_not "$err" "su2"
 expect_error 6 "read, but not written" convert mesh.tets none.ele
 

@@ -55,7 +55,28 @@ labels = 1 + (points(cells(:,1),1) >= 0.5);
 assert (unique (S.regions).', int64 ([1, 2]));
 v = volumes (P, T);
 assert (sum (v(S.regions == 1)), 0.5, 1e-5);
-assert (fieldnames (S.cell_data), {"weight"});
+assert (sort (fieldnames (S.cell_data)), {"region"; "weight"});
+assert (S.cell_data.region, S.regions);
+
+## A mesh in one struct gives the same, as another one that can be simplified again.
+mesh = struct ("points", points, "cells", cells, "fields", struct ("field", field), ...
+               "cell_data", struct ("weight", volumes (points, cells)));
+[small, told] = tetstream_simplify (mesh, "ratio", 0.4, "regions", labels, "vertex_map", true);
+assert (small.points, P);
+assert (small.cells, T);
+assert (small.fields.field, F);
+assert (small.cell_data, S.cell_data);
+assert (told.regions, S.regions);
+assert (told.report.cells_out, rows (T));
+assert (rows (told.map.cells), rows (points));
+[smaller, told] = tetstream_simplify (small, "ratio", 0.8);
+assert (rows (smaller.cells) <= 0.8 * rows (T));
+assert (! isempty (strfind (told.report.regions, "region")));
+fails ("tetstream:bad-argument", "a target is missing", @() tetstream_simplify (mesh));
+fails ("tetstream:bad-argument", "no option \"locked\"", ...
+       @() tetstream_simplify (mesh, "ratio", 0.5, "locked", true));
+fails ("tetstream:bad-argument", "a mesh has no member \"point\"", ...
+       @() tetstream_simplify (struct ("point", points), "ratio", 0.5));
 
 ## The vertex map carries values that are linear in space back to the input's points.
 [P, T, F, S] = tetstream_simplify (points, cells, field, "ratio", 0.2, "vertex_map", true);

@@ -1,4 +1,5 @@
 ## [P, T, F, S] = tetstream_simplify (points, cells, fields, "ratio", 0.1, ...)
+## [small, S] = tetstream_simplify (mesh, "ratio", 0.1, ...)
 ##
 ## Simplifies a tetrahedral mesh in arrays, following its fields.
 ##
@@ -9,83 +10,100 @@
 ## P, T, F are the same of the result; F is a struct if `fields` was one. S has more of it: report,
 ##   what was done; cell_data; regions; locked; faces, face_labels; label_names; time; and the vertex
 ##   map.
+## mesh: all of that in one struct, as tetstream_read makes it; small is another one, and S has the
+##   report, the regions and the vertex map.
 ##
 ## One target at least is wanted; the first that is reached ends the run:
 ##   "ratio"   cells out / cells in
 ##   "cells"   cells out
 ##   "error"   RMS error of the fields in percent of their range
 ## Further pairs:
-##   "cell_data"    struct of m x k arrays; floats are averaged by volume, integers picked
-##   "regions"      m labels, whose regions and interfaces are kept; or the name of one of the cell
-##                  data, "auto", "none"
+##   "regions"      m labels, whose regions and interfaces are kept, also among the cell data of the
+##                  result; or the name of one of the cell data, "auto", "none"
 ##   "weights"      struct of field to its weight in the error; others are then only carried along
-##   "locked"       n logicals: points that are never moved
-##   "faces", "face_labels", "locked_faces", "locked_edges"   f x 3, f, f logicals, e x 2
-##   "label_names"  what labels mean, as in tetstream_read; "time" of the values
 ##   "vertex_map"   true: S.map.cells (n; 0: in no cell) and S.map.weights (n x 4) tell in which cell
 ##                  of the result each point lies
 ##   "progress"     a function that is called with a struct some times a second; its error ends the
 ##                  run
 ##   and every option of `tetstream simplify`, "boundary_weight" or "boundary-weight"; numbers may be
 ##   texts: "memory", "64M"
+## and, of a mesh in arrays:
+##   "cell_data"    struct of m x k arrays; floats are averaged by volume, integers picked
+##   "locked"       n logicals: points that are never moved
+##   "faces", "face_labels", "locked_faces", "locked_edges"   f x 3, f, f logicals, e x 2
+##   "label_names"  what labels mean, as in tetstream_read; "time" of the values
 ##
 ## Errors have identifiers such as "tetstream:bad-data"; a target that was missed is the warning
 ## "tetstream:target-missed". Ctrl-C ends a run.
 ##
 ## See also: tetstream_simplify_file, tetstream_simplify_stream, tetstream_read, tetstream_compare,
 ## tetstream_demo, and tetstream-octave(3).
-function [P, T, F, S] = tetstream_simplify (points, cells, fields, varargin)
+function [P, T, F, S] = tetstream_simplify (points, varargin)
+  caller = "tetstream_simplify";
+  own = struct ("regions", "auto", "weights", [], "vertex_map", false, "progress", []);
+  if (nargin > 0 && isstruct (points))
+    [P, T] = simplified (caller, points, own, varargin);
+    return;
+  endif
   if (nargin < 3)
     print_usage ();
   endif
-  caller = "tetstream_simplify";
-  own = struct ("cell_data", [], "regions", "auto", "weights", [], "locked", [], "faces", [],
-                "face_labels", [], "locked_faces", [], "locked_edges", [], "label_names", [],
-                "time", [], "vertex_map", false, "progress", []);
+  [cells, fields] = varargin{1:2};
+  parts = {"cell_data", "locked", "faces", "face_labels", "locked_faces", "locked_edges", ...
+           "label_names", "time"};
+  for part = parts
+    own.(part{1}) = [];
+  endfor
+  mesh = struct ("points", {points}, "cells", {cells}, "fields", {named(fields)});
+  [small, S] = simplified (caller, mesh, own, varargin(3:end));
+  P = small.points;
+  T = small.cells;
+  F = small.fields;
+  if (! isstruct (fields))
+    F = zeros (rows (P), 0);
+    if (! isempty (fields))
+      F = small.fields.field;
+    endif
+  endif
+  for [value, name] = rmfield (small, {"points", "cells", "fields"})
+    S.(name) = value;
+  endfor
+endfunction
+
+## The small mesh, and in S what is told of it. `own` has the pairs that are the caller's own; parts of
+## a mesh among them become parts of this one.
+function [small, S] = simplified (caller, mesh, own, arguments)
   tetstream_core;
-  [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, varargin);
-  need_target (caller, options, varargin);
-  mesh = struct ("points", {points}, "cells", {cells}, "fields", {named(fields)},
-                 "cell_data", {own.cell_data}, "locked", {own.locked}, "faces", {own.faces},
-                 "face_labels", {own.face_labels}, "locked_faces", {own.locked_faces},
-                 "locked_edges", {own.locked_edges}, "label_names", {own.label_names},
-                 "time", {own.time});
+  [options, own] = parsed (caller, own, tetstream_core.SCOPE_SIMPLIFY, arguments);
+  need_target (caller, options, arguments);
+  for [value, name] = rmfield (own, {"regions", "weights", "vertex_map", "progress"})
+    mesh.(name) = value;
+  endfor
   mesh = complete_mesh (caller, mesh);
   [mesh, label] = with_regions (caller, mesh, own.regions);
   options.set_text (tetstream_core.OPTION_REGIONS, label);
 
   [reader, kept] = made_reader (caller, mesh, options);
   type = tetstream_core.TYPE_INT64;
-  if (isa (cells, "int32"))
+  if (isa (mesh.cells, "int32"))
     type = tetstream_core.TYPE_INT32;
   endif
   collector = tetstream_core.MeshCollector (type);
   writer = tetstream_core.Writer_collect (collector);
   simplifier = tetstream_core.Simplifier (options, writer, own.progress);
   if (own.vertex_map)
-    map = tetstream_core.MapCollector (rows (points));
+    map = tetstream_core.MapCollector (rows (mesh.points));
     simplifier.set_map (map);
   endif
   simplifier.run (reader);
 
-  S = collected (collector, class (cells));
-  S.fields = with_logicals (S.fields, mesh.fields);
-  S.cell_data = with_logicals (S.cell_data, mesh.cell_data);
-  P = S.points;
-  T = S.cells;
-  F = S.fields;
-  if (! isstruct (fields))
-    F = zeros (rows (P), 0);
-    if (! isempty (fields))
-      F = S.fields.field;
-    endif
-  endif
-  S = rmfield (S, {"points", "cells", "fields"});
+  small = collected (collector, class (mesh.cells));
+  small.fields = with_logicals (small.fields, mesh.fields);
+  small.cell_data = with_logicals (small.cell_data, mesh.cell_data);
+  S = struct ("report", {reported(simplifier, reader, writer)});
   if (! ischar (own.regions))
-    S.regions = S.cell_data.(label);
-    S.cell_data = rmfield (S.cell_data, label);
+    S.regions = small.cell_data.(label);
   endif
-  S.report = reported (simplifier, reader, writer);
   if (own.vertex_map)
     S.map = struct ("cells", map.cells ().' + 1, "weights", map.weights ().');
   endif
