@@ -62,7 +62,7 @@ void MshMesh::addFace(CellKind kind, const int64_t* corners, int64_t group, int6
 void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group,
                       int64_t entity) {
   const int dimension = dimensionOf(kind.shape);
-  if (dimension < 2) return intake->leaveOut(dimension == 0 ? "points" : "lines");
+  if (dimension < 2) return intake->leaveOut(dimension == 0 ? "elements of one point" : "lines");
   int64_t corners[kMostCorners];
   for (int k = 0; k < cornersOf(kind.shape); ++k)
     if (!points->find(nodes[k], &corners[k])) file.failBad(notThere(tag, nodes[k]));

@@ -78,7 +78,7 @@ TEST(Msh, ReadsTheNamesOfGroupsAndTellsWhatIsLeftOut) {
   EXPECT_EQ(input.schema().label_names,
             (std::vector<LabelName>{{"", 9, "outer wall"}, {"gmsh:physical", 4, "steel"}}));
   EXPECT_TRUE(anyNote(notes, "1 names of physical groups that label no cells or faces are left"));
-  EXPECT_TRUE(anyNote(notes, "1 points are left out"));
+  EXPECT_TRUE(anyNote(notes, "1 elements of one point are left out"));
   notes.clear();
   openText(openMsh, kSparse4, {}, &notes);
   EXPECT_TRUE(anyNote(notes, "1 physical groups of entities that are in another one"));
