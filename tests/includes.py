@@ -25,7 +25,7 @@ NAMES = {
     "cctype": "isalpha tolower",
     "cstddef": "ptrdiff_t",
     "cstdio": "FILE fclose fgets fopen remove sscanf vsnprintf",
-    "cstdlib": "abs atoi free getenv realloc strtoul",
+    "cstdlib": "abs atoi free getenv realloc strtol strtoul",
     "cstring": """memchr memcmp memcpy memmove memset strchr strcmp strcspn strerror strlen strncmp
         strrchr strspn""",
     "deque": "deque",
