@@ -46,7 +46,9 @@ class LoneValues {
     double width() const { return highest - lowest; }
     double loneValue() const { return isHighestLone() ? highest : lowest; }
     // Of all others; 0 of a component with two values or one.
-    double range() const { return isHighestLone() ? high - lowest : highest - low; }
+    double range() const {
+      return !(width() > 0) ? 0 : isHighestLone() ? high - lowest : highest - low;
+    }
   };
 
   const Plan& plan_;

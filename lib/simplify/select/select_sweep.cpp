@@ -106,6 +106,8 @@ class SweepSelector final : public Selector {
   template <class Work>
   void onPatch(Lane& lane, const uint32_t* owned, size_t owned_count, const uint32_t* cells,
                size_t cell_count, Work work);
+  std::vector<uint32_t> touching(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
+                                 size_t cell_count) const;
   template <class Work>
   void onTile(Lane& lane, const TilePiece& tile, Work work) {
     const uint32_t* const cells = tiling_.listCells(tile, lane.cells);
@@ -207,8 +209,27 @@ void SweepSelector<S>::onPatch(Lane& lane, const uint32_t* owned, size_t owned_c
   }
   if (owned_count == 1) return;  // a star of that size is left alone
   const size_t half = owned_count / 2;
-  onPatch(lane, owned, half, cells, cell_count, work);
-  onPatch(lane, owned + half, owned_count - half, cells, cell_count, work);
+  for (const auto& [first, count] :
+       {std::pair(owned, half), std::pair(owned + half, owned_count - half)}) {
+    const std::vector<uint32_t> of_half = touching(first, count, cells, cell_count);
+    onPatch(lane, first, count, of_half.data(), of_half.size(), work);
+  }
+}
+
+// Of the cells those with one of the vertices.
+template <class S>
+std::vector<uint32_t> SweepSelector<S>::touching(const uint32_t* owned, size_t owned_count,
+                                                 const uint32_t* cells, size_t cell_count) const {
+  std::vector<uint32_t> sorted(owned, owned + owned_count), found;
+  std::sort(sorted.begin(), sorted.end());
+  const auto isOwned = [&](uint32_t v) {
+    return std::binary_search(sorted.begin(), sorted.end(), v);
+  };
+  std::copy_if(cells, cells + cell_count, std::back_inserter(found), [&](uint32_t cell) {
+    const uint32_t* const corners = core_.window.mesh.corners(cell);
+    return core_.window.mesh.isLive(cell) && std::any_of(corners, corners + 4, isOwned);
+  });
+  return found;
 }
 
 template <class S>

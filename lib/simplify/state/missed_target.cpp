@@ -43,7 +43,7 @@ std::string missInWords(const Core<S>& core) {
   if (core.tally.rejected_large > 0)
     text += textOf(" but with errors %s the %s and more", sizeInWords(core.most_percent),
                    core.plan.measures() ? "range of the fields" : "extent of the mesh");
-  if (report.window_cells < 2 * report.front_cells)
+  if (report.window_cells < 2 * report.front_cells && !core.holdsAll())
     text += textOf(
         "; the window of %lld cells is less than two fronts of %lld: give it more cells or "
         "memory",

@@ -153,10 +153,18 @@ static size_t pieceOf(size_t vertices, size_t tiles, size_t tile) {
   return std::clamp(vertices / std::clamp(tiles, kPieces, kMostPieces) + 1, least, tile);
 }
 
+// Of the window, without those that have come before a cell that has them: how many these are
+// depends on how the stream is cut into batches.
+template <class S>
+size_t Tiling<S>::verticesRead() const {
+  return core_.window.mesh.vertexEnd() -
+         static_cast<size_t>(core_.front.introduced() - core_.reached);
+}
+
 // 0: none. `tile`: the most vertices of one.
 template <class S>
 size_t Tiling<S>::slicesOf(size_t vertices, size_t tile) const {
-  const bool is_large = core_.window.mesh.vertexEnd() > kMostSlices * tile;
+  const bool is_large = verticesRead() > kMostSlices * tile;
   if (is_large || vertices < tile / kLeastPart) return 0;
   return vertices > kFewSlices * tile ? kMostSlices : kFewSlices;
 }
@@ -184,7 +192,7 @@ void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
   const auto largest =
       static_cast<size_t>(tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan)));
-  const size_t tiles = core_.window.mesh.vertexEnd() / largest;
+  const size_t tiles = verticesRead() / largest;
   const size_t most = layout == TileLayout::kPieces ? pieceOf(count, tiles, largest) : largest;
   const bool is_layer = !core_.holdsAll() && tiles >= kLayerTiles;
   const CutRule rule{kShare[round % 3], most, tiles >= kManyTiles,

@@ -83,6 +83,7 @@ class Tiling {
   void spreadOverLocked();
   void markNear();
   size_t listVertices();
+  size_t verticesRead() const;
   size_t slicesOf(size_t vertices, size_t tile) const;
   template <class Pieces>
   std::vector<size_t> cutOnce(Pieces& pieces, const CutRule& rule,

@@ -49,6 +49,26 @@ TEST(LoneValues, OfAVectorAreTold) {
   EXPECT_NE(told.find("flow: all values but 1e+06 lie within"), std::string::npos) << told;
 }
 
+// Beside a component that has one value everywhere, as in a flow in two dimensions.
+TEST(LoneValues, OfAFlatVectorAreTold) {
+  TestMesh mesh = fullGrid(kLoneSide, kLoneSide, kLoneSide, 0.1);
+  mesh.addField({"flow", 3, k64}, [&](size_t v, int i) {
+    return i == 2 ? 0 : mesh.position(v, 2) < 1 ? 1e20 : mesh.position(v, i);
+  });
+  const std::string told = balanceOf(mesh, true);
+  EXPECT_NE(told.find("flow: all values but 1e+20 lie within"), std::string::npos) << told;
+}
+
+// A part of a mesh, which has little of the range of the whole: its highest value lies there, too.
+TEST(LoneValues, AreNotTheEndsOfAPart) {
+  TestMesh part = fullGrid(kLoneSide, kLoneSide, kLoneSide, 0.1);
+  addPositionField(part, {"salt", 1, k64}, [](double x, double y, double z) { return x + y + z; });
+  part.schema.box_min.assign(4, 0);
+  part.schema.box_max.assign(4, 1000);
+  const std::string told = balanceOf(part, false);
+  EXPECT_EQ(told.find("all values but"), std::string::npos) << told;
+}
+
 // What is 0 or 1, or steep, is no number for what is missing.
 TEST(LoneValues, AreNeitherLabelsNorSteps) {
   TestMesh mesh = fullGrid(kLoneSide, kLoneSide, 2 * kLoneSide, 0.1);

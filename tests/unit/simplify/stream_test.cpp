@@ -102,6 +102,28 @@ TEST(SimplifierStream, GivesTheSameBytesWhenVerticesComeLongBefore) {
   }
 }
 
+// Where there are so many tiles that their number tells on the result, too.
+TEST(SimplifierStream, GivesTheSameTilesWhenVerticesComeLongBefore) {
+  const TestMesh mesh = fullGrid(6, 6, 40);
+  SimplifyOptions options = toRatio(0.2, 2500);
+  options.tile_vertices = 64;
+  const Result first = simplified(mesh, options);
+  Cut cut;
+  cut.all_vertices_first = true;
+  EXPECT_TRUE(simplified(mesh, options, cut).out.allBytes() == first.out.allBytes());
+}
+
+// What no patch holds is simplified in parts.
+TEST(SimplifierStream, IsSimplifiedInTilesThatTouchMoreCellsThanAPatchHolds) {
+  if (slowRun()) GTEST_SKIP();
+  const TestMesh mesh = fullGrid(24, 24, 24);
+  SimplifyOptions options = toRatio(0.5);
+  options.tile_vertices = 1 << 17;
+  const Result result = simplified(mesh, options);
+  EXPECT_EQ(result.report.limited_by, "");
+  EXPECT_GT(result.report.collapses, 3000);
+}
+
 // Where choices are random, another seed gives another mesh.
 TEST(SimplifierStream, GivesTheSameBytesTwiceAndOthersForAnotherSeed) {
   const TestMesh mesh = richMesh(4);
