@@ -45,6 +45,8 @@
  *   threads and more, a pipe is read ahead by another one.
  *   A thread that is cancelled (pthread_cancel, deferred as it is by default) inside a call ends
  *   after it: until then, in its callbacks, too, it cannot be cancelled. Nor may a callback end it.
+ *   Calls compute in the default floating-point environment, and so do their callbacks; afterwards
+ *   the caller's is as it was: traps, rounding, flushing to zero and exceptions that were raised.
  *
  * A status below 0 is a failure; the handle's message says what happened and where. After a
  * failure in `run`, `begin`, `push` or `finish` the simplifier can only be asked for its message

@@ -7,7 +7,7 @@ namespace tetstream {
 
 extern "C" {
 static void runWork(void* argument) {
-  const Uncancelled uncancelled;
+  const Undisturbed undisturbed;
   Work* const work = static_cast<Work*>(argument);
   work->run();
   work->drop();

@@ -1,6 +1,6 @@
 // api: how every function of the public header is written: one call of `guard`, which lets nothing
 // out but a status, and leaves the sentence in the handle. Depends on tetstream.h, status.h,
-// uncancelled.h.
+// undisturbed.h.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 #include "status.h"
 #include "tetstream/tetstream.h"
-#include "uncancelled.h"
+#include "undisturbed.h"
 
 namespace tetstream {
 
@@ -75,7 +75,7 @@ tetstream_status statusOf(Body&& body, Arguments&... arguments) {
 // Runs body(*handle), whatever its state.
 template <class H, class Body>
 tetstream_status guardAny(const char* function, H* handle, Body&& body) noexcept {
-  const Uncancelled uncancelled;
+  const Undisturbed undisturbed;
   try {
     needPlace(handle, "the handle");
     if (handle->busy)
@@ -96,7 +96,7 @@ tetstream_status guard(const char* function, H* handle, Body&& body) noexcept {
 // For functions without a handle.
 template <class Body>
 tetstream_status guard(Body&& body) noexcept {
-  const Uncancelled uncancelled;
+  const Undisturbed undisturbed;
   try {
     return statusOf(body);
   } catch (...) {
@@ -123,7 +123,7 @@ tetstream_status guardCreate(const char* function, H** place, Body&& body) noexc
 // How every handle goes.
 template <class H>
 void destroy(H* handle) noexcept {
-  const Uncancelled uncancelled;
+  const Undisturbed undisturbed;
   delete handle;
 }
 

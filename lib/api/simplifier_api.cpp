@@ -91,7 +91,7 @@ tetstream_status tetstream_simplifier_create(const tetstream_options* options,
 }
 
 void tetstream_simplifier_destroy(tetstream_simplifier* simplifier) {
-  const Uncancelled uncancelled;
+  const Undisturbed undisturbed;
   if (simplifier && simplifier->state == State::kRunning) {
     closeRun(*simplifier);
     simplifier->output->stop(State::kBroken);

@@ -58,7 +58,7 @@ tetstream_status tetstream_writer_set(tetstream_writer* writer, const char* prop
 }
 
 void tetstream_writer_destroy(tetstream_writer* writer) {
-  const Uncancelled uncancelled;
+  const Undisturbed undisturbed;
   if (writer && writer->output) writer->output->stop(State::kDestroyed);
   destroy(writer);
 }
