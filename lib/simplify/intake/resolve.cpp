@@ -351,8 +351,9 @@ void Resolver<S>::resolveFaces(uint32_t v) {
       const bool differ = labels.differ(edge[0].cell, edge[1].cell);
       const SheetFace kind = differ ? SheetFace::kInterface : SheetFace::kInner;
       if (differ || label) addFace(v, a, b, kind, label);
-    } else {
-      lockNonManifold(v);  // a face of three cells or more
+    } else {  // a face of three cells or more, with its label if it has one
+      lockNonManifold(v);
+      labelOf(edge[0].cell, edge[1].cell, v, a, b);
     }
   });
 }

@@ -1,9 +1,12 @@
 // simplify/select: patches swept at rising bounds. See select.h.
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <thread>
+#include <utility>
 
 #include "dear_angles.h"
 #include "patch_sweep.h"
@@ -45,13 +48,14 @@ class SweepSelector final : public Selector {
     int exponent;
     unit_ = std::frexp(core_.error_unit, &exponent);
     for (auto& lane : lanes_) begin(*lane);
-    core_.tally.error_reached = false;
+    was_stopped_ |= std::exchange(core_.tally.error_reached, false);
     sweep(bounds_.start(goal_, unit_), goal_.approaches, tick);
     const bool sweeps_out = goal.last && core_.options.last_resort && !mustStop();
     if (sweeps_out) sweepOut(tick);
     // Twice, with seams that lie elsewhere.
     for (int round = 0; core_.shapesFirst() && round < 2; ++round)
       reshapeAll(sweeps_out && round == 0, tick);
+    if (goal.last && was_stopped_ && !reached()) core_.tally.error_reached = true;
   }
 
   double bound() const override { return bound_ / unit_; }
@@ -128,6 +132,7 @@ class SweepSelector final : public Selector {
   std::unique_ptr<Selector> exhaustive_;
   std::vector<Swept> swept_;
   typename SweepBounds<S>::Refused refused_{};  // by the last round of trying everything
+  bool was_stopped_ = false;                    // in a window before, by the limit on the error
   double share_ = 1;                            // of its cells that a tile of the group may take
   Goal goal_{};
   double unit_ = 1, bound_ = 0;

@@ -344,6 +344,21 @@ TEST(SimplifierTargets, AFarBoundOnTheErrorLeavesTheErrorOfTheRatio) {
   }
 }
 
+// Though the last window, of which nothing may be moved, was not stopped by it.
+TEST(SimplifierTargets, TheBoundThatStoppedTheWindowsIsNamed) {
+  TestMesh mesh = fullGrid(6, 6, 40);
+  addPositionField(mesh, {"wave", 1, k64}, [](double x, double y, double z) {
+    return std::sin(2 * z) * std::cos(2 * x + y);
+  });
+  mesh.locked.resize(mesh.vertexCount());
+  for (size_t v = 0; v < mesh.vertexCount(); ++v) mesh.locked[v] = mesh.position(v, 2) > 24;
+  SimplifyOptions options = toRatio(0.02, 2500);
+  options.error = 0.5;
+  const Result result = simplified(mesh, options);
+  EXPECT_EQ(result.report.reached, "error");
+  EXPECT_EQ(result.report.limited_by, "");
+}
+
 TEST(SimplifierTargets, NoneMeansATenth) {
   const TestMesh mesh = wavyMesh(k32);
   for (Mode mode : kModes) {

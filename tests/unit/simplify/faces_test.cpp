@@ -197,6 +197,18 @@ TEST(SimplifierFaces, OfNoCellAreRefused) {
 }
 
 // In one batch, and in two of which the second comes when the first one's label has its place.
+// A face that three cells share is non-manifold: it stays as it is, with its label.
+TEST(SimplifierFaces, OfThreeCellsKeepTheirLabels) {
+  Labelled in(1);
+  in.mesh = makeMesh(ScalarType::kFloat64,
+                     {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3, 0.3, 1, 0.3, 0.3, -1, 0.3, 0.3, -2},
+                     {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5});
+  in.labels = {{{0, 1, 2}, 5}};
+  const Faced result = simplified(in, toRatio(1), 100);
+  EXPECT_EQ(result.out.mesh.cellCount(), 3u);
+  EXPECT_EQ(result.out.faces, in.labels);
+}
+
 TEST(SimplifierFaces, ThatComeTwiceAreRefused) {
   const TestMesh mesh = inStreamOrder(fullGrid(4, 4, 12));
   const int64_t* c = mesh.cells.data();
