@@ -9,7 +9,7 @@ import sys
 
 # Names that several headers declare stand with each of them.
 NAMES = {
-    "algorithm": """adjacent_find all_of any_of binary_search clamp copy copy_n count count_if equal fill fill_n find
+    "algorithm": """adjacent_find all_of any_of binary_search clamp copy copy_if copy_n count count_if equal fill fill_n find
         find_if find_if_not is_permutation lower_bound make_heap max max_element min min_element minmax
         minmax_element move_backward none_of nth_element partition_point pop_heap push_heap remove
         remove_if replace replace_if reverse search sort stable_partition stable_sort transform unique upper_bound""",
@@ -23,6 +23,7 @@ NAMES = {
         expm1 llround log log10 log2 lround pow round sin sqrt trunc""",
     "condition_variable": "condition_variable",
     "cctype": "isalpha tolower",
+    "cfenv": "fegetenv fenv_t fesetenv",
     "cstddef": "ptrdiff_t",
     "cstdio": "FILE fclose fgets fopen remove sscanf vsnprintf",
     "cstdlib": "abs atoi free getenv realloc strtol strtoul",
@@ -32,7 +33,7 @@ NAMES = {
     "exception": "current_exception exception exception_ptr rethrow_exception",
     "functional": "function",
     "initializer_list": "initializer_list",
-    "iterator": "make_move_iterator next prev size",
+    "iterator": "back_inserter make_move_iterator next prev size",
     "limits": "numeric_limits",
     "list": "list",
     "map": "map",
