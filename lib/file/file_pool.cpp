@@ -50,8 +50,9 @@ ByteSource& FilePool::open(size_t file) {
       files_[opened_.front()].reset();
       opened_.pop_front();
     }
-    std::unique_ptr<ByteSource> bytes = unwrapped(openFile(paths_[file]));
+    std::unique_ptr<ByteSource> bytes = openFile(paths_[file]);
     if (bytes->seekable()) opened_.push_back(file);
+    if (unwraps_) bytes = unwrapped(std::move(bytes));
     files_[file] = makeSeekable(std::move(bytes), temp_dir_);
   }
   return *files_[file];

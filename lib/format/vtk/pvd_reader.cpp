@@ -88,7 +88,7 @@ Input openPvd(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
       }))];
   ReadOptions of_file = options;
   of_file.step = kLastStep;  // of those within a file: the one that was asked for is of the files
-  const auto pool = std::make_shared<FilePool>(options.temp_dir);
+  const auto pool = std::make_shared<FilePool>(options.temp_dir, true);
   for (const StepFile& file : files) {
     if (file.time != time) continue;
     const std::string path = pathBeside(bytes->name(), file.name);

@@ -57,7 +57,7 @@ void addPvtuPieces(MeshPieces& mesh, FilePool& pool, ByteSource& bytes,
 
 Input openPvtu(std::unique_ptr<ByteSource> bytes, const ReadOptions& options) {
   bytes = makeSeekable(std::move(bytes), options.temp_dir);
-  const auto pool = std::make_shared<FilePool>(options.temp_dir);
+  const auto pool = std::make_shared<FilePool>(options.temp_dir, true);
   MeshPieces mesh;
   mesh.join = true;
   addPvtuPieces(mesh, *pool, *bytes, options);

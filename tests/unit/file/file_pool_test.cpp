@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
+#include "compressed_bytes.h"
 #include "folder.h"
 #include "status.h"
 
@@ -30,6 +33,33 @@ TEST(FilePool, ReadsManyFilesAndAPipe) {
     EXPECT_EQ(contents(*readAgain(*files[0])), "once");
     for (size_t k = 1; k < 200; ++k)
       EXPECT_EQ(contents(*readAgain(*files[k])), "text " + std::to_string(k));
+  }
+}
+
+size_t openFiles() {
+  const std::filesystem::directory_iterator all("/proc/self/fd");
+  return static_cast<size_t>(std::distance(begin(all), end(all)));
+}
+
+// Each is a file of its own while it is open, of which there are no more than of others.
+TEST(FilePool, TakesWrappingsOffIfAsked) {
+  const Folder folder;
+  Bytes wrapping;
+  const std::unique_ptr<ByteSink> sink = wrapped(createMemory(wrapping), Wrapping::kGzip);
+  sink->write("text", 4);
+  sink->commit();
+  const std::string bytes(wrapping.begin(), wrapping.end());
+  for (const bool unwraps : {false, true}) {
+    const size_t before = openFiles();
+    const auto pool = std::make_shared<FilePool>(folder.path, unwraps);
+    std::vector<std::unique_ptr<ByteSource>> files;
+    for (size_t k = 0; k < 100; ++k) {
+      const std::string path = folder.file(std::to_string(k));
+      writeFile(path, bytes);
+      files.push_back(pool->add(path));
+    }
+    for (const auto& file : files) EXPECT_EQ(contents(*readAgain(*file)), unwraps ? "text" : bytes);
+    EXPECT_LE(openFiles(), before + 65);
   }
 }
 
