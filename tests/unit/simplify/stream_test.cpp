@@ -115,7 +115,6 @@ TEST(SimplifierStream, GivesTheSameTilesWhenVerticesComeLongBefore) {
 
 // What no patch holds is simplified in parts.
 TEST(SimplifierStream, IsSimplifiedInTilesThatTouchMoreCellsThanAPatchHolds) {
-  if (slowRun()) GTEST_SKIP();
   const TestMesh mesh = fullGrid(24, 24, 24);
   SimplifyOptions options = toRatio(0.5);
   options.tile_vertices = 1 << 17;
