@@ -341,6 +341,7 @@ class Refused(unittest.TestCase):
         self.refused(TypeError, "there is no option quality; there are ratio, cells((?!samples).)*$",
                      p, c, quality=3)
         self.refused(TypeError, "there is no option rato: is ratio meant\\?", p, c, rato=0.1)
+        self.refused(TypeError, "there is no option weight: is weights meant\\?", p, c, weight={})
         self.refused(TypeError, "no option boundary-weight: is boundary_weight meant", p, c,
                      **{"boundary-weight": 3})
         self.refused(TypeError, "window: an int is wanted, not float", p, c, window=3.5)

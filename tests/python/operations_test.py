@@ -171,7 +171,7 @@ class Operations(unittest.TestCase):
         kept = self.mesh.simplify(**tetstream.Options(ratio=0.25, weights={"f": 1}))
         given = self.mesh.simplify(ratio=0.25, weights={"f": 1})
         numpy.testing.assert_array_equal(kept.points, given.points)
-        with self.assertRaisesRegex(TypeError, "no option weights"):
+        with self.assertRaisesRegex(TypeError, "no option weights; [^?]*$"):
             tetstream.info(self.mesh, **tetstream.Options(weights={"f": 1}))
 
     def test_labels_of_faces_are_compared(self):

@@ -93,12 +93,12 @@ def real(name, value):
 ROWS = {row.name: row for row in map(_Row, range(core.option_count()))}
 
 
-def _named(name, rows=ROWS):
+def _named(name, known=(*ROWS, "weights")):
     if name in ROWS:
         return ROWS[name]
-    close = difflib.get_close_matches(name.replace("-", "_"), [*rows, "weights"], 1)
+    close = difflib.get_close_matches(name.replace("-", "_"), known, 1)
     raise TypeError(f"there is no option {name}" + (f": is {close[0]} meant?" if close else ";") +
-                    f" there are {', '.join(rows)}")
+                    f" there are {', '.join(known)}")
 
 
 class Options(collections.abc.Mapping):
@@ -170,9 +170,11 @@ _DOING = {core.SCOPE_READ: "opened", core.SCOPE_ORDER: "ordered or copied",
 
 def made(values, scope, weights=None):
     """Options from keyword arguments, each of which counts there, and a dict of fields' weights."""
-    rows = {name: row for name, row in ROWS.items() if row.scope & (scope | core.SCOPE_READ)}
+    known = [name for name, row in ROWS.items() if row.scope & (scope | core.SCOPE_READ)]
+    if scope & (core.SCOPE_SIMPLIFY | core.SCOPE_COMPARE):
+        known.append("weights")
     for name, value in values.items():
-        if value is not None and _named(name, rows).name not in rows:
+        if value is not None and _named(name, known).name not in known:
             raise TypeError(f"the option {name} does not count where a mesh is {_DOING[scope]}")
     return Options(weights=weights, **values)
 
