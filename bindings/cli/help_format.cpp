@@ -11,7 +11,8 @@ namespace tetstream::cli {
 
 static constexpr size_t kTextColumn = 26, kLeastText = 30;
 
-static std::string broken(const std::string& text, size_t width) {
+// In lines of so many characters, where words allow it.
+static std::string wrapped(const std::string& text, size_t width) {
   std::string lines;
   for (size_t begin = 0; begin < text.size();) {
     size_t end = text.size();
@@ -41,8 +42,8 @@ class HelpFormat final : public CLI::Formatter {
 
   std::string make_option_desc(const CLI::Option* option) const override {
     const size_t width = terminalWidth(STDOUT_FILENO);
-    return broken(option->get_description(),
-                  std::max(width, kTextColumn + kLeastText) - kTextColumn);
+    return wrapped(option->get_description(),
+                   std::max(width, kTextColumn + kLeastText) - kTextColumn);
   }
 };
 

@@ -12,8 +12,7 @@ namespace tetstream {
 namespace {
 
 constexpr int64_t kMostAttributes = 512;
-constexpr size_t kMostLineBytes =
-    512;  // of a line that are looked at: of a face at most ten numbers
+constexpr size_t kMostLineBytes = 512;  // that are looked at: of a face at most ten numbers
 
 std::unique_ptr<ByteSource> openBeside(const ReadOptions& options, const char* extension) {
   return unwrapped(options.watched(openFile(withExtension(options.path, extension))));
