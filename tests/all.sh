@@ -13,7 +13,8 @@
 # Not among them without being named:
 #   full       the long layer: real meshes at every ratio
 # Tests on real meshes need TETSTREAM_MESHES and TETSTREAM_JUDGE (tests/CMakeLists.txt); those that
-# lack something say "not run". The judge needs python3-scipy, examples.ranks libopenmpi-dev.
+# lack something say "not run". The judge needs python3-scipy and python3-vtk9, examples.ranks
+# libopenmpi-dev.
 # shellcheck disable=SC2317  # the stages are called by their names
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -113,7 +114,7 @@ bash tests/setup.sh g++ cmake ninja-build pkgconf zlib1g-dev libexpat1-dev libzs
   liblzma-dev libdeflate-dev libhdf5-dev libcairo2-dev libcli11-dev libeigen3-dev libgtest-dev \
   clang libclang-rt-dev clang-format clang-tidy valgrind mandoc python3 python3-dev python3-numpy \
   swig abigail-tools dpkg-dev file zsh fish octave-dev gfortran python3-scipy \
-  libopenmpi-dev || exit 1
+  libopenmpi-dev ${TETSTREAM_JUDGE:+python3-vtk9} || exit 1
 for stage in "${stages[@]}"; do
   echo "== $stage"
   begin=$SECONDS

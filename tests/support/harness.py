@@ -53,17 +53,27 @@ def mesh_path(name):
     return path
 
 
+def judge_module():
+    """judge.py; raises ImportError if it, or what it reads meshes with, is not here."""
+    path = os.path.join(os.environ.get("TETSTREAM_JUDGE", ""), "judge.py")
+    if not os.path.isfile(path):
+        raise ImportError("the environment variable TETSTREAM_JUDGE names no folder with judge.py")
+    importlib.import_module("vtk")
+    spec = importlib.util.spec_from_file_location("judge", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 class Judge:
-    """The judge, with the original that was judged last kept in memory."""
+    """The judge, with the original that was judged last kept in memory; leaves with "not run" if it
+    is not here."""
 
     def __init__(self, samples):
-        path = os.path.join(folder("TETSTREAM_JUDGE"), "judge.py")
-        spec = importlib.util.spec_from_file_location("judge", path)
-        self.module = importlib.util.module_from_spec(spec)
         try:
-            spec.loader.exec_module(self.module)
+            self.module = judge_module()
         except ImportError as missing:
-            not_run(f"{path}: {missing}")
+            not_run(missing)
         self.samples = samples
         self.path, self.original = None, None
 
