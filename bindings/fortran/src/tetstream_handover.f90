@@ -42,9 +42,12 @@ contains
 
   ! ------------------------------------------------------------------------------- descriptions
 
-  subroutine fill_info(this, out)
+  ! Lays out the room's description for C; refuses a box that is not of the length that C reads.
+  subroutine fill_info(this, out, stat, errmsg)
     class(info_room), intent(inout), target :: this
     type(c_stream_info), intent(inout) :: out
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
 
     out%position_type = this%info%position_type
     if (this%info%indexed) out%flags = ior(out%flags, TETSTREAM_STREAM_INDEXED)
@@ -57,10 +60,8 @@ contains
     out%front_width = this%info%front_width
     out%front_span = this%info%front_span
     out%front_cells = this%info%front_cells
-    if (boxed(this%info)) then
-      out%box_min = c_loc(this%info%box_min)
-      out%box_max = c_loc(this%info%box_max)
-    end if
+    call fill_box(this%info, this%info%box_min, "box_min", out%box_min, stat, errmsg)
+    call fill_box(this%info, this%info%box_max, "box_max", out%box_max, stat, errmsg)
     if (allocated(this%info%label_names)) call fill_label_names(this, this%info%label_names, out)
     if (allocated(this%info%time)) then
       out%flags = ior(out%flags, TETSTREAM_STREAM_TIMED)
@@ -68,17 +69,21 @@ contains
     end if
   end subroutine
 
-  ! Whether the box is there, of the length that the library reads.
-  pure logical function boxed(info)
+  subroutine fill_box(info, bounds, name, place, stat, errmsg)
     type(tetstream_stream_info), intent(in) :: info
+    real(c_double), allocatable, intent(in), target :: bounds(:)
+    character(*), intent(in) :: name
+    type(c_ptr), intent(inout) :: place
+    integer, intent(inout) :: stat
+    character(*), intent(inout) :: errmsg
     integer :: length
 
-    boxed = allocated(info%box_min) .and. allocated(info%box_max)
-    if (.not. boxed) return
+    if (stat < 0 .or. .not. allocated(bounds)) return
     length = 3
     if (allocated(info%fields)) length = 3 + sum(info%fields%components)
-    boxed = size(info%box_min) == length .and. size(info%box_max) == length
-  end function
+    call need_rows("the numbers of "//name, size(bounds, kind=c_int64_t), int(length, c_int64_t), stat, errmsg)
+    if (stat >= 0) place = c_loc(bounds)
+  end subroutine
 
   subroutine fill_columns(columns, made, names, place, count)
     type(tetstream_column), allocatable, intent(inout) :: columns(:)

@@ -50,7 +50,7 @@ contains
       call lend(cell_data, cells%rows, this%description%info%cell_data, this%cell_data, batch%cell_data, &
                 status, refusal)
     if (present(marks)) call mark(this, marks, batch, status, refusal)
-    call this%description%fill(info)
+    call this%description%fill(info, status, refusal)
     info%flags = ior(info%flags, TETSTREAM_STREAM_FROM_ONE)
   end subroutine
 

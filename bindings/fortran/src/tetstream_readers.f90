@@ -113,7 +113,7 @@ contains
     stat = 0
     room%description%info = tetstream_stream_info()
     call room%source%open(room%description%info, stat, room%cause)
-    if (stat == 0) call room%description%fill(info)
+    if (stat == 0) call room%description%fill(info, stat, room%cause)
     stopped = stat
   end function
 

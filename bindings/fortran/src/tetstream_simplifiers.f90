@@ -165,11 +165,15 @@ contains
     integer, intent(out), optional :: stat
     character(*), intent(inout), optional :: errmsg
     type(c_stream_info) :: description
+    character(sentence_length) :: refusal
+    integer :: status
 
     if (is_missing(this, stat, errmsg)) return
     this%room%description%info = info
     description%struct_size = c_sizeof(description)
-    call this%room%description%fill(description)
+    status = TETSTREAM_OK
+    call this%room%description%fill(description, status, refusal)
+    if (forwarded(status, refusal, stat, errmsg)) return
     call told(this, c_simplifier_begin(this%handle, description), stat, errmsg)
   end subroutine
 
