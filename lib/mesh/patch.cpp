@@ -57,7 +57,7 @@ template <class S>
 void Patch<S>::loadVertex(uint32_t slot) {
   const size_t v = vertices_++;
   if (v >= global_vertex_.size()) {
-    ensure(global_vertex_, v + 1024);
+    ensure(global_vertex_, v + std::min<size_t>(v / 2 + 64, 1024));
     flags_.resize(global_vertex_.size());
     values_.resize(global_vertex_.size() * value_stride_ + 3);
   }

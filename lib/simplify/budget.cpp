@@ -239,4 +239,13 @@ void CommonBound::learn(double bound, const Ledger& before, const Ledger& after,
   written_at_1_ += static_cast<double>(written) * std::pow(bound, kDecay);
 }
 
+std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
+                                   const Pilot& pilot, double parked) {
+  const Target target = targetOf(schema, options);
+  if (followsPaper(options.mode) || options.uniform_ratio)
+    return std::make_unique<UniformRatio>(target, schema.cell_count);
+  return std::make_unique<CommonBound>(target, schema.cell_count, pilot, options.memory_bytes > 0,
+                                       options.effort, parked);
+}
+
 }  // namespace tetstream

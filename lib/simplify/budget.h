@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <memory>
 
 #include "pilot.h"
 #include "select.h"
@@ -120,5 +121,9 @@ class CommonBound final : public Budget {
   double written_ = 0;       // cells
   double written_at_1_ = 0;  // cells as they would be at a bound of 1
 };
+
+// `parked`: times the target, that windows leave.
+std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
+                                   const Pilot& pilot, double parked);
 
 }  // namespace tetstream

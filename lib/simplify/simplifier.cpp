@@ -21,16 +21,6 @@ namespace {
 constexpr int64_t kTurnsPerWindow = 8;  // at most, where its vertices are few
 constexpr int64_t kLongStream = 10;     // windows
 
-// `parked`: times the target, that windows leave.
-std::unique_ptr<Budget> makeBudget(const Schema& schema, const SimplifyOptions& options,
-                                   const Pilot& pilot, double parked) {
-  const Target target = targetOf(schema, options);
-  if (followsPaper(options.mode) || options.uniform_ratio)
-    return std::make_unique<UniformRatio>(target, schema.cell_count);
-  return std::make_unique<CommonBound>(target, schema.cell_count, pilot, options.memory_bytes > 0,
-                                       options.effort, parked);
-}
-
 // READ, DECIMATE, WRITE (Vo et al. 2007, section 4). Invariants between the steps:
 //   - a vertex may move only when it is final and none of its cells has been written, so that its
 //     whole star is in the window: whatever a collapse changes lies between two such vertices;
@@ -153,11 +143,7 @@ class WindowedEngine final : public Simplifier::Engine {
     }
   }
   [[noreturn]] void failForBudget(const char* why) const {
-    const int64_t front = std::max(plan_.schema.front_cells, front_cells_);
-    const auto enough = static_cast<long long>(size_.budgetFor(front));
-    if (front <= 0) fail(Status::kNoMemory, "%s; %lld should do", why, enough);  // not known yet
-    fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", why,
-         static_cast<long long>(front), enough);
+    size_.fail(why, std::max(plan_.schema.front_cells, front_cells_));
   }
 
   std::unique_ptr<Selector> makeSelector() {
@@ -430,6 +416,19 @@ class WindowedEngine final : public Simplifier::Engine {
   Release<S> release_;
 };
 
+// A budget that is too small for the first arrays is explained, too.
+template <class S>
+std::unique_ptr<Simplifier::Engine> makeEngine(const Plan& plan, const SimplifyOptions& options,
+                                               const Pilot& pilot, Sink& out, TraceSinks sinks,
+                                               const ProgressFunction& progress) {
+  try {
+    return std::make_unique<WindowedEngine<S>>(plan, options, pilot, out, sinks, progress);
+  } catch (const Error& error) {
+    if (error.status() != Status::kNoMemory || options.memory_bytes == 0) throw;
+    windowSize<S>(plan, options).fail(error.what(), plan.schema.front_cells);
+  }
+}
+
 }  // namespace
 
 Simplifier::Simplifier(const SimplifyOptions& options, Sink& out, ProgressFunction progress)
@@ -441,13 +440,8 @@ void Simplifier::begin(const Schema& schema) {
   Plan plan = makePlan(schema, options_);
   plan.traces_vertices = sinks_.any();
   plan.traces_points = sinks_.map != nullptr;
-  const bool in_double = plan.double_window;
-  if (in_double)
-    engine_ = std::make_unique<WindowedEngine<double>>(std::move(plan), options_, pilot_, out_,
-                                                       sinks_, progress_);
-  else
-    engine_ = std::make_unique<WindowedEngine<float>>(std::move(plan), options_, pilot_, out_,
-                                                      sinks_, progress_);
+  const auto make = plan.double_window ? makeEngine<double> : makeEngine<float>;
+  engine_ = make(plan, options_, pilot_, out_, sinks_, progress_);
   Schema smaller = schema;
   smaller.vertex_count = smaller.cell_count = smaller.face_count = -1;
   smaller.front_width = smaller.front_span = smaller.front_cells = -1;

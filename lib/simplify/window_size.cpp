@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "status.h"
+
 namespace tetstream {
 
 // A window holds at least this many cells, some tiles: smaller ones save no memory worth having.
@@ -108,6 +110,13 @@ int64_t WindowSize::budgetFor(int64_t front) const {
   do larger.memory_bytes += larger.memory_bytes / 8 + 1;
   while (size.fitting() < cells);
   return larger.memory_bytes + kSpareBytes;
+}
+
+void WindowSize::fail(const char* why, int64_t front) const {
+  const auto enough = static_cast<long long>(budgetFor(front));
+  if (front <= 0) tetstream::fail(Status::kNoMemory, "%s; %lld should do", why, enough);
+  tetstream::fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", why,
+                  static_cast<long long>(front), enough);
 }
 
 }  // namespace tetstream

@@ -41,11 +41,12 @@ class WindowSize {
   int64_t foreseen(int64_t cells) const;
   // Bytes of a budget that points of a map beyond those it is made for leave free then.
   int64_t heldBack(int64_t cells) const;
-  // A larger budget, for a front of so many cells and a window that was asked for, where this one
-  // did not do.
-  int64_t budgetFor(int64_t front) const;
+  // Throws kNoMemory: why this budget does not do, and a larger one for a front of so many cells,
+  // unless it is not known (0 or less), and a window that was asked for.
+  [[noreturn]] void fail(const char* why, int64_t front) const;
 
  private:
+  int64_t budgetFor(int64_t front) const;
   int64_t knownFront() const;
   bool gainsWhole() const;
   int64_t least() const;

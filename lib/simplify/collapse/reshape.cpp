@@ -248,13 +248,13 @@ auto Reshaper<S>::change(const Reconnection& r) const -> Change {
 template <class S>
 void Reshaper<S>::apply(const Reconnection& r) {
   uint32_t slots[Reconnection::kMostCells];
+  ++tally_.flips;
   if (counts_thin_) tally_.error += change(r).integral;
   reconnector_.replace(r, slots);
   for (uint32_t m = 0; m < r.made_count; ++m)
     for (uint32_t v : r.made[m]) marks_[v] |= kFlipped;
   handOverCellData(r, slots);
   if (observer_) tell(r, slots);
-  ++tally_.flips;
 }
 
 // Float cell data: each new cell stands for its share, by its volume, of what the old ones stood

@@ -13,10 +13,11 @@ constexpr uint32_t kAlways = 0xffffffffu;  // a mark above all others
 constexpr float kFirstLevel = 1.0f / 256, kLevelStep = 2;
 
 template <class S>
-PatchSweep<S>::PatchSweep(Core<S>& core, Account& account)
+PatchSweep<S>::PatchSweep(Core<S>& core, Account& account, const State& state)
     : core_(core),
+      state_(state),
       patch_(account, core.window),
-      collapser_(core, patch_, tally_, account),
+      collapser_(core, patch_, state_.tally, account),
       choices_(account),
       solutions_(core, account),
       renewal_(core, patch_, account),
@@ -34,9 +35,9 @@ template <class S>
 bool PatchSweep<S>::load(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
                          size_t cell_count) {
   collapser_.forget();
-  evaluated_ = false;
+  evaluated_ = is_stored_ = false;
   if (owned_count > Choices::kMostVertices ||
-      !patch_.load(owned, owned_count, cells, cell_count, core_.window.liveCells() - died_))
+      !patch_.load(owned, owned_count, cells, cell_count, core_.window.liveCells() - state_.died))
     return false;
   return patch_.largestStar() <= kLargestStar || leaveHubs(cells, cell_count);
 }
@@ -49,7 +50,7 @@ bool PatchSweep<S>::leaveHubs(const uint32_t* cells, size_t cell_count) {
   for (uint32_t v = 0; v < patch_.ownedEnd(); ++v)
     if (patch_.starSize(v) <= kLargestStar) kept_.push_back(patch_.slotOf(v));
   return patch_.load(kept_.data(), kept_.size(), cells, cell_count,
-                     core_.window.liveCells() - died_);
+                     core_.window.liveCells() - state_.died);
 }
 
 template <class S>
@@ -177,7 +178,7 @@ void PatchSweep<S>::collapseFrom(uint32_t v, float level, float most) {
     const S error = solve(v, w, level);
     const float most_price = most > 0 ? std::max(most / choices_.least(v), 1.0f) : 1.0f;
     const Outcome outcome =
-        collapser_.collapse(v, w, z_.data(), error, goal_.least_cells, most_price);
+        collapser_.collapse(v, w, z_.data(), error, state_.goal.least_cells, most_price);
     if (outcome == Outcome::kDone) {
       pushAfter(v, w);
       return;
@@ -273,7 +274,7 @@ float PatchSweep<S>::leastAcrossSeam(uint32_t v) {
       0);
   S least = std::numeric_limits<S>::infinity();
   for (size_t i = 0; i < count_; ++i) least = errors_[i] < least ? errors_[i] : least;  // no NaN
-  return static_cast<float>(least * static_cast<S>(unit_));
+  return static_cast<float>(least * static_cast<S>(state_.unit));
 }
 
 // Marks of vertices when they are settled, in the lower bits what they are, in the upper ones what

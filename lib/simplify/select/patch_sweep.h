@@ -21,14 +21,22 @@ class PatchSweep {
   // of those that do take longer than all others.
   static constexpr uint32_t kLargestStar = 1024;
 
-  PatchSweep(Core<S>& core, Account& account);
+  // What outlasts a patch. Errors are in units of the whole, up to a power of two: rounded, they
+  // order alike in whatever units the mesh is. And what was done since it was last asked for.
+  struct State {
+    Goal goal{};
+    double unit = 1;
+    Tally tally;
+    int64_t died = 0;
+  };
 
-  // Errors are in units of the whole, up to a power of two: rounded, they order alike in whatever
-  // units the mesh is.
+  PatchSweep(Core<S>& core, Account& account, const State& state = {});
+
   void begin(const Goal& goal, double unit) {
-    goal_ = goal;
-    unit_ = unit;
+    state_.goal = goal;
+    state_.unit = unit;
   }
+  const State& state() const { return state_; }
 
   // As Patch::load; false also if there are more vertices than choices can be kept of. Hubs are not
   // owned then, but of the rim.
@@ -36,7 +44,11 @@ class PatchSweep {
   // Collapses edges of errors up to the bound. Returns whether a higher one could do more.
   bool sweep(float bound);
   // Puts what was changed into the window; its live cells are counted when the results are added.
-  void store() { died_ += patch_.storeUncounted(); }
+  void store() {
+    is_stored_ = true;
+    state_.died += patch_.storeUncounted();
+  }
+  bool isStored() const { return is_stored_; }
   // After store: what is known now is kept for the next sweep, in the window.
   void settleAll();
   // Of each vertex with an edge up to the bound, the errors of its edges.
@@ -47,17 +59,18 @@ class PatchSweep {
   // In the last sweep.
   bool hasMoved(uint32_t v) const { return solutions_.hasMoved(v); }
 
-  // What was done since it was last asked for.
-  Tally takeTally() { return std::exchange(tally_, {}); }
-  int64_t takeDied() { return std::exchange(died_, 0); }
+  Tally takeTally() { return std::exchange(state_.tally, {}); }
+  int64_t takeDied() { return std::exchange(state_.died, 0); }
 
-  Tally& tally() { return tally_; }
+  Tally& tally() { return state_.tally; }
   Patch<S>& patch() { return patch_; }
   Collapser<Patch<S>>& collapser() { return collapser_; }
 
  private:
   bool leaveHubs(const uint32_t* cells, size_t cell_count);
-  bool mustStop() const { return goal_.isMet(patch_.liveCells()) || collapser_.errorReached(); }
+  bool mustStop() const {
+    return state_.goal.isMet(patch_.liveCells()) || collapser_.errorReached();
+  }
   void copySeamRow(uint32_t slot, size_t row);
   float leastAcrossSeam(uint32_t v);
   void markSurroundings();
@@ -73,14 +86,13 @@ class PatchSweep {
   void listNeighboursOfMerged(uint32_t u);
   void measureNeighbours(uint32_t u);
   EdgeList<S> edges() const {
-    return {errors_.data(), neighbours_.data(), count_, static_cast<S>(unit_)};
+    return {errors_.data(), neighbours_.data(), count_, static_cast<S>(state_.unit)};
   }
   void measureIn(const VertexTable<S>& table, uint32_t u);
 
   Core<S>& core_;
-  Tally tally_;
-  int64_t died_ = 0;
-  bool evaluated_ = false;
+  State state_;
+  bool evaluated_ = false, is_stored_ = false;
   Patch<S> patch_;
   Collapser<Patch<S>> collapser_;
   Choices choices_;
@@ -96,8 +108,6 @@ class PatchSweep {
   std::vector<S> z_;
   size_t count_ = 0;  // of the neighbours listed
   uint32_t mark_ = 0;
-  Goal goal_{};
-  double unit_ = 1;
 };
 
 }  // namespace tetstream

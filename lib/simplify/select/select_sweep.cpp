@@ -9,8 +9,7 @@
 #include <utility>
 
 #include "dear_angles.h"
-#include "patch_sweep.h"
-#include "reshape.h"
+#include "lane.h"
 #include "select.h"
 #include "settled.h"
 #include "sweep_bounds.h"
@@ -28,6 +27,7 @@ constexpr int64_t kSlackShare = 50;  // one part in these of a goal is no reason
 // stretched meshes whose cells all lie just above the floor what was left at last was collapsed at
 // any error.
 constexpr int64_t kThinToDone = 10, kCellsToThin = 16;
+constexpr float kNoBound = std::numeric_limits<float>::infinity();
 
 // Tiles are swept in their order, or at the same time where that makes no difference: those that
 // share no cell, and whose number is such that what they take cannot meet the goal between them.
@@ -37,17 +37,15 @@ template <class S>
 class SweepSelector final : public Selector {
  public:
   SweepSelector(Core<S>& core, Account& account)
-      : core_(core),
-        account_(account),
-        tiling_(core, account),
-        bounds_(core),
-        exhaustive_(makeExhaustiveSelector(core, addLane().sweep.collapser())) {}
+      : core_(core), account_(account), tiling_(core, account), bounds_(core) {
+    addLane();
+  }
 
   void decimate(const Goal& goal, const std::function<void()>& tick) override {
     goal_ = goal;
     int exponent;
     unit_ = std::frexp(core_.error_unit, &exponent);
-    for (auto& lane : lanes_) begin(*lane);
+    for (auto& lane : lanes_) lane->begin(goal_, unit_);
     was_stopped_ |= std::exchange(core_.tally.error_reached, false);
     sweep(bounds_.start(goal_, unit_), goal_.approaches, tick);
     const bool sweeps_out = goal.last && core_.options.last_resort && !mustStop();
@@ -61,13 +59,6 @@ class SweepSelector final : public Selector {
   double bound() const override { return bound_ / unit_; }
 
  private:
-  // What a thread works with.
-  struct Lane {
-    Lane(Core<S>& core, Account& account) : sweep(core, account), cells(account) {}
-    PatchSweep<S> sweep;
-    Array<uint32_t> cells;                // of a tile
-    std::optional<Reshaper<S>> reshaper;  // where cells are flipped
-  };
   struct Swept {  // of a tile
     Tally tally;
     int64_t died = 0;
@@ -82,21 +73,20 @@ class SweepSelector final : public Selector {
   bool mustStop() const {
     return goal_.isMet(core_.window.liveCells()) || core_.tally.error_reached;
   }
-  Lane& addLane() {
-    lanes_.push_back(std::make_unique<Lane>(core_, account_));
-    begin(*lanes_.back());
-    return *lanes_.back();
+  void addLane() {
+    lanes_.push_back(std::make_unique<Lane<S>>(core_, account_));
+    lanes_.back()->begin(goal_, unit_);
   }
-  void begin(Lane& lane);
-  Lane& lane() { return *lanes_[0]; }
+  Lane<S>& lane() { return *lanes_[0]; }
   void sweep(double bound, int approaches, const std::function<void()>& tick);
   bool isStoppedByFloor(const Tally& before, int64_t cells_before) const;
   void lowerFloor();
   void sweepOut(const std::function<void()>& tick);
   double firstBound();
-  void listErrors(Lane& lane, std::vector<float>& errors);
+  void listErrors(Lane<S>& lane, std::vector<float>& errors);
   template <class Work>
   void shareOut(size_t pieces, Work work);
+  void cut(float bound, TileLayout layout);
   bool pass(float bound, const std::function<void()>& tick);
   bool worksInOrder() const;
   TileLayout layout() const;
@@ -104,32 +94,28 @@ class SweepSelector final : public Selector {
   TileGroup nextGroup(size_t first) const;
   Goal goalOf(const TilePiece& tile) const;
   void sweepGroup(size_t first, size_t end, float bound, const std::function<void()>& tick);
-  Swept sweepTile(size_t tile, float bound, Lane& lane, TileQueue& queue);
+  Swept sweepTile(size_t tile, float bound, Lane<S>& lane, TileQueue& queue);
   bool add(const Swept& swept);
-  void addOf(Lane& lane) { add({lane.sweep.takeTally(), lane.sweep.takeDied()}); }
+  void addOf(Lane<S>& lane) { add({lane.sweep().takeTally(), lane.sweep().takeDied()}); }
   template <class Work>
-  void onPatch(Lane& lane, const uint32_t* owned, size_t owned_count, const uint32_t* cells,
-               size_t cell_count, Work work);
-  std::vector<uint32_t> touching(const uint32_t* owned, size_t owned_count, const uint32_t* cells,
-                                 size_t cell_count) const;
-  template <class Work>
-  void onTile(Lane& lane, const TilePiece& tile, Work work) {
-    const uint32_t* const cells = tiling_.listCells(tile, lane.cells);
-    onPatch(lane, tiling_.vertices(tile), tile.vertexCount(), cells, tile.cell_count, work);
+  void onTile(Lane<S>& lane, const TilePiece& tile, Work work, bool is_loaded = false) {
+    const uint32_t* const cells =
+        lane.listed([&](Array<uint32_t>& room) { return tiling_.listCells(tile, room); });
+    lane.onPatch(tiling_.vertices(tile), tile.vertexCount(), cells, tile.cell_count, is_loaded,
+                 work);
   }
   void tryByAllMeans(const std::function<void()>& tick);
   void tryEverything(const std::function<void()>& tick);
-  bool reshape(Lane& lane, const Goal& goal, float bound);
+  bool reshape(Lane<S>& lane, const Goal& goal, float bound);
   template <class HasMoved>
-  bool reshapeFirst(Lane& lane, const Goal& goal, HasMoved hasMoved);
+  bool reshapeFirst(Lane<S>& lane, const Goal& goal, HasMoved hasMoved);
   void reshapeAll(bool any_moved, const std::function<void()>& tick);
 
   Core<S>& core_;
   Account& account_;
   Tiling<S> tiling_;
   SweepBounds<S> bounds_;
-  std::vector<std::unique_ptr<Lane>> lanes_;
-  std::unique_ptr<Selector> exhaustive_;
+  std::vector<std::unique_ptr<Lane<S>>> lanes_;
   std::vector<Swept> swept_;
   typename SweepBounds<S>::Refused refused_{};  // by the last round of trying everything
   bool was_stopped_ = false;                    // in a window before, by the limit on the error
@@ -141,12 +127,10 @@ class SweepSelector final : public Selector {
 };
 
 template <class S>
-void SweepSelector<S>::begin(Lane& lane) {
-  lane.sweep.begin(goal_, unit_);
-  if (!core_.flips()) return;
-  if (!lane.reshaper)
-    lane.reshaper.emplace(core_, lane.sweep.patch(), lane.sweep.tally(), account_);
-  if (core_.tracer && core_.tracer->tracesPoints()) lane.reshaper->observe(core_.tracer);
+void SweepSelector<S>::cut(float bound, TileLayout layout) {
+  if (lane().takeRefusals() > 0) tiling_.useSmallerTiles();
+  lane().withoutPatch([&] { tiling_.build(round_, bound, layout); });
+  ++round_;
 }
 
 // With so many passes on the way to the bound that the goal gives.
@@ -154,11 +138,10 @@ template <class S>
 void SweepSelector<S>::sweep(double bound, int approaches, const std::function<void()>& tick) {
   if (mustStop()) return;
   for (bool first = true;; first = false) {
-    constexpr float kAll = std::numeric_limits<float>::infinity();
-    tiling_.build(round_++, bound > 0 ? static_cast<float>(bound) : kAll, layout());
+    cut(bound > 0 ? static_cast<float>(bound) : kNoBound, layout());
     if (!(bound > 0)) bound = firstBound();
     if (makeDearWhereFewAreLeft(core_))
-      for (auto& lane : lanes_) begin(*lane);
+      for (auto& lane : lanes_) lane->begin(goal_, unit_);
     const int64_t before = core_.window.liveCells();
     const Tally so_far = core_.tally;
     bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
@@ -201,40 +184,6 @@ void SweepSelector<S>::lowerFloor() {
   core_.thin = ThinAngle(std::max(core_.thin.degrees / 2, kLeastFloor));
   for (uint32_t v = 0; v < core_.window.mesh.vertexEnd(); ++v)
     if (core_.window.isFree(v) && settledOf(core_.window, v).refused) unsettle(core_.window, v);
-}
-
-// Works on a patch, or on its halves where it is too large for one.
-template <class S>
-template <class Work>
-void SweepSelector<S>::onPatch(Lane& lane, const uint32_t* owned, size_t owned_count,
-                               const uint32_t* cells, size_t cell_count, Work work) {
-  if (lane.sweep.load(owned, owned_count, cells, cell_count)) {
-    work();
-    return;
-  }
-  if (owned_count == 1) return;  // a star of that size is left alone
-  const size_t half = owned_count / 2;
-  for (const auto& [first, count] :
-       {std::pair(owned, half), std::pair(owned + half, owned_count - half)}) {
-    const std::vector<uint32_t> of_half = touching(first, count, cells, cell_count);
-    onPatch(lane, first, count, of_half.data(), of_half.size(), work);
-  }
-}
-
-// Of the cells those with one of the vertices.
-template <class S>
-std::vector<uint32_t> SweepSelector<S>::touching(const uint32_t* owned, size_t owned_count,
-                                                 const uint32_t* cells, size_t cell_count) const {
-  std::vector<uint32_t> sorted(owned, owned + owned_count), found;
-  std::sort(sorted.begin(), sorted.end());
-  const auto isOwned = [&](uint32_t v) {
-    return std::binary_search(sorted.begin(), sorted.end(), v);
-  };
-  std::copy_if(cells, cells + cell_count, std::back_inserter(found), [&](uint32_t cell) {
-    const uint32_t* const corners = core_.window.mesh.corners(cell);
-    return core_.window.mesh.isLive(cell) && std::any_of(corners, corners + 4, isOwned);
-  });
-  return found;
 }
 
 template <class S>
@@ -323,7 +272,7 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
   TileQueue queue(tiling_.earlier(), tiling_.ahead(), first, end);
   const std::thread::id caller = std::this_thread::get_id();
   const bool several = end - first > 1;
-  const auto work = [&](size_t tile, Lane& lane) {
+  const auto work = [&](size_t tile, Lane<S>& lane) {
     swept_[tile - first] = sweepTile(tile, bound, lane, queue);
     queue.finish(tile);
     // The user's callbacks know one thread.
@@ -333,7 +282,7 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
     for (size_t tile = first; tile < end; ++tile) work(tile, lane());
     return;
   }
-  shareOut(end - first, [&](Lane& lane) {
+  shareOut(end - first, [&](Lane<S>& lane) {
     try {
       while (const std::optional<size_t> tile = queue.take()) work(*tile, lane);
     } catch (...) {
@@ -345,31 +294,28 @@ void SweepSelector<S>::sweepGroup(size_t first, size_t end, float bound,
 
 // Others may load what is stored of it while this one settles it.
 template <class S>
-auto SweepSelector<S>::sweepTile(size_t number, float bound, Lane& lane, TileQueue& queue)
+auto SweepSelector<S>::sweepTile(size_t number, float bound, Lane<S>& lane, TileQueue& queue)
     -> Swept {
   const TilePiece& tile = tiling_.tiles()[number];
   const Goal goal = goalOf(tile);
-  lane.sweep.begin(goal, unit_);
+  lane.sweep().begin(goal, unit_);
   Swept swept;
   const auto work = [&] {
     if (!queue.waitForEarlier(number)) return;
-    const bool more = lane.sweep.sweep(bound);
-    swept.more |= more || (share_ < 1 && goal.isMet(lane.sweep.patch().liveCells()));
+    const bool more = lane.sweep().sweep(bound);
+    swept.more |= more || (share_ < 1 && goal.isMet(lane.sweep().patch().liveCells()));
     const bool reshaped = core_.flips() && reshape(lane, goal, bound);
-    lane.sweep.store();
-    const bool is_whole = lane.sweep.patch().ownedEnd() == tile.vertexCount();
+    lane.sweep().store();
+    const bool is_whole = lane.sweep().patch().ownedEnd() == tile.vertexCount();
     if (is_whole) queue.store(number);
-    lane.sweep.settleAll();
-    if (reshaped) lane.reshaper->unsettleChanged();
+    lane.sweep().settleAll();
+    if (reshaped) lane.reshaper().unsettleChanged();
   };
-  if (is_ready_) {  // of several tiles, which threads share, none is
-    is_ready_ = false;
-    work();
-  } else {
-    onTile(lane, tile, work);
-  }
-  swept.tally = lane.sweep.takeTally();
-  swept.died = lane.sweep.takeDied();
+  const bool is_loaded = is_ready_;  // of several tiles, which threads share, none is
+  if (is_loaded) is_ready_ = false;
+  onTile(lane, tile, work, is_loaded);
+  swept.tally = lane.sweep().takeTally();
+  swept.died = lane.sweep().takeDied();
   return swept;
 }
 
@@ -380,23 +326,23 @@ double SweepSelector<S>::firstBound() {
   const size_t step = tiles.size() / 4 + 1, count = (tiles.size() + step - 1) / step;
   std::vector<std::vector<float>> found(std::max<size_t>(count, 1));
   std::atomic<size_t> next = 0;
-  shareOut(count, [&](Lane& lane) {
+  shareOut(count, [&](Lane<S>& lane) {
     for (size_t i; (i = next++) < count;)
       onTile(lane, tiles[i * step], [&] { listErrors(lane, found[i]); });
   });
   const bool is_whole =
-      tiles.size() == 1 && lane().sweep.patch().ownedEnd() == tiles[0].vertexCount();
-  is_ready_ = is_whole && lane().sweep.isEvaluated();
+      tiles.size() == 1 && lane().sweep().patch().ownedEnd() == tiles[0].vertexCount();
+  is_ready_ = is_whole && lane().sweep().isEvaluated();
   for (size_t i = 1; i < count; ++i)
     found[0].insert(found[0].end(), found[i].begin(), found[i].end());
   return bounds_.first(found[0], goal_);
 }
 
 template <class S>
-void SweepSelector<S>::listErrors(Lane& lane, std::vector<float>& errors) {
-  lane.sweep.evaluateAll(std::numeric_limits<float>::infinity());
-  for (uint32_t v = 0; v < lane.sweep.patch().ownedEnd(); ++v)
-    if (std::isfinite(lane.sweep.least(v))) errors.push_back(lane.sweep.least(v));
+void SweepSelector<S>::listErrors(Lane<S>& lane, std::vector<float>& errors) {
+  lane.sweep().evaluateAll(kNoBound);
+  for (uint32_t v = 0; v < lane.sweep().patch().ownedEnd(); ++v)
+    if (std::isfinite(lane.sweep().least(v))) errors.push_back(lane.sweep().least(v));
 }
 
 // Until a round, whose seams lie elsewhere, finds nothing more. Edge by edge towards the last cells
@@ -407,11 +353,11 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
   do {
     live = core_.window.liveCells();
     const Tally so_far = core_.tally;
-    tiling_.build(round_++, std::numeric_limits<float>::infinity());
+    cut(kNoBound, TileLayout::kWhole);
     for (const TilePiece& tile : tiling_.tiles()) {
       onTile(lane(), tile, [&] {
-        exhaustive_->decimate(goal_, tick);
-        lane().sweep.store();
+        makeExhaustiveSelector(core_, lane().sweep().collapser())->decimate(goal_, tick);
+        lane().sweep().store();
       });
       addOf(lane());
       if (mustStop()) return;
@@ -450,10 +396,10 @@ void SweepSelector<S>::tryByAllMeans(const std::function<void()>& tick) {
 
 // After a sweep up to the bound.
 template <class S>
-bool SweepSelector<S>::reshape(Lane& lane, const Goal& goal, float bound) {
-  const auto hasMoved = [&](uint32_t v) { return lane.sweep.hasMoved(v); };
+bool SweepSelector<S>::reshape(Lane<S>& lane, const Goal& goal, float bound) {
+  const auto hasMoved = [&](uint32_t v) { return lane.sweep().hasMoved(v); };
   if (!core_.shapesFirst())
-    return lane.reshaper->thinOut(goal.least_cells, static_cast<double>(bound) / unit_, hasMoved);
+    return lane.reshaper().thinOut(goal.least_cells, static_cast<double>(bound) / unit_, hasMoved);
   return reshapeFirst(lane, goal, hasMoved);
 }
 
@@ -461,24 +407,24 @@ bool SweepSelector<S>::reshape(Lane& lane, const Goal& goal, float bound) {
 // one does.
 template <class S>
 template <class HasMoved>
-bool SweepSelector<S>::reshapeFirst(Lane& lane, const Goal& goal, HasMoved hasMoved) {
-  const bool is_reached = goal.last && lane.sweep.patch().liveCells() <= goal.cells;
+bool SweepSelector<S>::reshapeFirst(Lane<S>& lane, const Goal& goal, HasMoved hasMoved) {
+  const bool is_reached = goal.last && lane.sweep().patch().liveCells() <= goal.cells;
   const double error =
-      core_.tally.error + lane.sweep.tally().error * static_cast<double>(swept_.size());
-  return lane.reshaper->reshape(goal.least_cells,
-                                is_reached ? goal.cells : std::numeric_limits<int64_t>::max(),
-                                error, hasMoved);
+      core_.tally.error + lane.sweep().tally().error * static_cast<double>(swept_.size());
+  return lane.reshaper().reshape(goal.least_cells,
+                                 is_reached ? goal.cells : std::numeric_limits<int64_t>::max(),
+                                 error, hasMoved);
 }
 
 // `any_moved`: vertices since the last time, other than in sweeps.
 template <class S>
 void SweepSelector<S>::reshapeAll(bool any_moved, const std::function<void()>& tick) {
-  tiling_.build(round_++, std::numeric_limits<float>::infinity());
+  cut(kNoBound, TileLayout::kWhole);
   for (const TilePiece& tile : tiling_.tiles()) {
     onTile(lane(), tile, [&] {
       if (!reshapeFirst(lane(), goal_, [&](uint32_t) { return any_moved; })) return;
-      lane().sweep.store();
-      lane().reshaper->unsettleChanged();
+      lane().sweep().store();
+      lane().reshaper().unsettleChanged();
     });
     addOf(lane());
     tick();

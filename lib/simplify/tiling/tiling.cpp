@@ -190,16 +190,14 @@ std::vector<size_t> Tiling<S>::cutOnce(Pieces& pieces, const CutRule& rule,
 template <class S>
 void Tiling<S>::cut(size_t count, unsigned round, TileLayout layout) {
   static constexpr double kShare[3] = {0.5, 0.36, 0.64};
-  const auto largest =
-      static_cast<size_t>(tileVertices(core_.options, Core<S>::tileVertexBytes(core_.plan)));
-  const size_t tiles = verticesRead() / largest;
-  const size_t most = layout == TileLayout::kPieces ? pieceOf(count, tiles, largest) : largest;
+  const size_t tiles = verticesRead() / largest_;
+  const size_t most = layout == TileLayout::kPieces ? pieceOf(count, tiles, largest_) : largest_;
   const bool is_layer = !core_.holdsAll() && tiles >= kLayerTiles;
   const CutRule rule{kShare[round % 3], most, tiles >= kManyTiles,
                      is_layer ? CutSide::kSparsest : CutSide::kLongest};
   const auto at = [this](uint32_t v, int axis) { return core_.window.values(v)[axis]; };
   MedianCut pieces(vertices_.data(), count, rule, at);
-  const size_t slices = layout == TileLayout::kSlices ? slicesOf(count, largest) : 0;
+  const size_t slices = layout == TileLayout::kSlices ? slicesOf(count, largest_) : 0;
   are_slices_ = slices > 0;
   if (are_slices_) {
     pieces.slice(0, count, slices, round % 2 == 1, [this](size_t begin, size_t end) {

@@ -50,7 +50,11 @@ enum class TileLayout : uint8_t {
 template <class S>
 class Tiling {
  public:
-  Tiling(Core<S>& core, Account& account) : core_(core), vertices_(account) {
+  Tiling(Core<S>& core, Account& account)
+      : core_(core),
+        vertices_(account),
+        largest_(
+            static_cast<size_t>(tileVertices(core.options, Core<S>::tileVertexBytes(core.plan)))) {
     while (parts_.size() < core.mostParts()) parts_.emplace_back(account);
   }
 
@@ -60,6 +64,11 @@ class Tiling {
   // the cut. `round` shifts the cuts: what lies on a seam of one round is inside a tile of another.
   // Tiles come ordered by colour.
   void build(unsigned round, float bound, TileLayout layout = TileLayout::kWhole);
+
+  // From now on, of half as many vertices: patches of those that there were take too much memory.
+  void useSmallerTiles() {
+    if (largest_ > kLeastTile) largest_ /= 2;
+  }
 
   // Of the vertices in tiles, those whose edges may have errors up to the bound.
   int64_t looking() const { return looking_; }
@@ -120,7 +129,10 @@ class Tiling {
   void lookAhead();
 
   Core<S>& core_;
+  static constexpr size_t kLeastTile = 64;
+
   Array<uint32_t> vertices_;
+  size_t largest_;           // vertices of a tile
   std::vector<Part> parts_;  // the later ones are empty where few threads work
   std::vector<TilePiece> tiles_;
   int64_t looking_ = 0;

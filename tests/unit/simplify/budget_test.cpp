@@ -1,5 +1,6 @@
 // How many cells come out, what stops a run short, what memory it takes, how it is cancelled.
 #include <cmath>
+#include <cstdio>
 
 #include "budget.h"
 #include "mix.h"
@@ -225,6 +226,26 @@ TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
   for (Mode mode : kModes) expectWithinBudget(mesh, mode);
 }
 
+// Also where not even the first arrays fit.
+TEST(SimplifierMemory, IsSaidToSufficeWhereItDoes) {
+  const TestMesh mesh = gridWith(10, [](double x, double y, double z) { return x * y + z; });
+  Cut cut;
+  cut.say_front = true;
+  for (Mode mode : kModes)
+    for (const int64_t limit : {10, 5000, 100000}) {
+      const BudgetRun small = simplifiedWithin(mesh, toRatio(0.2, 0, mode), limit, cut);
+      EXPECT_EQ(small.status, Status::kNoMemory);
+      const size_t advice = small.text.find("; for a front of ");
+      long long enough = 0;
+      ASSERT_NE(advice, std::string::npos) << small.text;
+      ASSERT_EQ(
+          std::sscanf(&small.text[advice], "; for a front of %*d cells %lld should do", &enough),
+          1);
+      EXPECT_GT(enough, limit);
+      EXPECT_EQ(simplifiedWithin(mesh, toRatio(0.2, 0, mode), enough, cut).status, Status::kOk);
+    }
+}
+
 // Before the first window is full nobody may know the front: then the message tells of none.
 TEST(SimplifierMemory, IsAskedForWithoutAFrontThatIsNotKnown) {
   const TestMesh mesh = gridWith(10, [](double x, double y, double z) { return x * y + z; });
@@ -261,6 +282,25 @@ TEST(SimplifierMemory, SufficesIfLessDid) {
   const TestMesh mesh = gridWith(slowRun() ? 6 : 14,
                                  [](double x, double y, double z) { return std::sin(x) + y * z; });
   for (Mode mode : kModes) expectMoreSuffices(mesh, mode);
+}
+
+// Of a wall, whose patches have several times as many faces as those of a body: where they do not
+// fit smaller ones do.
+TEST(SimplifierMemory, SufficesForTheSmallerPatchesOfAWall) {
+  const int32_t size = slowRun() ? 40 : 80;
+  TestMesh mesh = fullGrid(size, size, 1);
+  addPositionField(mesh, {"f", 3, ScalarType::kFloat32},
+                   [](double x, double y, double) { return std::sin(x / 5) * std::cos(y / 7); });
+  SimplifyOptions options = toRatio(0.1, 0);
+  for (options.memory_bytes = 700000; options.memory_bytes < 1500000;
+       options.memory_bytes += slowRun() ? 250000 : 50000) {
+    SCOPED_TRACE(options.memory_bytes);
+    const Result result = simplified(mesh, options);
+    expectSound(mesh, result);
+    expectReached(result);
+    EXPECT_NEAR(result.report.volume_out, result.report.volume_in, 1e-6 * result.report.volume_in);
+    EXPECT_LE(result.report.peak_window_bytes, static_cast<uint64_t>(options.memory_bytes));
+  }
 }
 
 // A sponge of two materials, nearly all of whose vertices are on curves.
