@@ -48,6 +48,7 @@ class LabelledFaces {
     of_corner_.remove({from});
     of_corner_.put({to}, value);
   }
+  void addOfNoCell(int64_t number) { gone_.add(number); }
   void forgetCell(uint32_t cell) {
     for (uint32_t j = 0; j < 4; ++j) of_corner_.remove({4 * cell + j});
   }

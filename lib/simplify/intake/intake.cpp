@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 #include <string>
+#include <utility>
 
 #include "status.h"
 
@@ -45,47 +47,84 @@ void Intake<S>::startBatch(const BatchView& batch) {
          static_cast<unsigned long long>(declared_));
   batch_ = batch;
   declared_ += batch.vertex_count;
-  if (batch.face_count > 0) takeFaces();
+  if (batch.face_count > 0) startFaces();
   if (batch.edge_count > 0) takeLocks();
 }
 
-// Of a vertex of a labelled face or locked edge, which has to be known before the vertex is final.
+// A vertex of a labelled face or locked edge has to be known before the vertex is final.
 template <class S>
-uint32_t Intake<S>::earlySlot(const char* what, int64_t number, int64_t vertex) {
+void Intake<S>::checkEarly(const char* what, int64_t number, int64_t vertex) const {
   if (vertex < 0 || static_cast<uint64_t>(vertex) >= declared_)
     fail(Status::kBadData, "%s %lld: vertex %lld is not declared before it", what,
          static_cast<long long>(number), static_cast<long long>(vertex));
-  introduceUpTo(static_cast<uint64_t>(vertex));
-  const uint32_t slot = core_.front.find(static_cast<uint64_t>(vertex));
+  const auto v = static_cast<uint64_t>(vertex);
+  if (v >= core_.front.introduced() || core_.front.find(v) != kNoSlot) return;
   // Of a mesh that was put into an order the face comes while its cell is there.
-  if (slot == kNoSlot && batch_.face_origins)
+  if (batch_.face_origins)
     fail(Status::kBadData, "%s %lld is the face of no cell", what, static_cast<long long>(number));
-  if (slot == kNoSlot)
-    fail(Status::kBadData,
-         "%s %lld: vertex %lld was finalized in a batch before: it is no part of a cell, or comes "
-         "later than with the batch in which the first of its vertices gets its last use",
-         what, static_cast<long long>(number), static_cast<long long>(vertex));
-  return slot;
+  fail(Status::kBadData,
+       "%s %lld: vertex %lld was finalized in a batch before: it is no part of a cell, or comes "
+       "later than with the batch in which the first of its vertices gets its last use",
+       what, static_cast<long long>(number), static_cast<long long>(vertex));
 }
 
-// They wait for their cells to be looked at: when the first of their vertices is resolved.
+template <class S>
+int64_t Intake<S>::lastVertexOf(size_t face) const {
+  const int64_t* v = batch_.faces + 3 * face;
+  return std::max({v[0], v[1], v[2]});
+}
+
+template <class S>
+int64_t Intake<S>::numberOf(size_t face) const {
+  if (batch_.face_origins) return batch_.face_origins[face];
+  return static_cast<int64_t>(faces_read_ - batch_.face_count + face);
+}
+
+// Each is taken with the last of its vertices, so that these need not come before their cells.
+template <class S>
+void Intake<S>::startFaces() {
+  const size_t count = batch_.face_count;
+  faces_read_ += count;
+  for (size_t row = 0; row < count; ++row)
+    for (size_t j = 0; j < 3; ++j)
+      checkEarly("labelled face", numberOf(row), batch_.faces[3 * row + j]);
+  if (face_order_.size() < count) face_order_.resize(count);
+  std::iota(face_order_.data(), face_order_.data() + count, size_t{0});
+  std::sort(face_order_.data(), face_order_.data() + count, [this](size_t a, size_t b) {
+    return std::pair(lastVertexOf(a), a) < std::pair(lastVertexOf(b), b);
+  });
+  faces_taken_ = 0;
+  takeFaces();
+}
+
 template <class S>
 void Intake<S>::takeFaces() {
-  for (size_t row = 0; row < batch_.face_count; ++row, ++faces_read_) {
-    const int64_t number =
-        batch_.face_origins ? batch_.face_origins[row] : static_cast<int64_t>(faces_read_);
-    uint32_t slots[3];
-    for (size_t j = 0; j < 3; ++j) {
-      slots[j] = earlySlot("labelled face", number, batch_.faces[3 * row + j]);
-      core_.window.mesh.flagVertex(slots[j], kInterface);
-      if (batch_.face_locks && batch_.face_locks[row]) lock(slots[j]);
-    }
-    if (const int64_t* before = core_.window.faces.expect(slots[0], slots[1], slots[2],
-                                                          batch_.face_labels[row], number))
-      fail(Status::kBadData, "labelled faces %lld and %lld have the same vertices",
-           static_cast<long long>(std::min(*before, number)),
-           static_cast<long long>(std::max(*before, number)));
+  const auto introduced = static_cast<int64_t>(core_.front.introduced());
+  for (; faces_taken_ < batch_.face_count; ++faces_taken_) {
+    if (lastVertexOf(face_order_[faces_taken_]) >= introduced) return;
+    takeFace(face_order_[faces_taken_]);
   }
+}
+
+// It waits for its cell to be looked at: when the first of its vertices is resolved.
+template <class S>
+void Intake<S>::takeFace(size_t row) {
+  const int64_t number = numberOf(row);
+  uint32_t slots[3];
+  for (size_t j = 0; j < 3; ++j) {
+    slots[j] = core_.front.find(static_cast<uint64_t>(batch_.faces[3 * row + j]));
+    // One was final before the others came: no cell has them all.
+    if (slots[j] == kNoSlot) return core_.window.faces.addOfNoCell(number);
+  }
+  for (const uint32_t slot : slots) {
+    core_.window.mesh.flagVertex(slot, kInterface);
+    if (batch_.face_locks && batch_.face_locks[row]) lock(slot);
+  }
+  if (const int64_t* before =
+          core_.window.faces.expect(slots[0], slots[1], slots[2], batch_.face_labels[row], number))
+    fail(Status::kBadData, "labelled faces %lld and %lld have the same vertices",
+         static_cast<long long>(std::min(*before, number)),
+         static_cast<long long>(std::max(*before, number)));
 }
 
 static void refuse(const LabelledFaces::Strange& faces, const char* what) {
@@ -106,9 +145,12 @@ void Intake<S>::checkFaces() const {
 template <class S>
 void Intake<S>::takeLocks() {
   for (size_t row = 0; row < batch_.edge_count; ++row, ++edges_read_)
-    for (size_t j = 0; j < 2; ++j)
-      lock(earlySlot("locked edge", static_cast<int64_t>(edges_read_),
-                     batch_.locked_edges[2 * row + j]));
+    for (size_t j = 0; j < 2; ++j) {
+      const int64_t vertex = batch_.locked_edges[2 * row + j];
+      checkEarly("locked edge", static_cast<int64_t>(edges_read_), vertex);
+      introduceUpTo(static_cast<uint64_t>(vertex));
+      lock(core_.front.find(static_cast<uint64_t>(vertex)));
+    }
 }
 
 template <class S>
@@ -163,6 +205,7 @@ template <class S>
 void Intake<S>::introduceUpTo(uint64_t vertex) {
   while (core_.front.introduced() <= vertex)
     takeVertex(static_cast<size_t>(core_.front.introduced() - batch_.first_vertex));
+  if (faces_taken_ < batch_.face_count) takeFaces();
 }
 
 // Most are known and active: that they are was checked then.

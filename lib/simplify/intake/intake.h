@@ -11,10 +11,11 @@ template <class S>
 class Intake {
  public:
   Intake(Core<S>& core, Account& account)
-      : core_(core), lone_values_(core.plan), finalized_(account, 1024) {}
+      : core_(core), lone_values_(core.plan), face_order_(account), finalized_(account, 1024) {}
 
   // A batch is taken in steps, so that the caller can stop after any cell: vertices are introduced
-  // with the first cell that needs them. The view must stay valid until finishBatch.
+  // with the first cell that needs them, labelled faces with the last of their vertices. The view
+  // must stay valid until finishBatch.
   void startBatch(const BatchView& batch);
   void takeCell(size_t row);
   void finishBatch();  // the vertices left over and the explicit finalizations
@@ -34,10 +35,14 @@ class Intake {
   void clearFinalized() { finalized_count_ = 0; }
 
  private:
+  void startFaces();
   void takeFaces();
+  void takeFace(size_t row);
+  int64_t lastVertexOf(size_t face) const;
+  int64_t numberOf(size_t face) const;
   void takeLocks();
   void lock(uint32_t slot);
-  uint32_t earlySlot(const char* what, int64_t number, int64_t vertex);
+  void checkEarly(const char* what, int64_t number, int64_t vertex) const;
   void introduceUpTo(uint64_t vertex);
   void growVertices();
   void takeVertex(size_t row);
@@ -53,6 +58,8 @@ class Intake {
   BatchView batch_;
   uint64_t declared_ = 0, cells_read_ = 0, faces_read_ = 0, edges_read_ = 0;
   LoneValues lone_values_;
+  Array<size_t> face_order_;  // of the batch, by their last vertices
+  size_t faces_taken_ = 0;    // of those
   Array<uint32_t> finalized_;
   size_t finalized_count_ = 0;
 };

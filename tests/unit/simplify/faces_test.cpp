@@ -162,8 +162,11 @@ void expectStrange(const std::pair<Status, std::string>& refused, const char* wo
 // Also where the vertices are gone from the window long before the end.
 TEST(SimplifierFaces, OfNoCellAreRefused) {
   const TestMesh mesh = inStreamOrder(fullGrid(4, 4, 12));
+  const auto last =
+      static_cast<int64_t>(mesh.vertexCount()) - 1;  // others are gone before it comes
   for (size_t batch_cells : {size_t{64}, mesh.cellCount()})
-    for (int64_t far : {int64_t{16}, int64_t{24}}) {
+    for (int64_t far : {int64_t{16}, int64_t{24}, last}) {
+      if (far == last && batch_cells == 64) continue;
       const int64_t stray[3] = {0, 1, far}, label = 7;
       ASSERT_FALSE(facesOf(mesh.cells).count({stray[0], stray[1], stray[2]}));
       expectStrange(refusal(mesh, batch_cells,
@@ -269,6 +272,16 @@ TEST(SimplifierFaces, AndRidgesFitTheMemory) {
     EXPECT_EQ(report.limited_by, "");
     before = report.window_cells;
   }
+}
+
+// Those of a large batch come with their cells: the vertices of all would fill the window.
+TEST(SimplifierFaces, WaitInTheBatchForTheirVertices) {
+  const Labelled in(slowRun() ? 8 : 12);
+  const auto peak = [&in](size_t batch_cells) {
+    return static_cast<double>(
+        simplified(in, toRatio(0.2, 700), batch_cells).report.peak_window_bytes);
+  };
+  EXPECT_LT(peak(in.mesh.cellCount()), 1.1 * peak(64));
 }
 
 std::set<std::pair<Place, Place>> edgesOf(const TestMesh& mesh) {
