@@ -1,4 +1,4 @@
-// Nodes and elements of Gmsh's format 2.
+// Nodes and elements of Gmsh's formats 2 and 1, which has the same nodes.
 #include <algorithm>
 
 #include "msh_mesh.h"
@@ -23,12 +23,16 @@ CellKind needKind(MshMesh& mesh, int64_t number) {
                      "an element of type " + std::to_string(number) + ", which is not known");
 }
 
+// Integers, of which nobody knows how many there are: most elements have fewer.
+void expectElements(MshMesh& mesh, uint64_t count) {
+  constexpr uint64_t kMostExpected = 32;
+  mesh.file.expectRows(count, {{{false, kMostExpected}}});
+}
+
 void readTextElements(MshMesh& mesh, uint64_t count) {
   std::vector<int64_t> tags(static_cast<size_t>(kMostTags));
   int64_t nodes[kMostMshNodes];
-  // Integers, of which nobody knows how many there are: most elements have fewer.
-  constexpr uint64_t kMostExpected = 32;
-  mesh.file.expectRows(count, {{{false, kMostExpected}}});
+  expectElements(mesh, count);
   for (uint64_t i = 0; i < count; ++i) {
     int64_t head[3];  // number, type, tags
     mesh.file.integers(head, 3, "an element");
@@ -87,7 +91,7 @@ static void beginNodes2(MshMesh& mesh) {
   if (mesh.numbers.binary()) mesh.file.line();
 }
 
-static void readNode2(MshMesh& mesh, uint64_t rank) {
+void readNode(MshMesh& mesh, uint64_t rank) {
   double position[3];
   const int64_t tag = mesh.numbers.integer(kMshInt, "the number of a node");
   mesh.checkTag(tag);
@@ -100,7 +104,7 @@ void readNodes2(MshMesh& mesh) {
   beginNodes2(mesh);
   if (mesh.placeNodes2(mesh.node_rows)) return mesh.endNodes();
   mesh.numbers.expectRows(mesh.node_rows, {{{false, 1}, {true, 3}}});
-  for (uint64_t i = 0; i < mesh.node_rows; ++i) readNode2(mesh, i);
+  for (uint64_t i = 0; i < mesh.node_rows; ++i) readNode(mesh, i);
   mesh.endNodes();
 }
 
@@ -110,7 +114,7 @@ void readParametricNodes2(MshMesh& mesh) {
   for (uint64_t i = 0; i < mesh.node_rows; ++i) {
     int64_t entity[2];
     double parameters[2];
-    readNode2(mesh, i);
+    readNode(mesh, i);
     mesh.numbers.integers(entity, 2, kMshInt, "the entity of a node");
     if (entity[0] < 0 || entity[0] > 3)
       mesh.file.failBad(textOf("an entity of dimension %lld", static_cast<long long>(entity[0])));
@@ -121,10 +125,35 @@ void readParametricNodes2(MshMesh& mesh) {
   mesh.endNodes();
 }
 
-void readElements2(MshMesh& mesh) {
-  const uint64_t count = mesh.element_rows =
+static uint64_t beginElements2(MshMesh& mesh) {
+  mesh.element_rows =
       static_cast<uint64_t>(mesh.file.integer("the number of elements", 0, INT64_MAX));
-  mesh.file.checkClaim(count, mesh.numbers.binary() ? 2 * kMshInt : 8, "elements");
+  mesh.file.checkClaim(mesh.element_rows, mesh.numbers.binary() ? 2 * kMshInt : 8, "elements");
+  return mesh.element_rows;
+}
+
+// Each tells its number, type, group, entity and how many nodes it has.
+void readElements1(MshMesh& mesh) {
+  const uint64_t count = beginElements2(mesh);
+  int64_t nodes[kMostMshNodes];
+  expectElements(mesh, count);
+  for (uint64_t i = 0; i < count; ++i) {
+    int64_t head[5];
+    mesh.file.integers(head, 5, "an element");
+    mesh.checkTag(head[0]);
+    const CellKind kind = needKind(mesh, head[1]);
+    if (head[4] != kind.nodes)
+      mesh.file.failBad(textOf("element %lld has %lld nodes, not %d",
+                               static_cast<long long>(head[0]), static_cast<long long>(head[4]),
+                               kind.nodes));
+    mesh.file.integers(nodes, static_cast<size_t>(kind.nodes), "a node of an element");
+    mesh.addCell(kind, nodes, head[0], head[2], head[3]);
+  }
+  mesh.file.endRows();
+}
+
+void readElements2(MshMesh& mesh) {
+  const uint64_t count = beginElements2(mesh);
   if (!mesh.numbers.binary()) return readTextElements(mesh, count);
   mesh.file.line();
   readBlocks(mesh, count);

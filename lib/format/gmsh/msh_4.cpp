@@ -1,6 +1,7 @@
-// Entities, nodes and elements of Gmsh's format 4.1: blocks, each of one entity.
+// Entities, nodes and elements of Gmsh's formats 4.1 and 4.0: blocks, each of one entity.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "msh_mesh.h"
 #include "rows_at_once.h"
@@ -28,7 +29,8 @@ void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
         mesh.numbers.count(mesh.size_bytes, 1, "the number of partitions of an entity");
     skipIntegers(mesh, parts, "a partition of an entity");
   }
-  skipReals(mesh, dimension == 0 ? 3 : 6, "the box of an entity");
+  const bool has_place = dimension == 0 && !mesh.is_4_0;
+  skipReals(mesh, has_place ? 3 : 6, "the box of an entity");
   const uint64_t groups =
       mesh.numbers.count(mesh.size_bytes, 1, "the number of physical groups of an entity");
   for (uint64_t i = 0; i < groups; ++i) {
@@ -51,9 +53,25 @@ BlockCounts readCounts(MshMesh& mesh, size_t least_bytes, const char* blocks, co
   BlockCounts counts;
   counts.blocks = mesh.numbers.count(mesh.size_bytes, 1, blocks);
   counts.rows = mesh.numbers.count(mesh.size_bytes, least_bytes, rows);
+  if (mesh.is_4_0) return counts;
   mesh.numbers.integer(mesh.size_bytes, "the smallest tag");
   mesh.numbers.integer(mesh.size_bytes, "the largest tag");
   return counts;
+}
+
+// Of a block: the dimension and the number of its entity, and a third number.
+struct BlockHead {
+  int dimension;
+  int64_t entity, more;
+};
+
+BlockHead readHead(MshMesh& mesh, const char* what) {
+  int64_t head[3];
+  mesh.numbers.integers(head, 3, kMshInt, what);
+  if (mesh.is_4_0) std::swap(head[0], head[1]);
+  if (head[0] < 0 || head[0] > 3)
+    mesh.file.failBad(textOf("an entity of dimension %lld", static_cast<long long>(head[0])));
+  return {static_cast<int>(head[0]), head[1], head[2]};
 }
 
 // The number of rows of the next block, of which no more than `left` can be there.
@@ -100,6 +118,16 @@ void readPositions(MshMesh& mesh, uint64_t count, size_t parameters) {
   }
 }
 
+// Of format 4.0 a row has both, and the parameters.
+void readRows40(MshMesh& mesh, uint64_t first, uint64_t count, size_t parameters) {
+  double of_entity[3];
+  mesh.numbers.expectRows(count, {{{false, 1}, {true, 3 + parameters}}});
+  for (uint64_t i = 0; i < count; ++i) {
+    readNode(mesh, first + i);
+    mesh.numbers.reals(of_entity, parameters, kMshDouble, "a parameter of a node");
+  }
+}
+
 }  // namespace
 
 void readEntities4(MshMesh& mesh, bool partitioned) {
@@ -124,13 +152,16 @@ void readNodes4(MshMesh& mesh) {
   const BlockCounts counts = readCounts(mesh, 8, "the number of blocks of nodes", "nodes");
   uint64_t left = mesh.node_rows = counts.rows;
   for (uint64_t block = 0; block < counts.blocks; ++block) {
-    int64_t head[3];  // dimension, entity, whether there are parameters
-    mesh.numbers.integers(head, 3, kMshInt, "a block of nodes");
-    if (head[0] < 0 || head[0] > 3)
-      mesh.file.failBad(textOf("an entity of dimension %lld", static_cast<long long>(head[0])));
+    const BlockHead head = readHead(mesh, "a block of nodes");
+    const size_t parameters = head.more ? static_cast<size_t>(head.dimension) : 0;
     const uint64_t rows = rowsOfBlock(mesh, left, "the number of nodes of a block");
-    readNodeTags(mesh, counts.rows - left, rows);
-    readPositions(mesh, rows, head[2] ? static_cast<size_t>(head[0]) : 0);
+    const uint64_t first = counts.rows - left;
+    if (mesh.is_4_0) {
+      readRows40(mesh, first, rows, parameters);
+    } else {
+      readNodeTags(mesh, first, rows);
+      readPositions(mesh, rows, parameters);
+    }
     left -= rows;
   }
   checkRead(mesh, left, "nodes");
@@ -140,29 +171,29 @@ void readNodes4(MshMesh& mesh) {
 void readElements4(MshMesh& mesh) {
   const BlockCounts counts = readCounts(mesh, 4, "the number of blocks of elements", "elements");
   uint64_t left = mesh.element_rows = counts.rows;
+  const size_t bytes = mesh.is_4_0 ? kMshInt : mesh.size_bytes;
   std::vector<int64_t> elements;
   for (uint64_t block = 0; block < counts.blocks; ++block) {
-    int64_t head[3];  // dimension, entity, type
-    mesh.numbers.integers(head, 3, kMshInt, "a block of elements");
-    const CellKind* kind = mshKind(head[2]);
+    const BlockHead head = readHead(mesh, "a block of elements");
+    const CellKind* kind = mshKind(head.more);
     if (!kind)
       mesh.file.failHere(Status::kUnsupported,
-                         "elements of type " + std::to_string(head[2]) + ", which is not known");
-    const auto found = mesh.physical.find({static_cast<int>(head[0]), head[1]});
+                         "elements of type " + std::to_string(head.more) + ", which is not known");
+    const auto found = mesh.physical.find({head.dimension, head.entity});
     const int64_t group = found == mesh.physical.end() ? 0 : found->second;
     const uint64_t rows = rowsOfBlock(mesh, left, "the number of elements of a block");
     left -= rows;
-    if (mesh.placeElements({*kind, rows, mesh.size_bytes, 0, group, head[1]})) continue;
+    if (mesh.placeElements({*kind, rows, bytes, 0, group, head.entity})) continue;
     const size_t width = 1 + static_cast<size_t>(kind->nodes);
     elements.resize(width * kRowsAtOnce);
     mesh.numbers.expectRows(rows, {{{false, width}}});
     for (uint64_t done = 0; done < rows;) {
       const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, rows - done));
-      mesh.numbers.integers(elements.data(), n * width, mesh.size_bytes, "an element");
+      mesh.numbers.integers(elements.data(), n * width, bytes, "an element");
       for (size_t i = 0; i < n; ++i) {
         const int64_t* row = &elements[i * width];
         mesh.checkTag(row[0]);
-        mesh.addCell(*kind, row + 1, row[0], group, head[1]);
+        mesh.addCell(*kind, row + 1, row[0], group, head.entity);
       }
       done += n;
     }

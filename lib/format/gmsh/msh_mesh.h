@@ -30,7 +30,7 @@ struct MshMesh {
   FileScan& file;
   NumberScan numbers;
   const ReadOptions& options;
-  bool version_4 = false;
+  bool version_4 = false, is_4_0 = false;
   size_t size_bytes = 8;  // of a count in version 4
   MshHints hints;
   std::unique_ptr<MeshIntake> intake;                    // from the nodes on
@@ -98,10 +98,12 @@ struct MshMesh {
 
 std::string notThere(int64_t element, int64_t node);
 
-// msh_2.cpp, msh_4.cpp: the bodies of sections, up to their $End; how many rows nodes or elements
-// have, with which these begin.
+// msh_2.cpp, which has those of format 1, too, and msh_4.cpp: the bodies of sections, up to their
+// $End; how many rows nodes or elements have, with which these begin.
+void readNode(MshMesh& mesh, uint64_t rank);  // its tag and its position
 void readNodes2(MshMesh& mesh);
 void readParametricNodes2(MshMesh& mesh);
+void readElements1(MshMesh& mesh);
 void readElements2(MshMesh& mesh);
 void readEntities4(MshMesh& mesh, bool partitioned);
 void readNodes4(MshMesh& mesh);

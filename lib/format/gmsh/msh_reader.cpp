@@ -1,6 +1,6 @@
-// Reads Gmsh's files, formats 2 and 4.1, text and binary, in one go: sections between $NAME and
-// $EndNAME. Nodes and elements have tags at will; physical groups are the regions of cells and the
-// labels of faces.
+// Reads Gmsh's files, formats 1, 2 and 4, text and binary, in one go: sections between $NAME and
+// $EndNAME, of format 1 $ENDNAME. Nodes and elements have tags at will; physical groups are the
+// regions of cells and the labels of faces.
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -20,12 +20,13 @@ class MshReader {
       : file_(std::move(bytes), 0, options.threads), mesh_(file_, options) {}
 
   std::unique_ptr<IndexedSource> read() {
-    readFormat();
+    is_version_1_ = file_.peekWord() == "$NOD";
+    if (!is_version_1_) readFormat();
     for (;;) {
       const std::string name(file_.word());
       if (name.empty()) break;
       if (name[0] != '$') file_.failBad(quoted(name) + " where a section should begin");
-      readSection(name.substr(1));
+      is_version_1_ ? readSection1(name.substr(1)) : readSection(name.substr(1));
     }
     if (!mesh_.intake) file_.failBad("there is no section $Nodes");
     nameGroups();
@@ -42,10 +43,13 @@ class MshReader {
     if (size != 4 && size != 8)
       file_.failBad(
           textOf("the size of numbers is %lld, not 4 or 8", static_cast<long long>(size)));
-    mesh_.version_4 = std::fabs(version - 4.1) < 1e-9;
+    mesh_.is_4_0 = version == 4;
+    mesh_.version_4 = mesh_.is_4_0 || std::fabs(version - 4.1) < 1e-9;
     if (!mesh_.version_4 && !(version >= 2 && version < 3))
       file_.failHere(Status::kUnsupported,
-                     textOf("version %g of Gmsh's format; 2 to 2.2 and 4.1 are read", version));
+                     textOf("version %g of Gmsh's format; 2 to 2.2, 4 and 4.1 are read, and 1, "
+                            "which has no such section",
+                            version));
     mesh_.size_bytes = static_cast<size_t>(size);
     if (binary) {
       file_.line();
@@ -82,16 +86,38 @@ class MshReader {
       endLine();
       v4 ? readNodes4(mesh_) : readNodes2(mesh_);
     } else if (name == "Elements") {
-      if (!mesh_.intake) file_.failBad("elements before the nodes that they use");
+      needNodes();
       endLine();
       v4 ? readElements4(mesh_) : readElements2(mesh_);
     } else if (name == "NodeData" || name == "ElementData") {
       data_.read(mesh_, name[0] == 'E');
     } else {
-      if (options().note) options().note(file_.name() + ": the section $" + name + " is left out");
-      return file_.skipPast(end);
+      return leaveOut(name, end);
     }
     file_.expect(end.c_str());
+  }
+
+  // Sections have no format before them, and other names.
+  void readSection1(const std::string& name) {
+    const std::string end = "$END" + name;
+    if (name == "NOD") {
+      readNodes2(mesh_);
+    } else if (name == "ELM") {
+      needNodes();
+      readElements1(mesh_);
+    } else {
+      return leaveOut(name, end);
+    }
+    file_.expect(end.c_str());
+  }
+
+  void needNodes() {
+    if (!mesh_.intake) file_.failBad("elements before the nodes that they use");
+  }
+
+  void leaveOut(const std::string& name, const std::string& end) {
+    if (options().note) options().note(file_.name() + ": the section $" + name + " is left out");
+    file_.skipPast(end);
   }
 
   // Gmsh writes the mesh again with each view that it adds to a file: the nodes, and then elements.
@@ -163,6 +189,7 @@ class MshReader {
   FileScan file_;
   MshMesh mesh_;
   MshData data_;
+  bool is_version_1_ = false;
   bool is_again_ = false;  // the mesh that is read
 };
 

@@ -67,5 +67,100 @@ TEST(MshSections, ParametricNodesAreNodes) {
   EXPECT_NE(problemOf(openMsh, kHead2 + broken + kElements2).find("line "), std::string::npos);
 }
 
+// Format 1, as programs wrote it before 2004: no format, other names, nodes counted.
+TEST(MshSections, OfTheFirstFormatAreRead) {
+  const std::string nodes = "$NOD\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n9 1 1 1\n$ENDNOD\n";
+  const std::string elements =
+      "$ELM\n4\n1 15 7 1 1 1\n2 2 5 1 3 1 2 3\n3 4 7 1 4 1 2 3 4\n4 4 8 2 4 2 4 3 9\n$ENDELM\n";
+  std::vector<std::string> notes;
+  Input input = openText(openMsh, nodes + "$NOTES\nx\n$ENDNOTES\n" + elements, {}, &notes);
+  const SvMesh m = readAll(input);
+  EXPECT_EQ(m.positions.size(), 15u);
+  EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {1, 3, 2, 4}}));
+  ASSERT_FALSE(m.schema.cell_data.empty());
+  EXPECT_EQ(m.schema.cell_data[0].name, "gmsh:physical");
+  EXPECT_EQ(m.cell_data[0], (std::vector<double>{7, 8}));
+  EXPECT_EQ(m.schema.face_count, 1);
+  EXPECT_TRUE(anyNote(notes, "the section $NOTES is left out"));
+  const struct {
+    std::string text, problem;
+  } cases[] = {
+      {"$NOD\n", "ends where the number of nodes"},
+      {nodes + "$ELM\n1\n1 4 7 1 5 1 2 3 4\n", "line 11: element 1 has 5 nodes, not 4"},
+      {nodes + "$ELM\n1\n1 4 7 1 4 1 2 3 8\n", "line 11: element 1 uses node 8"},
+      {nodes + "$ELM\n1\n1 4 7 1 4 1 2 3 4\n$EndElements\n", "where $ENDELM should be"},
+      {nodes + nodes + elements, "a second section of nodes"},
+      {nodes, "no tetrahedron"},
+  };
+  for (const auto& c : cases)
+    EXPECT_NE(problemOf(openMsh, c.text).find(c.problem), std::string::npos)
+        << problemOf(openMsh, c.text) << "\nwanted: " << c.problem;
+}
+
+// Format 4.0, as text or binary: an entity before its dimension, a node's tag beside its place. Of
+// a point of the model, a surface with parameters, and two volumes.
+Bytes fileOf40(bool binary) {
+  Bytes file;
+  const auto say = [&file](const std::string& text) {
+    file.insert(file.end(), text.begin(), text.end());
+  };
+  const auto put = [&](const auto... numbers) {
+    const auto one = [&](auto number) {
+      if (!binary)
+        return say((std::is_integral_v<decltype(number)> ? std::to_string(int64_t(number))
+                                                         : std::to_string(number)) +
+                   " ");
+      const auto* bytes = reinterpret_cast<const unsigned char*>(&number);
+      file.insert(file.end(), bytes, bytes + sizeof number);
+    };
+    (one(numbers), ...);
+    if (!binary) say("\n");
+  };
+  const auto boxed = [&](int32_t tag, auto... more) { put(tag, 0., 0., 0., 1., 1., 1., more...); };
+  say(binary ? "$MeshFormat\n4 1 8\n" : "$MeshFormat\n4.0 0 8\n");
+  if (binary) put(int32_t{1});
+  say("\n$EndMeshFormat\n$Entities\n");
+  put(uint64_t{1}, uint64_t{0}, uint64_t{1}, uint64_t{2});
+  boxed(1, uint64_t{1}, 3);
+  boxed(6, uint64_t{1}, 9, uint64_t{0});
+  boxed(1, uint64_t{1}, 4, uint64_t{1}, 6);
+  boxed(2, uint64_t{2}, 5, 6, uint64_t{1}, -6);
+  say("\n$EndEntities\n$Nodes\n");
+  put(uint64_t{2}, uint64_t{5});
+  put(6, 2, 1, uint64_t{2});
+  put(70, 0., 0., 0., 0.1, 0.2);
+  put(3, 1., 0., 0., 0.3, 0.4);
+  put(1, 3, 0, uint64_t{3});
+  put(90, 0., 1., 0.);
+  put(4, 0., 0., 1.);
+  put(5, 1., 1., 1.);
+  say("\n$EndNodes\n$Elements\n");
+  put(uint64_t{3}, uint64_t{3});
+  put(6, 2, 2, uint64_t{1});
+  put(10, 70, 3, 90);
+  put(1, 3, 4, uint64_t{1});
+  put(30, 70, 3, 90, 4);
+  put(2, 3, 4, uint64_t{1});
+  put(20, 3, 90, 4, 5);
+  say("\n$EndElements\n");
+  return file;
+}
+
+TEST(MshSections, OfFormat40AreRead) {
+  for (const bool binary : {false, true}) {
+    std::vector<std::string> notes;
+    Input input = openBytes(openMsh, fileOf40(binary), &notes);
+    const SvMesh m = readAll(input);
+    EXPECT_EQ(m.positions, (std::vector<double>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}));
+    EXPECT_EQ(m.cells, (std::vector<std::array<int64_t, 4>>{{0, 1, 2, 3}, {1, 2, 3, 4}}));
+    ASSERT_EQ(m.schema.cell_data.size(), 2u);
+    EXPECT_EQ(m.cell_data[0], (std::vector<double>{4, 5}));
+    EXPECT_EQ(m.cell_data[1], (std::vector<double>{1, 2}));
+    EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 9}}));
+    EXPECT_TRUE(anyNote(notes, "1 physical groups of entities that are in another one"));
+    expectSurvives(openMsh, fileOf40(binary));
+  }
+}
+
 }  // namespace
 }  // namespace tetstream

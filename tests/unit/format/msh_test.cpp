@@ -455,7 +455,7 @@ TEST(Msh, SaysWhatIsWrongAndWhere) {
   } cases[] = {
       {"", "where $MeshFormat should be"},
       {"$MeshFormat\n1 0 8\n", "version 1 of Gmsh's format"},
-      {"$MeshFormat\n4 0 8\n", "version 4 of Gmsh's format"},
+      {"$MeshFormat\n4.2 0 8\n", "version 4.2 of Gmsh's format"},
       {"$MeshFormat\n4.1 1 5\n", "the size of numbers is 5, not 4 or 8"},
       {head + "$Nodes\n1152921504606846976\n", "1152921504606846976 nodes cannot be in the"},
       {head + "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n", "node 1 is there twice"},
