@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "patch_sweep.h"
@@ -16,6 +17,7 @@ class Lane {
   Lane(Core<S>& core, Account& account)
       : core_(core), account_(account), room_(account), sweep_(std::in_place, core, account) {}
 
+  // For a window: as PatchSweep::begin.
   void begin(const Goal& goal, double unit);
 
   PatchSweep<S>& sweep() { return *sweep_; }

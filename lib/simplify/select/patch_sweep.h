@@ -21,8 +21,9 @@ class PatchSweep {
   // of those that do take longer than all others.
   static constexpr uint32_t kLargestStar = 1024;
 
-  // What outlasts a patch. Errors are in units of the whole, up to a power of two: rounded, they
-  // order alike in whatever units the mesh is. And what was done since it was last asked for.
+  // What outlasts a patch: what it is worked on for, and what was done since that was last asked
+  // for. Errors are in units of the whole, up to a power of two: rounded, they order alike in
+  // whatever units the mesh is.
   struct State {
     Goal goal{};
     double unit = 1;
