@@ -55,7 +55,7 @@ NAMES = {
     "type_traits": """conditional_t is_enum_v is_floating_point_v is_integral_v is_same_v
         is_trivially_copyable_v is_void_v make_unsigned_t""",
     "unordered_map": "unordered_map",
-    "utility": "declval exchange in_range move pair swap",
+    "utility": "declval exchange in_place in_range move pair swap",
     "variant": "variant",
     "vector": "vector",
 }
