@@ -83,7 +83,7 @@ class Parser {
   void addIn(CLI::App* command);
   void addOut(CLI::App* command);
   void addFormat(CLI::App* command);
-  void addReport(CLI::App* command);
+  void addReport(CLI::App* command, const char* what = "Form of the closing report (default text)");
   void addProgress(CLI::App* command);
   void addTraces(CLI::App* command);
   CLI::Option* addTableOption(CLI::App* command, const tetstream_option_info& info);
@@ -203,10 +203,14 @@ void Parser::addFormat(CLI::App* command) {
           "Format of what is -, or of OUT if nothing is (default tets)");
 }
 
-void Parser::addReport(CLI::App* command) {
-  addWord(command, "--report", arguments_.report, "text|json",
-          "Form of the closing report (default text)")
-      ->check(CLI::IsMember({"text", "json"}));
+void Parser::addReport(CLI::App* command, const char* what) {
+  CLI::Option* const form = addWord(command, "--report", arguments_.report, "text|json", what)
+                                ->check(CLI::IsMember({"text", "json"}));
+  command
+      ->add_flag_callback(
+          "--json", [this] { arguments_.report = "json"; }, "The same as --report json")
+      ->excludes(form)
+      ->option_text(" ");  // which would say what it excludes
 }
 
 void Parser::addProgress(CLI::App* command) {
@@ -276,7 +280,7 @@ void Parser::addInfo(CLI::App* command) {
   addArgument(command, "FILE", arguments_.in.path, "The mesh: a file, or - for standard input");
   addWord(command, "--format,--format-in", arguments_.in.format, "NAME",
           "Format of FILE (its extension, tets for -)");
-  command->add_flag("--json", arguments_.json, "Print one JSON object");
+  addReport(command, "Form of what is said (default text)");
   addStreamOptions(command);
   addProgress(command);
 }

@@ -21,7 +21,6 @@ struct Arguments {
   std::string kind;                    // of generate
   std::string report;                  // "text", "json"; empty: not asked for
   Place map, log;                      // simplify; no path: not asked for
-  bool json = false;                   // info
   std::string title;                   // diagram, compare
   int32_t columns = 1200, rows = 800;  // diagram: of the raster
   bool sweep = false;                  // diagram: that page

@@ -225,8 +225,8 @@ ExitCode info(const Arguments& arguments) {
   front.struct_size = sizeof front;
   check(tetstream_reader_get_front(reader.get(), &front), reader.get());
   const FaceLabels labels = faceLabelsOf(reader.get());
-  printOut(arguments.json ? infoJson(arguments, found, labels, front, notes)
-                          : infoText(found, labels, front));
+  printOut(arguments.report == "json" ? infoJson(arguments, found, labels, front, notes)
+                                      : infoText(found, labels, front));
   return exitCodeOf(status);
 }
 

@@ -387,7 +387,9 @@ class WindowedEngine final : public Simplifier::Engine {
     if (core_.tally.error_reached)
       r.reached = "error";
     else if (by_count && r.cells_out <= r.target_cells)
-      r.reached = std::min(target.cells, r.cells_in) == r.target_cells ? "cells" : "ratio";
+      r.reached = target.cells > 0 && std::min(target.cells, r.cells_in) == r.target_cells
+                      ? "cells"
+                      : "ratio";
     else if (by_count)
       r.limited_by = missInWords(core_);
   }

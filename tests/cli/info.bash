@@ -24,6 +24,8 @@ for row in "vertices      5" "cells         2" "box           0 .. 1, 0 .. 1, 0 
 done
 expect 0 info --json - --format sva <two.sva
 json=$out
+expect 0 info --report json - --format sva <two.sva
+[[ $out == "$json" ]] || fail "info --report json is not info --json"
 for pair in indexed:false vertices:5 cells:2 front_width:4 front_cells:1 components:1 \
   mean_width:4 mean_span:4 mean_life:1.6 longest_life:2 window_cells:64; do
   [[ $(member "$json" "${pair%:*}") == "${pair#*:}" ]] || fail "${pair%:*} is not ${pair#*:}"

@@ -102,6 +102,9 @@ if [[ -n ${TETSTREAM_PYTHON:-} ]]; then
   printf '%s' "$json" | "$TETSTREAM_PYTHON" -m json.tool >/dev/null || fail "no JSON: $json"
 fi
 expect_error 1 "--report" simplify in.tets out.tets --ratio 0.5 --report xml
+expect 0 simplify in.tets out.tets --ratio 0.5 --json
+member "$out" "cells_out" >/dev/null
+expect_error 1 "--json" simplify in.tets out.tets --ratio 0.5 --json --report text
 
 # What reader and writer left out is told to programs, too, with or without --quiet.
 printf '%s\n' '# vtk DataFile Version 3.0' two ASCII 'DATASET UNSTRUCTURED_GRID' 'POINTS 5 float' \

@@ -11,6 +11,11 @@ tetstream generate fluid fluid.vtk --cells 20000 --quiet
 LC_ALL=C sed 's/density/p/; s/velocity/u/' fluid.vtk >jet.vtk
 tetstream convert jet.vtk jet.vtu --quiet
 cp jet.vtu in.vtu
+{
+  echo '<VTKFile type="Collection"><Collection>'
+  for step in {0..9}; do echo "<DataSet timestep='$step' file='jet.vtu'/>"; done
+  echo '</Collection></VTKFile>'
+} >jet.pvd
 
 # ------------------------------------------------------------------------------------- the commands
 count=0
@@ -23,7 +28,7 @@ done < <(for page in tetstream-{simplify,info,convert,layout,generate,diagram,co
   sed -n '/^\.Sh EXAMPLES/,/^\.Sh/{/^\.Dl /p}' "$TETSTREAM_SOURCE/man/man1/$page.1"
 done)
 ((count >= 20)) || fail "only $count commands were found"
-for file in jet-10.vtu small.vtu close.vtu out.tets report.json out.tetmap jet.msh jet.tets.zst jet.tets \
+for file in jet-10.vtu small.vtu close.vtu out.tets report.json step-9.vtu out.tetmap jet.msh jet.tets.zst jet.tets \
   ball.vtu jet-layout.svg jet-sweep.png jet-10.png _tetstream; do
   [[ -s $file ]] || fail "$file was not made"
 done

@@ -13,16 +13,16 @@ void Lane<S>::begin(const Goal& goal, double unit) {
   if (core_.tracer && core_.tracer->tracesPoints()) reshaper_->observe(core_.tracer);
 }
 
-// Whether nothing but the patch, which is not stored, knows what was done to it: curves, labelled
-// faces, cell data and what is traced follow each change.
+// Whether nothing but the patch, which is not stored, knows what was done to it: integers of
+// vertices, cell data, curves, labelled faces and what is traced follow each change.
 template <class S>
 bool Lane<S>::canForget(const Tally& before) const {
   const Tally& now = sweep_->state().tally;
   if (sweep_->isStored()) return false;
   if (now.collapses == before.collapses && now.flips == before.flips) return true;
-  const bool has_cell_data = core_.plan.cell_means > 0 || core_.plan.cell_picks > 0;
-  return !core_.tracer && !has_cell_data && core_.window.curves.empty() &&
-         !core_.window.faces.anyPlaced();
+  const Plan& plan = core_.plan;
+  return plan.picks == 0 && plan.cell_means == 0 && plan.cell_picks == 0 && !core_.tracer &&
+         core_.window.curves.empty() && !core_.window.faces.anyPlaced();
 }
 
 // Without the patch and the arrays that it took.
