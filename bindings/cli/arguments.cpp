@@ -210,7 +210,7 @@ void Parser::addReport(CLI::App* command, const char* what) {
       ->add_flag_callback(
           "--json", [this] { arguments_.report = "json"; }, "The same as --report json")
       ->excludes(form)
-      ->option_text(" ");  // which would say what it excludes
+      ->option_text(" ");  // in place of what it excludes
 }
 
 void Parser::addProgress(CLI::App* command) {

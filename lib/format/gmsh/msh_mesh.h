@@ -30,7 +30,8 @@ struct MshMesh {
   FileScan& file;
   NumberScan numbers;
   const ReadOptions& options;
-  bool version_4 = false, is_4_0 = false;
+  bool version_4 = false;  // 4.1, or 4.0
+  bool is_4_0 = false;
   size_t size_bytes = 8;  // of a count in version 4
   MshHints hints;
   std::unique_ptr<MeshIntake> intake;                    // from the nodes on

@@ -58,6 +58,7 @@ TEST(SimplifierTarget, IsReachedForARangeThatCannotBeDividedBy) {
   expectAllRatiosReached(gridWith(
       gridSide(), [](double x, double, double) { return 1e-41 * x; }, ScalarType::kFloat32));
 }
+
 TEST(SimplifierTarget, OfAMeshWithoutCellsIsItsRatio) {
   Recorder out;
   Simplifier simplifier(toRatio(0.5), out, {});
