@@ -66,6 +66,18 @@ static void askForLargePages(void* data, size_t bytes) {
 #endif
 }
 
+void askForPages(void* data, size_t bytes) noexcept {
+#ifdef MADV_POPULATE_WRITE
+  static const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto first = reinterpret_cast<uintptr_t>(data);
+  const uintptr_t begin = (first + page - 1) / page * page, end = (first + bytes) / page * page;
+  // note: before Linux 5.14 they come one by one.
+  if (begin + page < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+#else
+  (void)data, (void)bytes;
+#endif
+}
+
 void* reallocateBytes(Account& account, void* old, size_t old_bytes, size_t new_bytes) {
   if (new_bytes == old_bytes) return old;
   if (new_bytes > old_bytes) account.charge(new_bytes - old_bytes);

@@ -27,7 +27,9 @@ Patch<S>::Patch(Account& account, Window<S>& window)
 
 template <class T>
 static void ensure(Array<T>& array, size_t size) {
-  if (array.size() < size) array.resize(size + size / 4);
+  if (array.size() >= size) return;
+  array.resize(size + size / 4);
+  array.expect(0, size);
 }
 
 template <class S>
@@ -60,6 +62,7 @@ void Patch<S>::loadVertex(uint32_t slot) {
     ensure(global_vertex_, v + std::min<size_t>(v / 2 + 64, 1024));
     flags_.resize(global_vertex_.size());
     values_.resize(global_vertex_.size() * value_stride_ + 3);
+    values_.expect(v * value_stride_, values_.size());
   }
   local_of_[slot] = static_cast<uint16_t>(v);
   global_vertex_[v] = slot;

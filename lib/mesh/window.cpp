@@ -26,6 +26,49 @@ void Window<S>::sizeCells() {
   first_points_.resize(shape_.points ? n : 0);
 }
 
+// Some more than will come: pages are asked for by the dozen.
+template <class S>
+void Window<S>::expect(size_t cells, size_t vertices) {
+  constexpr size_t kCells = size_t{1} << 12, kVertices = size_t{1} << 10;
+  const size_t cell_end = std::min(mesh.cellEnd() + cells, mesh.cellCapacity());
+  if (cell_end > expected_cells_) {
+    const size_t first = expected_cells_;
+    expected_cells_ = std::min(std::max(cell_end, first + kCells), mesh.cellCapacity());
+    expectCells(first, expected_cells_);
+  }
+  const size_t vertex_end = std::min(mesh.vertexEnd() + vertices, mesh.vertexCapacity());
+  if (vertex_end > expected_vertices_) {
+    const size_t first = expected_vertices_;
+    expected_vertices_ = std::min(std::max(vertex_end, first + kVertices), mesh.vertexCapacity());
+    expectVertices(first, expected_vertices_);
+  }
+}
+
+template <class S>
+void Window<S>::expectCells(size_t first, size_t end) {
+  mesh.expectCells(first, end);
+  const auto rows = [first, end](auto& array, size_t stride) {
+    array.expect(first * stride, end * stride);
+  };
+  rows(cell_means_, static_cast<size_t>(meansStride()));
+  rows(cell_picks_, static_cast<size_t>(shape_.cell_picks));
+  rows(first_points_, shape_.points ? 1 : 0);
+}
+
+template <class S>
+void Window<S>::expectVertices(size_t first, size_t end) {
+  mesh.expectVertices(first, end);
+  const auto rows = [first, end](auto& array, size_t stride) {
+    array.expect(first * stride, end * stride);
+  };
+  rows(values_, static_cast<size_t>(shape_.values));
+  rows(quadrics_, static_cast<size_t>(shape_.quadric));
+  rows(picks_, static_cast<size_t>(shape_.picks));
+  rows(out_rank_, 1);
+  rows(origins_, shape_.origins ? 1 : 0);
+  rows(remap_, 1);
+}
+
 template <class S>
 void Window<S>::growCells(size_t capacity) {
   const size_t before = mesh.cellCapacity();

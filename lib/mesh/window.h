@@ -106,6 +106,9 @@ class Window {
   // 32 bits per vertex that no step owns: of use until the next step begins.
   uint32_t* scratch() { return remap_.data(); }
 
+  // So many more cells and vertices will come soon, if the window has room.
+  void expect(size_t cells, size_t vertices);
+
   // When memory does not suffice they throw, and the window is as it was.
   void growCells(size_t capacity);
   void growVertices(size_t capacity);
@@ -119,6 +122,8 @@ class Window {
   int meansStride() const { return shape_.cell_means ? 1 + shape_.cell_means : 0; }
   void sizeVertices();
   void sizeCells();
+  void expectCells(size_t first, size_t end);
+  void expectVertices(size_t first, size_t end);
   uint32_t chooseVertices(uint64_t* unused);
   void moveVertices(uint32_t end);
   void packCells(uint32_t kept_vertices);
@@ -132,6 +137,7 @@ class Window {
   Array<int64_t> cell_picks_;
   Array<uint32_t> first_points_;
   Array<uint32_t> remap_;
+  size_t expected_cells_ = 0, expected_vertices_ = 0;  // all that were so far
 };
 
 template <class S>

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <limits>
 
+#include "memory.h"
 #include "mix.h"
 
 namespace tetstream {
@@ -21,6 +22,8 @@ static int longestOf(const double extent[3]) {
 Bricks::Bricks(const Schema& schema, int64_t most_bytes) {
   const uint64_t count = std::bit_floor(static_cast<uint64_t>(most_bytes) / sizeof(cells_[0]));
   assert(count > 0);
+  cells_.reserve(count + 1);
+  askForPages(cells_.data(), (count + 1) * sizeof(cells_[0]));
   cells_.resize(count + 1);
   double side[3];
   for (size_t i = 0; i < 3; ++i) {

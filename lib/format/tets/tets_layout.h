@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "memory.h"
 #include "schema.h"
 
 namespace tetstream::tets {
@@ -36,6 +37,7 @@ inline void makeZeros(std::vector<unsigned char>& bytes, size_t count) {
   if (count > bytes.capacity()) {
     bytes = {};
     bytes.reserve(count + count / 8);
+    askForPages(bytes.data(), count);
   }
   bytes.resize(count);
 }

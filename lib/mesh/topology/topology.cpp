@@ -33,6 +33,17 @@ void Topology::growVertices(size_t capacity) {
   vertex_flags_.resize(capacity);
 }
 
+void Topology::expectCells(size_t first, size_t end) {
+  vertex_of_.expect(4 * first, 4 * end);
+  if (linked_) next_.expect(4 * first, 4 * end);
+  cell_flags_.expect(first, end);
+}
+
+void Topology::expectVertices(size_t first, size_t end) {
+  if (linked_) first_corner_.expect(first, end);
+  vertex_flags_.expect(first, end);
+}
+
 uint32_t Topology::addVertex(uint8_t flags) {
   const uint32_t v = vertex_end_++;
   if (linked_) first_corner_[v] = kNone;

@@ -92,6 +92,10 @@ class Topology {
   void growCells(size_t capacity);
   void growVertices(size_t capacity);
 
+  // Those slots will be taken soon.
+  void expectCells(size_t first, size_t end);
+  void expectVertices(size_t first, size_t end);
+
   uint32_t addVertex(uint8_t flags);
   uint32_t addCell(const uint32_t corners[4], uint8_t flags);
 

@@ -47,6 +47,7 @@ void Intake<S>::startBatch(const BatchView& batch) {
          static_cast<unsigned long long>(declared_));
   batch_ = batch;
   declared_ += batch.vertex_count;
+  core_.window.expect(batch.cell_count, batch.vertex_count);
   if (batch.face_count > 0) startFaces();
   if (batch.edge_count > 0) takeLocks();
 }

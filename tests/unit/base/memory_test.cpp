@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "random.h"
 #include "scalar.h"
@@ -169,6 +173,56 @@ TEST(Array, SaysWhenTheSystemHasNoMemory) {
   EXPECT_EQ(array.size(), 10u);
 }
 #endif
+
+// Of the whole pages of the bytes [first, end), those that are in memory.
+size_t residentPages(const Array<char>& array, size_t first, size_t end) {
+  const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
+  const auto data = reinterpret_cast<uintptr_t>(array.data());
+  const uintptr_t from = (data + first + page - 1) / page * page, to = (data + end) / page * page;
+  std::vector<unsigned char> states((to - from) / page);
+  EXPECT_EQ(mincore(reinterpret_cast<void*>(from), to - from, states.data()), 0);
+  return static_cast<size_t>(
+      std::count_if(states.begin(), states.end(), [](unsigned char s) { return s & 1; }));
+}
+
+bool pagesComeAtOnce() {
+#ifdef MADV_POPULATE_WRITE
+  void* const page = mmap(nullptr, 1, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  const bool known = madvise(page, 1, MADV_POPULATE_WRITE) == 0;
+  munmap(page, 1);
+  return known;
+#else
+  return false;
+#endif
+}
+
+// Of less than what lies on large pages.
+constexpr size_t kExpected = size_t{1} << 20;
+
+TEST(Array, HasThePagesOfWhatIsExpected) {
+  Account account;
+  Array<char> array(account, 3 * kExpected);
+  array[0] = 'a';
+  const size_t beyond = residentPages(array, kExpected, 3 * kExpected);
+  array.expect(0, kExpected);
+  EXPECT_EQ(array[0], 'a');
+  EXPECT_EQ(residentPages(array, kExpected, 3 * kExpected), beyond);
+  const size_t wanted = kExpected / static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  if (pagesComeAtOnce()) {
+    EXPECT_GE(residentPages(array, 0, kExpected), wanted - 1);
+  }
+  array.expect(2 * kExpected, 2 * kExpected);
+  array.expect(2 * kExpected, 2 * kExpected + 1);  // less than a page
+  EXPECT_EQ(residentPages(array, kExpected, 3 * kExpected), beyond);
+}
+
+TEST(Array, UnderABudgetHasNoPageBeforeItIsWritten) {
+  Account account(4 * kExpected);
+  Array<char> array(account, 3 * kExpected);
+  const size_t before = residentPages(array, 0, 3 * kExpected);
+  array.expect(0, 3 * kExpected);
+  EXPECT_EQ(residentPages(array, 0, 3 * kExpected), before);
+}
 
 TEST(Array, HandsItsMemoryOverWhenMoved) {
   Account account;
