@@ -136,10 +136,11 @@ void SweepSelector<S>::cut(float bound, TileLayout layout) {
 template <class S>
 void SweepSelector<S>::sweep(double bound, int approaches, const std::function<void()>& tick) {
   if (mustStop()) return;
+  bool are_stuck = false;
   for (bool first = true;; first = false) {
     cut(bound > 0 ? static_cast<float>(bound) : kNoBound, layout());
     if (!(bound > 0)) bound = firstBound();
-    if (makeDearWhereFewAreLeft(core_))
+    if (makeDearWhereFewAreLeft(core_, are_stuck))
       for (auto& lane : lanes_) lane->begin(goal_, unit_);
     const int64_t before = core_.window.liveCells();
     const Tally so_far = core_.tally;
@@ -157,8 +158,9 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
       lowerFloor();
       continue;
     }
-    if (!first)  // in that, most vertices are new
-      bounds_.learn(before - core_.window.liveCells(), tiling_.looking());
+    const int64_t taken = before - core_.window.liveCells();
+    if (!first) bounds_.learn(taken, tiling_.looking());  // in that, most vertices are new
+    are_stuck = bounds_.areStuck(taken, goal_);
     const double last = bound;
     const double wanted =
         on_the_way ? bounds_.onTheWay(bound, goal_) : bounds_.wanted(bound, goal_);

@@ -66,6 +66,16 @@ void SweepBounds<S>::learn(int64_t taken, int64_t looking) {
                         kLargestYield);
 }
 
+// Less than one cell in so many, with more to go; passes of most fields take an eighth. Of fewer
+// cells it tells nothing.
+constexpr int64_t kFewTaken = 64, kLeastToTell = 1024;
+
+template <class S>
+bool SweepBounds<S>::areStuck(int64_t taken, const Goal& goal) const {
+  const int64_t live = core_.window.liveCells();
+  return live >= kLeastToTell && kFewTaken * taken < live && kFewTaken * goal.left(live) > live;
+}
+
 // Errors for which a law holds count from here to the goal by this factor, at most.
 template <class S>
 double SweepBounds<S>::distance(double share_left, const Goal& goal) const {

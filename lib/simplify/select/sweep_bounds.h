@@ -28,6 +28,8 @@ class SweepBounds {
   double next(double bound, double wanted) const;
   // What a pass told: the cells that it took, and the vertices that had an edge below its bound.
   void learn(int64_t taken, int64_t looking);
+  // Whether a pass that took so many cells tells that higher bounds give next to nothing.
+  bool areStuck(int64_t taken, const Goal& goal) const;
   // The largest error that is worth to be made for the goal, in normalised units: few edges that
   // are legal must not make up for many that are not. What is left below it is tried by all means
   // before it is widened, towards a goal that is in reach; so many edges were refused by then.

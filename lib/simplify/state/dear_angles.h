@@ -32,12 +32,14 @@ void setDear(Core<S>& core, const std::vector<ThinAngle>& dear) {
 // on as much, in 1.2 times. From a tenth on ratios of 0.1 and more stay as they are.
 constexpr int64_t kFewLeft = 10;
 
-// Whether cells have become dear by it.
+// Whether cells have become dear by it, or because passes are stuck before that: what is left costs
+// much more than what the floor bars the way to. Where a field jumps meshes had 0.7 and 0.96 times
+// the RMS error at 0.1 and 0.05 by that, a bow shock 0.5 and 0.95, a kink 0.8 and 0.94, in as much
+// time.
 template <class S>
-bool makeDearWhereFewAreLeft(Core<S>& core) {
-  if (!core.dear.empty() || core.dear_when_few.empty() || !core.holdsAll() ||
-      kFewLeft * core.window.liveCells() >= core.stream_cells)
-    return false;
+bool makeDearWhereFewAreLeft(Core<S>& core, bool are_stuck) {
+  if (!core.dear.empty() || core.dear_when_few.empty() || !core.holdsAll()) return false;
+  if (!are_stuck && kFewLeft * core.window.liveCells() >= core.stream_cells) return false;
   setDear(core, core.dear_when_few);
   return true;
 }

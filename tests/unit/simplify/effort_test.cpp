@@ -60,6 +60,22 @@ TEST(Effort, IsMadeWhereFewCellsAreLeft) {
   EXPECT_TRUE(simplified(mesh, threads).out.allBytes() == few.out.allBytes());
 }
 
+// A jump across the mesh: what costs next to nothing goes in a few passes, and what costs much more
+// has to wait until shapes bar the way no longer.
+TEST(Effort, IsMadeWherePassesTakeNextToNothing) {
+  const int n = slowRun() ? 12 : 20;
+  TestMesh mesh = fullGrid(n, n, n, 0.1);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [n](double x, double y, double z) {
+    return std::hypot(x, y, z) < 0.8 * n ? 1.0 : 0.0;
+  });
+  const Result normal = simplified(mesh, with(Effort::kNormal, 0.15));
+  expectSound(mesh, normal);
+  expectReached(normal);
+  EXPECT_GT(normal.report.flips, 0);
+  const Result high = simplified(mesh, with(Effort::kHigh, 0.15));
+  EXPECT_LT(fieldErrors(mesh, normal.out.mesh)[0], 1.15 * fieldErrors(mesh, high.out.mesh)[0]);
+}
+
 TEST(Effort, GoesWithShapesForSolvers) {
   const TestMesh mesh = withALayer(slowRun() ? 6 : 12);
   SimplifyOptions options = with(Effort::kHigh, 0.1);
