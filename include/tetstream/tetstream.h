@@ -40,7 +40,7 @@
  *   and a writer of different simplifiers.
  *   Simplifiers, comparisons and readers of some formats work with threads of their own (option
  *   `threads`), which end with the handle, or with the caller's (tetstream_options_set_pool). With
- *   one thread or the option `memory` the caller's thread does everything.
+ *   one thread, or a small option `memory`, the caller's thread does everything.
  *   Callbacks are called on the caller's thread alone, and pipes are written there. With three
  *   threads and more, a pipe is read ahead by another one.
  *   A thread that is cancelled (pthread_cancel, deferred as it is by default) inside a call ends

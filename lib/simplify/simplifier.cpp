@@ -38,7 +38,7 @@ class WindowedEngine final : public Simplifier::Engine {
       : plan_(std::move(plan)),
         options_(options),
         progress_(progress),
-        account_(static_cast<size_t>(options.memory_bytes)),
+        account_(static_cast<size_t>(std::max(options.memory_bytes, options.limit_bytes))),
         size_(windowSize<S>(plan_, options_)),
         capacity_(size_.first()),
         core_(plan_, options_, account_, static_cast<size_t>(capacity_), verticesOf(capacity_),
@@ -138,7 +138,8 @@ class WindowedEngine final : public Simplifier::Engine {
     try {
       work();
     } catch (const Error& error) {
-      if (error.status() != Status::kNoMemory || !account_.refused()) throw;
+      const bool is_planned = options_.memory_bytes > 0;
+      if (error.status() != Status::kNoMemory || !account_.refused() || !is_planned) throw;
       failForBudget(error.what());
     }
   }
@@ -438,7 +439,9 @@ Simplifier::Simplifier(const SimplifyOptions& options, Sink& out, ProgressFuncti
 
 Simplifier::~Simplifier() = default;
 
+// What is traced has memory of its own, which only a budget plans for.
 void Simplifier::begin(const Schema& schema) {
+  if (!sinks_.any()) options_ = planned(schema, options_);
   Plan plan = makePlan(schema, options_);
   plan.traces_vertices = sinks_.any();
   plan.traces_points = sinks_.map != nullptr;
@@ -463,25 +466,6 @@ void Simplifier::finish() {
   if (sinks_.map) sinks_.map->finish();
   if (sinks_.log) sinks_.log->finish();
   out_.finish();
-}
-
-int64_t Simplifier::windowCells(const Schema& schema, const SimplifyOptions& options) {
-  const Plan plan = makePlan(schema, carryingTooMany(schema, options));
-  const WindowSize size =
-      plan.double_window ? windowSize<double>(plan, options) : windowSize<float>(plan, options);
-  return size.first();
-}
-
-int64_t Simplifier::targetCells(const Schema& schema, const SimplifyOptions& options) {
-  return targetOf(schema, options).cellsOf(schema.cell_count);
-}
-
-std::vector<bool> Simplifier::measuredFields(const Schema& schema, const SimplifyOptions& options) {
-  const Plan plan = makePlan(schema, options);
-  std::vector<bool> measured;
-  for (const ColumnPlan& field : plan.fields)
-    measured.push_back(field.treatment == Treatment::kMeasured);
-  return measured;
 }
 
 Pilot Simplifier::pilot() const {

@@ -29,6 +29,8 @@ class Simplifier : public Sink {
   static int64_t targetCells(const Schema& schema, const SimplifyOptions& options);
   // Which fields are measured. Throws kBadArgument for some that the stream does not have.
   static std::vector<bool> measuredFields(const Schema& schema, const SimplifyOptions& options);
+  // Those that a run goes by: a budget that is ample for the stream is but a limit.
+  static SimplifyOptions planned(const Schema& schema, const SimplifyOptions& options);
   // Before begin: what is known of the stream from an earlier run.
   void follow(Pilot pilot) { pilot_ = std::move(pilot); }
   // Before begin: where to tell what became of the vertices.

@@ -67,14 +67,16 @@ void SweepBounds<S>::learn(int64_t taken, int64_t looking) {
 }
 
 // Less than one cell in so many, with more to go; passes of most fields take an eighth. Of fewer
-// cells it tells nothing, nor towards a limit on the error, to which steps become small.
+// cells it tells nothing, nor towards a limit on the error, to which steps become small. Bodies
+// without fields gain nothing by it.
 constexpr int64_t kFewTaken = 64, kLeastToTell = 1024;
 
 template <class S>
 bool SweepBounds<S>::areStuck(int64_t taken, const Goal& goal) const {
   const int64_t live = core_.window.liveCells();
-  return !std::isfinite(core_.error_limit) && live >= kLeastToTell && kFewTaken * taken < live &&
-         kFewTaken * goal.left(live) > live;
+  const bool tells =
+      core_.plan.measures() && !std::isfinite(core_.error_limit) && live >= kLeastToTell;
+  return tells && kFewTaken * taken < live && kFewTaken * goal.left(live) > live;
 }
 
 // Errors for which a law holds count from here to the goal by this factor, at most.

@@ -185,12 +185,15 @@ struct Core {
     return several && options.memory_bytes == 0 ? options.tasks : nullptr;
   }
 
+  size_t mostThreads() const {
+    return tasks() ? std::min(tasks()->threads(), options.most_threads) : 1;
+  }
+
   // Parts that all of the window is cut into, one for a thread. Each has arrays of its own, so that
   // threads write apart: of many they would take more memory than they save time.
   size_t mostParts() const {
     constexpr size_t kMostParts = 8;
-    const Tasks* const several = tasks();
-    return several ? std::min(several->threads(), kMostParts) : 1;
+    return std::min(mostThreads(), kMostParts);
   }
   // Where there is little to do another thread would come too late.
   size_t parts() const {

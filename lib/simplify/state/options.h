@@ -49,9 +49,11 @@ struct SimplifyOptions {
   Shape shape = Shape::kField;
   // High: smaller steps of the bound, flips and prices for thin cells whatever the input has.
   Effort effort = Effort::kNormal;
-  int64_t window_cells = 0;      // 0: from the front
-  int64_t memory_bytes = 0;      // 0: no limit
-  const Tasks* tasks = nullptr;  // for a sweep; null: the caller's thread alone
+  int64_t window_cells = 0;          // 0: from the front
+  int64_t memory_bytes = 0;          // 0: no limit
+  int64_t limit_bytes = 0;           // instead, of a budget for which nothing need be done without,
+  size_t most_threads = ~size_t{0};  // but threads
+  const Tasks* tasks = nullptr;      // for a sweep; null: the caller's thread alone
   // For comparisons, beyond what users are offered.
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
   double balance_ratio = 0;    // of the run that a sample is taken for; 0: this one's

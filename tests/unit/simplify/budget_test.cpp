@@ -3,7 +3,9 @@
 
 #include "budget.h"
 #include "mix.h"
+#include "simplifier.h"
 #include "simplify_testing.h"
+#include "tasks.h"
 
 namespace tetstream::test {
 namespace {
@@ -239,6 +241,59 @@ TEST(SimplifierMemory, StaysWithinItsBudgetOrSaysThatItCannot) {
   TestMesh mesh = gridWith(6, [](double x, double y, double z) { return x * y + z; });
   mesh.addIntegerCellData("id", [](size_t c) { return static_cast<int64_t>(c); });
   for (Mode mode : kModes) expectWithinBudget(mesh, mode);
+}
+
+// Of a budget that is a multiple of what a run takes nothing is to be seen but its limit, whatever
+// the number of threads; no smaller one does harm.
+TEST(SimplifierMemory, IsNotMissedWhereThereIsMuchMore) {
+  const TestMesh mesh = gridWith(slowRun() ? 8 : 14, [](double x, double y, double z) {
+    return std::tanh(x + y - z - 6) + 0.01 * z;
+  });
+  const Result free = simplified(mesh, toRatio(0.05));
+  const Tasks tasks(5);
+  bool was_bound = false;
+  for (const int64_t megabytes : {4, 16, 32, 48, 64, 256, 4096}) {
+    SimplifyOptions options = toRatio(0.05);
+    options.memory_bytes = megabytes << 20;
+    const Result within = simplified(mesh, options);
+    expectReached(within);
+    EXPECT_LE(within.report.peak_window_bytes, static_cast<uint64_t>(options.memory_bytes));
+    const bool is_bound = within.out.allBytes() != free.out.allBytes();
+    was_bound |= is_bound;
+    if (megabytes >= 64) {
+      EXPECT_FALSE(is_bound) << megabytes;
+    }
+    options.tasks = &tasks;
+    EXPECT_TRUE(simplified(mesh, options).out.allBytes() == within.out.allBytes()) << megabytes;
+  }
+  EXPECT_TRUE(was_bound);
+}
+
+// One for a stream whose length nobody knows is planned for, as in the paper's modes.
+TEST(SimplifierMemory, IsALimitAloneWhereAllThatIsNeededIsKnown) {
+  const TestMesh mesh = gridWith(6, [](double x, double y, double z) { return x * y + z; });
+  Schema schema = mesh.schema;
+  const auto isPlannedFor = [&](const SimplifyOptions& options) {
+    const SimplifyOptions planned = Simplifier::planned(schema, options);
+    EXPECT_EQ(planned.memory_bytes + planned.limit_bytes, options.memory_bytes);
+    return planned.memory_bytes > 0;
+  };
+  SimplifyOptions options = toRatio(0.2);
+  options.memory_bytes = int64_t{1} << 30;
+  schema.cell_count = -1;
+  EXPECT_TRUE(isPlannedFor(options));
+  schema.cell_count = static_cast<int64_t>(mesh.cellCount());
+  EXPECT_FALSE(isPlannedFor(options));
+  schema.vertex_count = schema.cell_count;  // cells far apart
+  EXPECT_TRUE(isPlannedFor(options));
+  schema.vertex_count = static_cast<int64_t>(mesh.vertexCount());
+  schema.cell_count = int64_t{1} << 60;  // says it, and of no front
+  EXPECT_TRUE(isPlannedFor(options));
+  schema.front_cells = int64_t{1} << 59;
+  EXPECT_TRUE(isPlannedFor(options));
+  schema.cell_count = static_cast<int64_t>(mesh.cellCount());
+  options.mode = Mode::kPaper;
+  EXPECT_TRUE(isPlannedFor(options));
 }
 
 // Also where not even the first arrays fit.

@@ -50,7 +50,7 @@ TEST(Effort, IsMadeWhereFewCellsAreLeft) {
   EXPECT_GT(few.report.flips, 0);
   EXPECT_EQ(simplified(mesh, with(Effort::kNormal, 0.11)).report.flips, 0);
   SimplifyOptions options = with(Effort::kNormal, 0.02);
-  options.memory_bytes = 64 << 20;
+  options.memory_bytes = 16 << 20;
   const Result within = simplified(mesh, options);
   EXPECT_EQ(within.report.flips, 0);
   EXPECT_LT(shareBelow(few.out.mesh, 10), 0.7 * shareBelow(within.out.mesh, 10));

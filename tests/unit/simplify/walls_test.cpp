@@ -97,7 +97,7 @@ TEST(Walls, AreReducedInTheSameWayHoweverTheyCome) {
     EXPECT_TRUE(simplified(mesh, options).out.allBytes() == one.out.allBytes());
   }
   SimplifyOptions within = toCells(0.1, 0);
-  within.memory_bytes = 64 << 20;
+  within.memory_bytes = 16 << 20;
   EXPECT_EQ(simplified(mesh, within).report.flips, 0);
   TestMesh small = withWaves(fullGrid(9, 9, 9));
   small.addIntegerCellData("body", [&](size_t c) { return columnOf(small, c); });
