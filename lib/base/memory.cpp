@@ -68,11 +68,11 @@ static void askForLargePages(void* data, size_t bytes) {
 
 void askForPages(void* data, size_t bytes) noexcept {
 #ifdef MADV_POPULATE_WRITE
-  static const auto page = static_cast<uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto first = reinterpret_cast<uintptr_t>(data);
-  const uintptr_t begin = (first + page - 1) / page * page, end = (first + bytes) / page * page;
-  // note: before Linux 5.14 they come one by one.
-  if (begin + page < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_POPULATE_WRITE);
+  static const auto page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
+  const size_t before = -reinterpret_cast<uintptr_t>(data) % page;
+  const size_t whole = bytes > before ? (bytes - before) / page * page : 0;
+  // note: a single one may as well come when it is written; before Linux 5.14 all do.
+  if (whole > page) madvise(static_cast<char*>(data) + before, whole, MADV_POPULATE_WRITE);
 #else
   (void)data, (void)bytes;
 #endif
