@@ -51,8 +51,8 @@ struct SimplifyOptions {
   Effort effort = Effort::kNormal;
   int64_t window_cells = 0;          // 0: from the front
   int64_t memory_bytes = 0;          // 0: no limit
-  int64_t limit_bytes = 0;           // instead, of a budget for which nothing need be done without,
-  size_t most_threads = ~size_t{0};  // but threads
+  int64_t limit_bytes = 0;           // instead: a budget that is large enough to plan nothing for
+  size_t most_threads = ~size_t{0};  // that simplify, under such a limit
   const Tasks* tasks = nullptr;      // for a sweep; null: the caller's thread alone
   // For comparisons, beyond what users are offered.
   double shape_weight = -1;    // of the regulariser; below 0: the mode's
