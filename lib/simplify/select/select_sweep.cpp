@@ -258,7 +258,7 @@ template <class S>
 template <class Work>
 void SweepSelector<S>::shareOut(size_t pieces, Work work) {
   const Tasks* const tasks = core_.tasks();
-  const size_t lanes = std::min(pieces, core_.mostThreads());
+  const size_t lanes = tasks ? std::min(pieces, core_.mostThreads()) : 1;
   while (lanes_.size() < lanes) addLane();
   if (lanes == 1)
     work(lane());
