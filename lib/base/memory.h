@@ -79,6 +79,13 @@ class Array {
     if (account_->limit() == 0 && first < end)
       askForPages(data_ + first, (end - first) * sizeof(T));
   }
+  // Resizes it, if need be, to so many elements, which will be written soon.
+  void makeRoomFor(size_t size) {
+    const size_t before = size_;
+    if (before >= size) return;
+    resize(size);
+    expect(before, size);
+  }
   void swap(Array& other) noexcept {
     std::swap(account_, other.account_);
     std::swap(data_, other.data_);

@@ -6,67 +6,72 @@
 
 namespace tetstream {
 
+// Numbers beyond the last row: rows are read four numbers at a time.
+constexpr size_t kReadBeyond = 3;
+
+// visit(array, numbers of a row, numbers beyond)
+template <class S>
+template <class Visit>
+void Window<S>::forVertexArrays(Visit visit) {
+  visit(values_, static_cast<size_t>(shape_.values), kReadBeyond);
+  visit(quadrics_, static_cast<size_t>(shape_.quadric), kReadBeyond);
+  visit(picks_, static_cast<size_t>(shape_.picks), size_t{0});
+  visit(out_rank_, size_t{1}, size_t{0});
+  visit(origins_, size_t{shape_.origins}, size_t{0});
+  visit(remap_, size_t{1}, size_t{0});
+}
+
+template <class S>
+template <class Visit>
+void Window<S>::forCellArrays(Visit visit) {
+  visit(cell_means_, static_cast<size_t>(meansStride()), size_t{0});
+  visit(cell_picks_, static_cast<size_t>(shape_.cell_picks), size_t{0});
+  visit(first_points_, size_t{shape_.points}, size_t{0});
+}
+
+static auto resizedTo(size_t rows) {
+  return [rows](auto& array, size_t row, size_t beyond) {
+    array.resize(checkedMultiply(rows, row) + beyond);
+  };
+}
+
+static auto expected(size_t first, size_t end) {
+  return [first, end](auto& array, size_t row, size_t) { array.expect(first * row, end * row); };
+}
+
 template <class S>
 void Window<S>::sizeVertices() {
-  const size_t n = mesh.vertexCapacity();
-  // note: three numbers more: rows are read four numbers at a time.
-  values_.resize(checkedMultiply(n, static_cast<size_t>(shape_.values)) + 3);
-  quadrics_.resize(checkedMultiply(n, static_cast<size_t>(shape_.quadric)) + 3);
-  picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.picks)));
-  out_rank_.resize(n);
-  origins_.resize(shape_.origins ? n : 0);
-  remap_.resize(n);
+  forVertexArrays(resizedTo(mesh.vertexCapacity()));
 }
 
 template <class S>
 void Window<S>::sizeCells() {
-  const size_t n = mesh.cellCapacity();
-  cell_means_.resize(checkedMultiply(n, static_cast<size_t>(meansStride())));
-  cell_picks_.resize(checkedMultiply(n, static_cast<size_t>(shape_.cell_picks)));
-  first_points_.resize(shape_.points ? n : 0);
+  forCellArrays(resizedTo(mesh.cellCapacity()));
 }
 
-// Some more than will come: pages are asked for by the dozen.
+// Pages are asked for by the dozen: expect(first, end) for so many rows or more beyond those that
+// were expected, up to `wanted`.
+template <class Expect>
+static void expectUpTo(size_t wanted, size_t least, size_t capacity, size_t* expected,
+                       Expect expect) {
+  const size_t first = *expected;
+  if (std::min(wanted, capacity) <= first) return;
+  *expected = std::min(std::max(wanted, first + least), capacity);
+  expect(first, *expected);
+}
+
 template <class S>
 void Window<S>::expect(size_t cells, size_t vertices) {
-  constexpr size_t kCells = size_t{1} << 12, kVertices = size_t{1} << 10;
-  const size_t cell_end = std::min(mesh.cellEnd() + cells, mesh.cellCapacity());
-  if (cell_end > expected_cells_) {
-    const size_t first = expected_cells_;
-    expected_cells_ = std::min(std::max(cell_end, first + kCells), mesh.cellCapacity());
-    expectCells(first, expected_cells_);
-  }
-  const size_t vertex_end = std::min(mesh.vertexEnd() + vertices, mesh.vertexCapacity());
-  if (vertex_end > expected_vertices_) {
-    const size_t first = expected_vertices_;
-    expected_vertices_ = std::min(std::max(vertex_end, first + kVertices), mesh.vertexCapacity());
-    expectVertices(first, expected_vertices_);
-  }
-}
-
-template <class S>
-void Window<S>::expectCells(size_t first, size_t end) {
-  mesh.expectCells(first, end);
-  const auto rows = [first, end](auto& array, size_t stride) {
-    array.expect(first * stride, end * stride);
-  };
-  rows(cell_means_, static_cast<size_t>(meansStride()));
-  rows(cell_picks_, static_cast<size_t>(shape_.cell_picks));
-  rows(first_points_, shape_.points ? 1 : 0);
-}
-
-template <class S>
-void Window<S>::expectVertices(size_t first, size_t end) {
-  mesh.expectVertices(first, end);
-  const auto rows = [first, end](auto& array, size_t stride) {
-    array.expect(first * stride, end * stride);
-  };
-  rows(values_, static_cast<size_t>(shape_.values));
-  rows(quadrics_, static_cast<size_t>(shape_.quadric));
-  rows(picks_, static_cast<size_t>(shape_.picks));
-  rows(out_rank_, 1);
-  rows(origins_, shape_.origins ? 1 : 0);
-  rows(remap_, 1);
+  expectUpTo(mesh.cellEnd() + cells, size_t{1} << 12, mesh.cellCapacity(), &expected_cells_,
+             [this](size_t first, size_t end) {
+               mesh.expectCells(first, end);
+               forCellArrays(expected(first, end));
+             });
+  expectUpTo(mesh.vertexEnd() + vertices, size_t{1} << 10, mesh.vertexCapacity(),
+             &expected_vertices_, [this](size_t first, size_t end) {
+               mesh.expectVertices(first, end);
+               forVertexArrays(expected(first, end));
+             });
 }
 
 template <class S>

@@ -122,8 +122,10 @@ class Window {
   int meansStride() const { return shape_.cell_means ? 1 + shape_.cell_means : 0; }
   void sizeVertices();
   void sizeCells();
-  void expectCells(size_t first, size_t end);
-  void expectVertices(size_t first, size_t end);
+  template <class Visit>
+  void forVertexArrays(Visit visit);
+  template <class Visit>
+  void forCellArrays(Visit visit);
   uint32_t chooseVertices(uint64_t* unused);
   void moveVertices(uint32_t end);
   void packCells(uint32_t kept_vertices);

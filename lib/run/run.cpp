@@ -112,7 +112,9 @@ struct SimplifyRun::State {
                     Simplifier::measuredFields(input.schema(), options.simplify));
     order_share = stream.share();
     order = stream.chosen();
-    options.simplify = Simplifier::planned(stream.source().schema(), options.simplify);
+    const bool is_traced = options.origins;
+    if (!is_traced)
+      options.simplify = Simplifier::planned(stream.source().schema(), options.simplify);
     PilotRun pilot(options, tasks, stream, [this](const Progress& p) { tell(p); });
     if (const std::optional<Pilot> found = pilot.run()) simplifier.follow(*found);
     pilot_share = pilot.share();

@@ -10,13 +10,14 @@ static WindowSize sizeOf(const Plan& plan, const SimplifyOptions& options) {
   return plan.double_window ? windowSize<double>(plan, options) : windowSize<float>(plan, options);
 }
 
-// note: whatever the number of threads, on which no result may depend.
+// A budget with room for so many is ample. note: whatever the number of threads, on which no result
+// may depend.
 constexpr int64_t kAmplePatches = 2;
 
 SimplifyOptions Simplifier::planned(const Schema& schema, const SimplifyOptions& options) {
   const Plan plan = makePlan(schema, carryingTooMany(schema, options));
   SimplifyOptions planned = options;
-  const int64_t patches = sizeOf(plan, options).patchesWithout();
+  const int64_t patches = sizeOf(plan, options).sparePatches();
   if (patches < kAmplePatches) return planned;
   planned.limit_bytes = std::exchange(planned.memory_bytes, 0);
   planned.most_threads = static_cast<size_t>(patches);

@@ -94,8 +94,8 @@ int64_t WindowSize::fitting() const {
 // None where the window may grow, or has many vertices to a cell. Beside it and the patches there
 // are batches that are read ahead, and of a longer stream a sample, and cells that wait for its
 // end.
-int64_t WindowSize::patchesWithout() const {
-  constexpr int64_t kBesideWhole = int64_t{8} << 20, kBeside = int64_t{48} << 20, kTimes = 2;
+int64_t WindowSize::sparePatches() const {
+  constexpr int64_t kBesideWhole = int64_t{8} << 20, kBeside = int64_t{48} << 20;
   if (options_.memory_bytes == 0 || followsPaper(options_.mode) || schema_.cell_count < 0 ||
       schema_.vertex_count > schema_.cell_count / 2)
     return 0;
@@ -103,9 +103,10 @@ int64_t WindowSize::patchesWithout() const {
   without.memory_bytes = 0;
   const int64_t cells = WindowSize(schema_, without, cell_bytes_, patch_vertex_bytes_).first();
   if (cells < schema_.cell_count && knownFront() < 0) return 0;
-  const int64_t patch = kTimes * tileVertices(without, patch_vertex_bytes_) * patch_vertex_bytes_;
+  // Walls take twice what is planned for a patch.
+  const int64_t patch = 2 * tileVertices(without, patch_vertex_bytes_) * patch_vertex_bytes_;
   const int64_t beside = cells < schema_.cell_count ? kBeside : kBesideWhole;
-  const int64_t left = options_.memory_bytes / kTimes - beside;
+  const int64_t left = options_.memory_bytes / 2 - beside;
   return cells < left / cell_bytes_ ? (left - cells * cell_bytes_) / patch : 0;
 }
 

@@ -29,9 +29,9 @@ class WindowSize {
         patch_vertex_bytes_(patch_vertex_bytes) {}
 
   int64_t cellBytes() const { return cell_bytes_; }
-  // Patches that may be worked on at a time in what the budget leaves of a multiple of all else
-  // that a run takes without one; 0: that is more.
-  int64_t patchesWithout() const;
+  // Patches, worked on at a time, that fit beside all else that a run takes without a budget; half
+  // of the budget is kept free.
+  int64_t sparePatches() const;
   // Cells of the first window. A budget that is smaller than four fronts gets what fits; whether
   // that is enough shows later.
   int64_t first() const;

@@ -85,10 +85,7 @@ const unsigned char* SectionReader::body() {
   const size_t step = bytes_->seekable() ? size : kStep;
   for (size_t done = 0; done < size;) {
     const size_t count = std::min(size - done, std::max(step, done));
-    if (body_.size() < done + count) {
-      body_.resize(done + count);
-      body_.expect(done, done + count);
-    }
+    body_.makeRoomFor(done + count);
     readFully(body_.data() + done, count);
     done += count;
   }

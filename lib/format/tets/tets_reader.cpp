@@ -189,11 +189,7 @@ void Reader::checkPlace() const {
 void Reader::unpack(uint32_t codec, const unsigned char* stored) {
   payload_ = stored;
   if (codec == kCodecNone) return;
-  const size_t bytes = shape_->payloadBytes();
-  if (unpacked_.size() < bytes) {
-    unpacked_.resize(bytes);
-    unpacked_.expect(0, bytes);
-  }
+  unpacked_.makeRoomFor(shape_->payloadBytes());
   if (!codec_.decompress(*shape_, stored, in_.head().value, unpacked_.data()))
     fail(Status::kBadData, "%s: its columns cannot be decompressed", in_.place().c_str());
   payload_ = unpacked_.data();

@@ -166,6 +166,32 @@ TEST(SimplifyRun, ReadsAMeshTwiceForAPilot) {
   }
 }
 
+struct Log final : LogSink {
+  void begin(const Schema&) override {}
+  void put(const LogRows&) override {}
+  void finish() override {}
+};
+
+// An ample budget is as none: all of a small mesh is read by a pilot. What is traced has memory
+// that only a budget that is planned for has room for.
+TEST(SimplifyRun, GoesByABudgetWhereItIsTraced) {
+  TestMesh mesh = richMesh();
+  RunOptions options = toRatio(0.2);
+  options.simplify.memory_bytes = int64_t{1} << 30;
+  for (bool traced : {false, true}) {
+    Recorder out;
+    Log log;
+    size_t pilots = 0;
+    SimplifyRun run(options, out,
+                    [&](const Progress& p) { pilots += p.phase == std::string("pilot"); });
+    if (traced) run.trace({nullptr, &log});
+    Input input = indexed(mesh);
+    run.run(input);
+    EXPECT_EQ(out.problem, "");
+    EXPECT_EQ(pilots == 0, traced);
+  }
+}
+
 TEST(SimplifyRun, CanBeCancelledWhileThePilotReads) {
   TestMesh mesh = richMesh();
   Recorder out;
