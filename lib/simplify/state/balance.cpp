@@ -10,9 +10,8 @@ namespace tetstream {
 namespace {
 
 constexpr double kLeastBalance = 1.0 / 128;
-// Beside interfaces that are rough, which follow nothing, twice as much: bodies of grains lost
-// corners.
-constexpr double kBesideRough = 0.5;
+// Beside interfaces that follow little, twice as much: bodies of grains and blocks lost corners.
+constexpr double kBesideFree = 0.5;
 // A step halves a weight. The logarithm of the product of both squared errors has to fall by so
 // much for it, or noise would take it; where more of the stream is to come, by more.
 constexpr double kWorth = 0.03, kWorthInStream = 0.1;
@@ -37,22 +36,22 @@ class Model {
  public:
   explicit Model(const RemovalCosts& costs) : costs_(costs) {}
 
-  struct Logs {
-    double field, sheet;  // of squared errors
-    double product() const { return field + sheet; }
+  struct Errors {
+    double field, outer, interfaces;  // squared
   };
 
-  // Of the sheet `of`, which is one of the groups.
-  Logs foretell(const Balance& balance, double ratio, const RemovalCosts::Group& of) {
+  Errors foretell(const Balance& balance, double ratio) {
     inside_ = items(costs_.inside, 0);
     outer_ = items(costs_.outer, balance.outer);
     interfaces_ = items(costs_.interfaces, balance.outer * balance.interfaces);
     const double log_cost = commonCost(ratio);
-    const double field = costs_.least_field + errorOf(inside_, kInsideLaw, log_cost, &Item::field) +
-                         errorOf(outer_, kSheetLaw, log_cost, &Item::field) +
-                         errorOf(interfaces_, kSheetLaw, log_cost, &Item::field);
-    const std::vector<Item>& sheet = &of == &costs_.outer ? outer_ : interfaces_;
-    return {std::log(field), std::log(errorOf(sheet, kSheetLaw, log_cost, &Item::sheet))};
+    Errors errors;
+    errors.field = costs_.least_field + errorOf(inside_, kInsideLaw, log_cost, &Item::field) +
+                   errorOf(outer_, kSheetLaw, log_cost, &Item::field) +
+                   errorOf(interfaces_, kSheetLaw, log_cost, &Item::field);
+    errors.outer = errorOf(outer_, kSheetLaw, log_cost, &Item::sheet);
+    errors.interfaces = errorOf(interfaces_, kSheetLaw, log_cost, &Item::sheet) / kInterfaceShare;
+    return errors;
   }
 
  private:
@@ -153,31 +152,60 @@ static bool isEnough(const RemovalCosts::Group& sheet) {
   return sheet.vertices >= kLeastVertices && sheet.sample.size() >= kLeastSamples;
 }
 
-// What lowering a weight asks for: so much of a gain for each step, and of the errors of the sheet
-// that they are at least this part of the fields' before it, and no more than that after it.
+// What lowering weights asks for: so much of a gain for each step, and of the error of a sheet that
+// it is at least this part of the fields' before it, and no more than that after it.
 struct Terms {
   double worth, least_share = kNegligible, most = std::numeric_limits<double>::infinity();
 };
 
-// Halves the weight as often as is worth it most. All are tried: of what is far too heavy nothing
-// moves at first.
-static void lower(Model& model, double ratio, const Terms& terms, const RemovalCosts::Group& sheet,
-                  double Balance::*weight, Balance* balance) {
-  const Model::Logs now = model.foretell(*balance, ratio, sheet);
-  if (!std::isfinite(now.product()) || now.sheet < now.field + std::log(terms.least_share)) return;
-  double least = now.product(), asked = 0;
-  Balance next = *balance;
-  // Interfaces fall with the boundary: those that are rough may fall as far as they like.
-  const double interfaces = balance->rough_interfaces ? kBesideRough : balance->interfaces;
-  const double besides = weight == &Balance::outer ? interfaces : balance->outer;
-  while (besides * next.*weight > kLeastBalance) {
-    next.*weight /= 2;
-    asked += terms.worth;
-    const Model::Logs then = model.foretell(next, ratio, sheet);
-    const double product = then.product() + asked;
-    if (!(product < least) || then.sheet > std::log(terms.most)) continue;
-    least = product;
-    balance->*weight = next.*weight;
+// Which weights are to be chosen.
+struct Sheets {
+  bool outer, interfaces;
+};
+
+// Interfaces fall with the boundary: those that may fall further by themselves are no limit.
+static bool canLowerOuter(const Balance& balance, bool with_interfaces) {
+  const bool are_free = with_interfaces || balance.rough_interfaces;
+  return (are_free ? kBesideFree : balance.interfaces) * balance.outer > kLeastBalance;
+}
+
+// However little the boundary counts, interfaces need not count more; nor do they count less then.
+static bool canLowerInterfaces(const Balance& balance) {
+  return balance.outer * balance.interfaces > kLeastBalance ||
+         kInterfaceShare * balance.interfaces > 2;
+}
+
+// Halves weights as often as is worth it most. All are tried: of what is far too heavy nothing
+// moves at first, and where a boundary bends beside interfaces that do so, too, each drives up the
+// other's error: of a head with three shells both came out twice as far off, and so did the field,
+// where the boundary's weight alone was lowered first.
+static void lower(Model& model, double ratio, const Terms& terms, Sheets sheets, Balance* balance) {
+  const Model::Errors now = model.foretell(*balance, ratio);
+  const auto counts = [&](double error) {
+    return std::isfinite(error) && error >= now.field * terms.least_share;
+  };
+  sheets.outer &= counts(now.outer);
+  sheets.interfaces &= counts(now.interfaces);
+  // The fields' error counts once for each sheet.
+  const auto product = [&](const Model::Errors& errors) {
+    const double times = sheets.outer && sheets.interfaces ? 2 : 1;
+    return times * std::log(errors.field) + std::log((sheets.outer ? errors.outer : 0) +
+                                                     (sheets.interfaces ? errors.interfaces : 0));
+  };
+  double least = product(now);
+  if (!std::isfinite(least)) return;
+  double asked_outer = 0;
+  for (Balance outer = *balance;; outer.outer /= 2, asked_outer += terms.worth) {
+    double asked = asked_outer;
+    for (Balance next = outer;; next.interfaces /= 2, asked += terms.worth) {
+      const Model::Errors then = model.foretell(next, ratio);
+      if (product(then) + asked < least && !(then.outer > terms.most)) {
+        least = product(then) + asked;
+        *balance = next;
+      }
+      if (!sheets.interfaces || !canLowerInterfaces(next)) break;
+    }
+    if (!sheets.outer || !canLowerOuter(outer, sheets.interfaces)) break;
   }
 }
 
@@ -191,11 +219,9 @@ constexpr double kOfWalls = 16, kDrowned = 64;
 constexpr double kOfTheField = 1;
 
 // Halves the weight until the field is heard.
-static void lowerInWalls(Model& model, double ratio, const RemovalCosts::Group& sheet,
-                         Balance* balance) {
-  const Model::Logs now = model.foretell(*balance, ratio, sheet);
-  const double most = now.field + std::log(kDrowned);
-  while (balance->outer > kLeastBalance && now.sheet + std::log(balance->outer) > most)
+static void lowerInWalls(Model& model, double ratio, Balance* balance) {
+  const Model::Errors now = model.foretell(*balance, ratio);
+  while (balance->outer > kLeastBalance && now.outer * balance->outer > now.field * kDrowned)
     balance->outer /= 2;
 }
 
@@ -256,8 +282,7 @@ constexpr double kNoErrors = 2;  // as `least_field`, which is in what is foreto
 static bool hasFields(Model& model, const RemovalCosts& costs, double ratio,
                       const Balance& balance) {
   if (costs.is_whole || !(costs.least_field > 0)) return true;
-  return model.foretell(balance, ratio, costs.outer).field >
-         std::log(kNoErrors * costs.least_field);
+  return model.foretell(balance, ratio).field > kNoErrors * costs.least_field;
 }
 
 void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
@@ -266,22 +291,23 @@ void chooseBalance(const RemovalCosts& costs, double ratio, Balance* balance) {
     balance->knows_interfaces = balance->rough_interfaces = true;
   }
   const bool is_wall = isWall(costs);
-  if (!is_wall && costs.inside.vertices < kLeastVertices) return;
+  const bool has_inside = costs.inside.vertices >= kLeastVertices;
+  if (!is_wall && !has_inside) return;
   Model model(costs);
   const double worth = costs.is_whole ? kWorth : kWorthInStream;
-  if (!balance->knows_outer && isEnough(costs.outer) && hasFields(model, costs, ratio, *balance)) {
-    if (costs.touching < kTouching) {
-      if (is_wall) lowerInWalls(model, ratio, costs.outer, balance);
-      const Terms terms = is_wall ? Terms{worth, kOfTheField, mostInGaps(costs)} : Terms{worth};
-      lower(model, ratio, terms, costs.outer, &Balance::outer, balance);
-    }
-    balance->knows_outer = true;
+  Sheets sheets;
+  sheets.outer =
+      !balance->knows_outer && isEnough(costs.outer) && hasFields(model, costs, ratio, *balance);
+  balance->knows_outer |= sheets.outer;
+  sheets.outer &= costs.touching < kTouching;
+  sheets.interfaces = has_inside && !balance->knows_interfaces && isEnough(costs.interfaces);
+  balance->knows_interfaces |= sheets.interfaces;
+  if (is_wall && sheets.outer) {
+    lowerInWalls(model, ratio, balance);
+    lower(model, ratio, {worth, kOfTheField, mostInGaps(costs)}, {true, false}, balance);
+    sheets.outer = false;
   }
-  if (costs.inside.vertices < kLeastVertices) return;
-  if (!balance->knows_interfaces && isEnough(costs.interfaces)) {
-    lower(model, ratio, {worth}, costs.interfaces, &Balance::interfaces, balance);
-    balance->knows_interfaces = true;
-  }
+  lower(model, ratio, {worth}, sheets, balance);
 }
 
 double usualCost(double* costs, size_t count) {

@@ -4,7 +4,8 @@
 // One weight of the boundary does not suit all: where it bends more than the fields do, nearly all
 // vertices that are left lie on it, and few more inside would halve the fields' error. The weight
 // with the least product of the RMS errors of the fields and of the sheet is looked for, downwards
-// from the one that was asked for, with errors foretold from a sample of the mesh as it comes:
+// from the one that was asked for; of the boundary and of interfaces at once, where both bend, since
+// either takes what is left of the other. Errors are foretold from a sample of the mesh as it comes:
 //   What is added by taking a vertex out, c, grows with the length of edges, s times that of the
 //   input: inside as s^7 (a squared error, s^4, times a volume), on a sheet as s^6 (s^4 times an
 //   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that
@@ -29,6 +30,13 @@ namespace tetstream {
 
 // How the values of a measured field differ; kOutOfReach: by what cannot be divided by.
 enum class Variation : uint8_t { kVaries, kOutOfReach, kByRounding, kConstant };
+
+// What interfaces count, of a boundary face, where fields are measured: they would pay with the
+// shape of interfaces, at which they have their kinks. Without fields there is only the boundary to
+// pay for interfaces. Sheets inside a region, antennas or cracks, are small beside the cells far
+// from them, with whose shapes they would pay: of a ring in a box 3000 times as wide as it is the
+// distance is a fifth.
+constexpr double kInterfaceShare = 50;
 
 // Times the weight of all sheets, and that of interfaces besides; 1 where it is not known.
 struct Balance {

@@ -6,12 +6,6 @@
 
 namespace tetstream {
 
-// Of a boundary face, where fields are measured: they would pay with the shape of interfaces, at
-// which they have their kinks. Without fields there is only the boundary to pay for interfaces.
-// Sheets inside a region, antennas or cracks, are small beside the cells far from them, with whose
-// shapes they would pay: of a ring in a box 3000 times as wide as it is the distance is a fifth.
-constexpr double kInterfaceShare = 50;
-
 template <class S>
 static double weightOf(const Core<S>& core, SheetFace kind) {
   const bool is_dear =

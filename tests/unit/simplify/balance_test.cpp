@@ -216,6 +216,20 @@ TEST(Balance, LowersARoughBoundaryBesideRoughInterfaces) {
   EXPECT_NEAR(std::log2(chosen(costs, 0.1).outer), std::log2(alone), 1.01);
 }
 
+// Interfaces, which count fifty times as much, take what would be left of the boundary: both fall,
+// but interfaces no further than to count as much as that.
+TEST(Balance, LowersTheBoundaryAndInterfacesTogether) {
+  RemovalCosts costs = costsOf({1e-4, 0}, 500, {1e-4, 1}, 500);
+  costs.interfaces = {std::vector<Ways>(64, {{1e-4, kInterfaceShare}}), 500};
+  const Balance balance = chosen(costs, 0.1);
+  EXPECT_TRUE(balance.knows_interfaces);
+  EXPECT_LT(balance.outer, 0.05);
+  EXPECT_LT(balance.interfaces, 0.1);
+  EXPECT_GE(kInterfaceShare * balance.interfaces, 1);
+  costs.interfaces.sample.assign(64, {{1e-4, 1e-12}});  // that are plane
+  EXPECT_EQ(chosen(costs, 0.1).interfaces, 1);
+}
+
 // A slab whose faces go up and down by a part of a cube from one vertex to the next, or do not,
 // with a field that hardly bends.
 TestMesh slab(int n, double roughness) {

@@ -1,4 +1,4 @@
-// The weight of the boundary in walls of one or two cells, where next to no vertex is inside.
+// The weight of the boundary in walls of a few cells, where few vertices or none are inside.
 #include <cmath>
 #include <string>
 
@@ -51,6 +51,24 @@ TEST(BalancedWalls, FollowASmoothFieldWhereTwoCellsThick) {
   const int n = slowRun() ? 24 : 36;
   expectFieldFollowed(pipe(n, n, 2), 0.1, 0.7);
   expectFieldFollowed(pipe(n, n, 2), 0.02, 0.6);
+}
+
+// Of three materials, one round the other, whose interfaces bend as the boundary does: each of them
+// takes what would be left of the others and of the inside. Lowered one after the other they left
+// the field 0.54 and 0.74 times the error.
+TEST(BalancedWalls, FollowASmoothFieldBetweenLayers) {
+  const int n = slowRun() ? 24 : 36;
+  TestMesh mesh = pipe(n, n, 6);
+  mesh.addIntegerCellData("layer", [&](size_t c) {
+    double x = 0, y = 0;
+    for (size_t j = 0; j < 4; ++j) {
+      x += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), 0) / 4;
+      y += mesh.position(static_cast<size_t>(mesh.cells[4 * c + j]), 1) / 4;
+    }
+    return static_cast<int64_t>((std::hypot(x, y) - 10) / 2);
+  });
+  expectFieldFollowed(mesh, 0.1, 0.45);
+  expectFieldFollowed(mesh, 0.02, 0.5);
 }
 
 // A sheet of one cube's thickness that is rolled up, with as much air between its layers.
