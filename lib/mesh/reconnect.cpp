@@ -8,8 +8,8 @@ namespace tetstream {
 constexpr double kNotKnown = -2;
 
 template <class S>
-void Reconnector<S>::start(bool is_folded) {
-  is_folded_ = is_folded;
+void Reconnector<S>::start(bool may_repeat) {
+  may_repeat_ = may_repeat;
   if (thinness_.size() < patch_.cellEnd()) thinness_.resize(patch_.cellEnd() + 1024);
   std::fill_n(thinness_.data(), patch_.cellEnd(), kNotKnown);
 }
@@ -49,11 +49,12 @@ void Reconnector<S>::addGone(uint32_t c, Reconnection& out) {
 
 // Of vertices that are not owned, whether one may be somewhere already that is about to be made.
 // Both would begin in the same direction: cells overlap at every one of the vertices, which then
-// are those of cells that fold, and locked, or are not final.
+// are those of cells that fold, and locked, or are not final. Or there is a gap between both, which
+// begins and ends at vertices that are locked for it.
 template <class S>
 bool Reconnector<S>::mayBeThere(const uint32_t* vertices, size_t count) const {
-  return is_folded_ && std::none_of(vertices, vertices + count,
-                                    [&](uint32_t v) { return patch_.isFreeElsewhere(v); });
+  return may_repeat_ && std::none_of(vertices, vertices + count,
+                                     [&](uint32_t v) { return patch_.isFreeElsewhere(v); });
 }
 
 // The patch knows all cells of owned vertices.

@@ -3,8 +3,9 @@
 // After Freitag and Ollivier-Gooch 1997 and Klingner and Shewchuk 2007. A flip replaces cells by
 // others with the same outer faces, so boundary, interfaces and vertices stay; with the new cells
 // strictly positive, which is decided exactly, they cover the same points once. Where the mesh
-// folds over itself, as after rounding, an edge or a face that a flip makes may be there already,
-// elsewhere: such a flip is none.
+// folds over itself, as after rounding, or where two sides of it have vertices in common but not
+// what lies between them, as beside hanging nodes, an edge or a face that a flip makes may be there
+// already, elsewhere: such a flip is none.
 #pragma once
 
 #include "patch.h"
@@ -29,10 +30,10 @@ class Reconnector {
   Reconnector(Patch<S>& patch, Account& account)
       : patch_(patch), star_(account), ring_(account), thinness_(account) {}
 
-  // Another patch, or one that was changed otherwise. `is_folded`: the mesh folds over itself
-  // somewhere; then of no use are flips that make an edge or a face between vertices of which none
-  // is free, whose cells are not all known.
-  void start(bool is_folded);
+  // Another patch, or one that was changed otherwise. `may_repeat`: there are such places in the
+  // mesh; then of no use are flips that make an edge or a face between vertices of which none is
+  // free, whose cells are not all known.
+  void start(bool may_repeat);
   // As Patch::replace.
   void replace(const Reconnection& r, uint32_t* slots);
 
@@ -78,7 +79,7 @@ class Reconnector {
 
   Patch<S>& patch_;
   Star star_, ring_;
-  bool is_folded_ = false;
+  bool may_repeat_ = false;
   Array<double> thinness_;  // per cell of the patch, below -1 where not known
 };
 

@@ -27,7 +27,7 @@ template <class S>
 void Reshaper<S>::start() {
   counts_thin_ = false;
   patch_.listGone();
-  reconnector_.start(core_.folds);
+  reconnector_.start(core_.folds || core_.locked.non_manifold > 0 || core_.locked.bad_cells > 0);
   if (marks_.size() < patch_.vertexEnd()) marks_.resize(patch_.vertexEnd() + 1024);
   for (uint32_t v = patch_.ownedEnd(); v < patch_.vertexEnd(); ++v)
     marks_[v] = patch_.isFreeElsewhere(v) ? kElsewhere : 0;

@@ -332,12 +332,12 @@ TEST(Reconnect, WhatIsThereAlreadyIsNotMadeAgain) {
 TEST(Reconnect, WhatTheStarsOfFoldedCellsMayHaveIsNotMade) {
   const std::vector<Point> points = {{0, 0, 0.2},  {1, 0, 0}, {-0.5, 0.9, 0}, {-0.5, -0.9, 0},
                                      {0, 0, -0.2}, {3, 0, 0}, {0, 3, 0}};
-  const auto makesEdge = [&](bool is_folded, const std::set<uint32_t>& others) {
+  const auto makesEdge = [&](bool may_repeat, const std::set<uint32_t>& others) {
     std::set<uint32_t> locked;
     for (uint32_t v : {0, 4, 5, 6})
       if (!others.count(v)) locked.insert(v);
     Pieces pieces(points, {{0, 1, 2, 3}, {4, 1, 2, 3}, {0, 4, 5, 6}}, locked, others);
-    pieces.reconnector.start(is_folded);
+    pieces.reconnector.start(may_repeat);
     return improvesWithoutFace(pieces);
   };
   EXPECT_FALSE(makesEdge(true, {}));
@@ -349,14 +349,14 @@ TEST(Reconnect, WhatTheStarsOfFoldedCellsMayHaveIsNotMade) {
 TEST(Reconnect, AFaceThatFoldedCellsMayHaveIsNotMade) {
   std::vector<Point> points = ringPoints(3, 8);
   points.push_back({3, 1, 1});
-  const auto makesFace = [&](bool is_folded, const std::set<uint32_t>& others) {
+  const auto makesFace = [&](bool may_repeat, const std::set<uint32_t>& others) {
     std::set<uint32_t> locked;
     for (uint32_t v : {2, 3, 4, 5})
       if (!others.count(v)) locked.insert(v);
     std::vector<Corners> cells = ringCells(3);
     cells.push_back({2, 3, 4, 5});
     Pieces pieces(points, cells, locked, others);
-    pieces.reconnector.start(is_folded);
+    pieces.reconnector.start(may_repeat);
     Reconnection r;
     return pieces.removeEdge(0, 1, r) && r.improves();
   };

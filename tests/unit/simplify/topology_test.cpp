@@ -1,6 +1,8 @@
 // The domain that comes out is the domain that went in: checked by brute force over simplices, for
 // domains with everything that a domain can have, at all ratios and windows.
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "random.h"
 #include "simplify_testing.h"
@@ -253,6 +255,62 @@ TEST(SimplifierTopology, KeepsTangles) {
     SCOPED_TRACE(textOf("seed %d", static_cast<int>(seed)));
     expectTopologyKept(withWave(mesh));
   }
+}
+
+// The cubes of an octree of side 16 that has those of 1 at a sphere and those of 4 away from it:
+// where smaller ones meet a larger one, some of their vertices hang beside its faces and edges, and
+// no face is shared.
+TestMesh hangingNodes() {
+  const auto sideAt = [](double x, double y, double z) {
+    for (double side = 16;; side /= 2) {
+      double square = 0;
+      for (double at : {x, y, z}) {
+        const double centre = (std::floor(at / side) + 0.5) * side;
+        square += (centre - 8) * (centre - 8);
+      }
+      const bool is_near = std::fabs(std::sqrt(square) - 4.8) < 0.75 * side;
+      if (side <= 4 && (side <= 1 || !is_near)) return side;
+    }
+  };
+  std::map<std::array<double, 3>, int64_t> known;
+  std::vector<double> positions;
+  std::vector<int64_t> cells;
+  for (const double side : {4, 2, 1}) {
+    const int n = static_cast<int>(16 / side);
+    const TestMesh level = cubes(n, n, n, [&](int x, int y, int z) {
+      return sideAt((x + 0.5) * side, (y + 0.5) * side, (z + 0.5) * side) == side;
+    });
+    for (int64_t v : level.cells) {
+      std::array<double, 3> place;
+      for (int i = 0; i < 3; ++i)
+        place[static_cast<size_t>(i)] = side * level.position(static_cast<size_t>(v), i);
+      const auto [at, is_new] = known.try_emplace(place, static_cast<int64_t>(known.size()));
+      if (is_new) positions.insert(positions.end(), place.begin(), place.end());
+      cells.push_back(at->second);
+    }
+  }
+  TestMesh mesh = makeMesh(ScalarType::kFloat64, positions, cells);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64}, [](double x, double y, double z) {
+    return std::tanh(2 * (std::hypot(x - 8, y - 8, z - 8) - 4.8));
+  });
+  return mesh;
+}
+
+// The larger cubes' edges are no edges of the smaller ones, which have the same ends: a flip made
+// them such.
+TEST(SimplifierTopology, IsKeptBesideHangingNodes) {
+  const TestMesh mesh = hangingNodes();
+  const MeshFacts before = factsOf(mesh);
+  for (Shape shape : {Shape::kField, Shape::kSolver})
+    for (double ratio : {0.35, 0.3}) {
+      SCOPED_TRACE(textOf("shape %d, ratio %g", static_cast<int>(shape), ratio));
+      SimplifyOptions options = toRatio(ratio);
+      options.shape = shape;
+      const Result result = simplified(mesh, options);
+      EXPECT_GT(result.report.flips, 0);
+      expectSound(mesh, result);
+      EXPECT_EQ(topologyChange(before, factsOf(result.out.mesh)), "");
+    }
 }
 
 // Every cell twice: each face has four cells or two. Nothing can be made of it, only worse.
