@@ -56,6 +56,8 @@ class WindowedEngine final : public Simplifier::Engine {
         release_(core_, out, account_) {
     if (sinks.any()) core_.tracer = &tracer_.emplace(core_.window, plan_, sinks, account_);
     core_.report.window_cells = capacity_;
+    core_.target_ratio = targetRatio();
+    core_.is_tight = size_.isTight();
     prepareBalance(pilot);
     turn_at_ = firstTurn();
   }
@@ -82,6 +84,14 @@ class WindowedEngine final : public Simplifier::Engine {
   Topology& mesh() { return core_.window.mesh; }
   bool parks() const { return parked_times_ > 1; }
 
+  double targetRatio() const {
+    const Target target = targetOf(plan_.schema, options_);
+    if (target.cells > 0)
+      return static_cast<double>(target.cellsOf(plan_.schema.cell_count)) /
+             static_cast<double>(plan_.schema.cell_count);
+    return target.ratio > 0 ? target.ratio : kUsualRatio;
+  }
+
   // What a pilot found stands for the whole stream; without one the first window does.
   void prepareBalance(const Pilot& pilot) {
     const bool has_fields = plan_.dimension > 3 && plan_.layout == QuadricLayout::kFields;
@@ -91,14 +101,7 @@ class WindowedEngine final : public Simplifier::Engine {
     core_.balance = pilot.balance;
     core_.weighs_fields = !(options_.error > 0);  // which is in units of their ranges
     if (is_asked_for) return;
-    core_.balance_ratio = options_.balance_ratio;
-    if (options_.balance_ratio > 0) return;
-    const Target target = targetOf(plan_.schema, options_);
-    core_.balance_ratio = kUsualRatio;
-    if (target.ratio > 0) core_.balance_ratio = target.ratio;
-    if (target.cells > 0)
-      core_.balance_ratio = static_cast<double>(target.cellsOf(plan_.schema.cell_count)) /
-                            static_cast<double>(plan_.schema.cell_count);
+    core_.balance_ratio = options_.balance_ratio > 0 ? options_.balance_ratio : core_.target_ratio;
   }
 
   void take(const BatchView& batch) {

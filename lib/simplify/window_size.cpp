@@ -91,6 +91,10 @@ int64_t WindowSize::fitting() const {
   return 2 * cells < kRoomyHalfFronts * knownFront() ? beside(2 * patch) : cells;
 }
 
+bool WindowSize::isTight() const {
+  return options_.memory_bytes > 0 && (schema_.cell_count < 0 || fitting() < schema_.cell_count);
+}
+
 // None where the window may grow, or has many vertices to a cell. Beside it and the patches there
 // are batches that are read ahead, and of a longer stream a sample, and cells that wait for its
 // end.

@@ -32,6 +32,8 @@ class WindowSize {
   // Patches, worked on at a time, that fit beside all else that a run takes without a budget; half
   // of the budget is kept free.
   int64_t sparePatches() const;
+  // Whether there is a budget that the whole does not fit into, or may not.
+  bool isTight() const;
   // Cells of the first window. A budget that is smaller than four fronts gets what fits; whether
   // that is enough shows later.
   int64_t first() const;

@@ -399,10 +399,11 @@ void Metric<S>::chooseAngles(uint32_t first, uint32_t end) {
   for (size_t k = 0; k < dear_.size(); ++k) {
     if (!(dear_[k].cos2 < core_.thin.cos2)) continue;  // not above
     const auto below = static_cast<double>(below_dear_[k]);
-    const bool is_wanted = k == 0 && (core_.options.effort == Effort::kHigh || isWall());
+    const bool is_wanted =
+        k == 0 && (core_.options.effort == Effort::kHigh || isWall() || leavesFewInParts(core_));
     if (is_wanted || below > kShareToSpare * all)
       dear.push_back(dear_[k]);
-    else if (k == 0 && core_.options.shape == Shape::kField && core_.options.memory_bytes == 0)
+    else if (k == 0 && core_.options.shape == Shape::kField)
       core_.dear_when_few.push_back(dear_[k]);
   }
   setDear(core_, dear);

@@ -135,8 +135,7 @@ template <class S>
 bool SweepBounds<S>::isNear(const Goal& goal) const {
   const int64_t live = core_.window.liveCells();
   return core_.options.eases_in && core_.holdsAll() && (!core_.interfaces || core_.holds_rest) &&
-         core_.options.memory_bytes == 0 && live < kNearGoals * goal.cells &&
-         kPartNear * live < core_.stream_cells;
+         live < kNearGoals * goal.cells && kPartNear * live < core_.stream_cells;
 }
 
 template <class S>

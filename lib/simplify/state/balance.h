@@ -4,8 +4,9 @@
 // One weight of the boundary does not suit all: where it bends more than the fields do, nearly all
 // vertices that are left lie on it, and few more inside would halve the fields' error. The weight
 // with the least product of the RMS errors of the fields and of the sheet is looked for, downwards
-// from the one that was asked for; of the boundary and of interfaces at once, where both bend, since
-// either takes what is left of the other. Errors are foretold from a sample of the mesh as it comes:
+// from the one that was asked for; of the boundary and of interfaces at once, where both bend,
+// since either takes what is left of the other. Errors are foretold from a sample of the mesh as it
+// comes:
 //   What is added by taking a vertex out, c, grows with the length of edges, s times that of the
 //   input: inside as s^7 (a squared error, s^4, times a volume), on a sheet as s^6 (s^4 times an
 //   area), and of such vertices s^-3 or s^-2 are left. In the end all cost the same, t, so that

@@ -252,6 +252,8 @@ struct Core {
   double shape_weight;                  // of a cell's regulariser (kernels.h)
   double face_weight = 0;               // of a face on the boundary, before it is balanced
   Balance balance;
+  bool is_tight = false;                 // a memory budget that the whole does not fit into
+  double target_ratio = 0;               // cells out of those in; towards an error the usual one
   double balance_ratio = 0;              // that it is chosen for; 0: it is not
   bool weighs_fields = false;            // against each other
   ThinAngle thin;                        // no more cells below than the input has
