@@ -1,6 +1,7 @@
 #include "regions.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "id_census.h"
 #include "status.h"
@@ -53,19 +54,42 @@ void Regions<S>::take(uint32_t first, uint32_t end) {
 }
 
 template <class S>
+bool Regions<S>::isScattered(int offset, int components) {
+  if (neighbours_.empty()) neighbours_ = someNeighbours(core_.window.mesh);
+  std::vector<int> columns(static_cast<size_t>(components));
+  std::iota(columns.begin(), columns.end(), offset);
+  CellLabels labels = core_.cellLabels();
+  labels.columns = columns.data();
+  labels.count = components;
+  return areScattered(labels, neighbours_);
+}
+
+static void add(std::string* names, const std::string& name) {
+  *names += (names->empty() ? "" : ", ") + name;
+}
+
+template <class S>
 void Regions<S>::decide() {
   decided_ = true;
-  std::string taken, ids;
+  const bool is_auto = core_.options.regions == "auto";
+  std::string taken, ids, scattered;
   for (int column : columns_) {
     const Column& c = core_.plan.schema.cell_data[static_cast<size_t>(column)];
     const int offset = core_.plan.cell_data[static_cast<size_t>(column)].offset;
-    const bool is_id = core_.options.regions == "auto" && looksLikeIds(offset, c.components);
-    std::string& list = is_id ? ids : taken;
-    list += (list.empty() ? "" : ", ") + c.name;
-    for (int i = 0; !is_id && i < c.components; ++i) core_.region_picks.push_back(offset + i);
+    if (is_auto && looksLikeIds(offset, c.components)) {
+      add(&ids, c.name);
+    } else if (is_auto && isScattered(offset, c.components)) {
+      add(&scattered, c.name);
+    } else {
+      add(&taken, c.name);
+      for (int i = 0; i < c.components; ++i) core_.region_picks.push_back(offset + i);
+    }
   }
+  neighbours_ = {};
   core_.report.regions = taken.empty() ? "none" : "by " + taken;
   if (!ids.empty()) core_.report.regions += " (" + ids + ": few cells to a label, taken as ids)";
+  if (!scattered.empty())
+    core_.report.regions += " (" + scattered + ": other labels from cell to cell, not taken)";
   if (!partitions_.empty())
     core_.report.regions += " (" + partitions_ + ": parts of a parallel run by name, not taken)";
 }

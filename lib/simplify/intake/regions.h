@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core.h"
+#include "scattered.h"
 
 namespace tetstream {
 
 // Decides once, on the first window's cells, which picks of a cell are its labels: "none": none; a
 // name: that array; "auto": every integer array, but for those whose labels have few cells each,
-// which are ids, and those that tell by their names how a mesh was divided for a run.
+// which are ids, those that differ from cell to cell (scattered.h), and those that tell by their
+// names how a mesh was divided for a run.
 // Says in the report what was taken. Throws kBadArgument for a name that is no integer cell array.
 template <class S>
 class Regions {
@@ -19,11 +21,13 @@ class Regions {
  private:
   void decide();
   bool looksLikeIds(int offset, int components) const;
+  bool isScattered(int offset, int components);
 
   Core<S>& core_;
   bool decided_ = false;
-  std::vector<int> columns_;  // candidates, by column
-  std::string partitions_;    // names of arrays that are none
+  std::vector<int> columns_;          // candidates, by column
+  std::string partitions_;            // names of arrays that are none
+  std::vector<CellPair> neighbours_;  // while it is decided, once needed
 };
 
 }  // namespace tetstream

@@ -1,6 +1,7 @@
 // Regions: their interfaces keep shape and topology and get coarser, ids are told from labels.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "random.h"
@@ -318,6 +319,44 @@ TEST(SimplifierRegions, AreBlamedForAMissWhereTheyAreThere) {
   const std::string without = simplified(mesh, options).report.limited_by;
   EXPECT_NE(without, "");
   EXPECT_EQ(without.find("regions"), std::string::npos) << without;
+}
+
+// Every cell would be a region of its own, and none could go. Cubes with labels by chance are
+// regions, and single cells that are marked; who names an array has it.
+TEST(SimplifierRegions, AreNoneWhereLabelsDifferFromCellToCell) {
+  TestMesh mesh = twoMaterials(slowRun() ? 6 : 8);
+  Random random(1);
+  mesh.addIntegerCellData("iterations", [&](size_t) { return 3 + random.below(6); });
+  mesh.addIntegerCellData("flag", [&](size_t) { return random.below(2); });
+  mesh.addIntegerCellData("place", [&](size_t c) { return c % 6; });
+  SimplifyOptions options = toRatio(0.3);
+  const Result result = simplified(mesh, options);
+  expectSound(mesh, result);
+  expectReached(result);
+  const std::string& told = result.report.regions;
+  EXPECT_EQ(told.find("by material ("), 0u) << told;
+  EXPECT_NE(told.find("(iterations, flag, place: other labels from cell to cell"),
+            std::string::npos)
+      << told;
+  options.regions = "flag";
+  EXPECT_EQ(simplified(mesh, options).report.regions.find("by flag"), 0u);
+}
+
+TEST(SimplifierRegions, AreSingleCubesAndMarkedCells) {
+  const int n = slowRun() ? 6 : 8;
+  TestMesh mesh = fullGrid(n, n, n);
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double x, double y, double) { return x * y; });
+  Random random(1);
+  std::map<int64_t, int64_t> labels;
+  mesh.addIntegerCellData("phase", [&](size_t c) {
+    const Place centre = centreOf(mesh, c);
+    int64_t cube = 0;
+    for (double x : centre) cube = 64 * cube + static_cast<int64_t>(x);
+    return labels.try_emplace(cube, random.below(3)).first->second;
+  });
+  mesh.addIntegerCellData("marked", [&](size_t) { return random.below(50) == 0 ? 1 : 0; });
+  EXPECT_EQ(simplified(mesh, toRatio(0.9)).report.regions, "by phase, marked");
 }
 
 double volumeOfLabel(const TestMesh& mesh, int64_t label) {
