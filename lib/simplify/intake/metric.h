@@ -22,12 +22,8 @@ class Metric {
   // Then all of them, some at a time: their orientation is settled, flat ones are marked, and their
   // quadrics are added. A thread that follows waits for it: it cannot fail.
   void addCells(uint32_t first, uint32_t end) noexcept;
-  // Then the same: how thin they are is looked at, which another thread may do beside it.
-  void sampleAngles(uint32_t first, uint32_t end);
   // In the end the vertices of flat ones are locked.
   void settle(uint32_t first, uint32_t end);
-  // When the faces at their vertices are known: which angles of cells count.
-  void chooseAngles(uint32_t first, uint32_t end);
 
   // Of every dimension: the extent, or the range of the field; 0 of one that is constant.
   std::vector<double> ranges() const;
@@ -52,17 +48,8 @@ class Metric {
   bool addLanes(uint32_t first, double* volume);
   double volumeOf(uint32_t cell, double determinant);
   void lockFlat(uint32_t cell);
-  bool isRegular(uint32_t cell) const;
-  void sampleWalls(uint32_t first, uint32_t end);
-  bool isWall() const;
 
   Core<S>& core_;
-  std::vector<ThinAngle> floors_;  // falling
-  std::vector<ThinAngle> near_;    // each so many times its floor
-  std::vector<ThinAngle> dear_;
-  std::vector<int64_t> below_, below_near_, below_dear_;  // of the cells sampled
-  int64_t sampled_ = 0, seen_ = 0;                        // cells
-  int64_t wall_cells_ = 0, wall_sampled_ = 0;             // all of whose corners are on faces; all
   bool box_known_, unit_known_ = false;
   double length_unit_ = 1, fields_together_ = 1;
   std::vector<double> low_, high_;  // x y z, then measured components

@@ -84,7 +84,7 @@ int64_t Resolver<S>::takeNew(uint32_t first) {
     for (uint32_t c = 0, next; c < end; c = next) {
       next = known.waitFor(c);
       front += sumLinks(c, next, first);
-      metric_.sampleAngles(std::clamp(c, first, next), std::max(first, next));
+      angles_.sample(std::clamp(c, first, next), std::max(first, next));
     }
   };
   std::atomic<bool> taken = false;
@@ -171,7 +171,7 @@ int64_t Resolver<S>::resolve(uint32_t first_new, const uint32_t* vertices, size_
     for (size_t i = 0; i < listed; ++i) window.scratch()[open_[done + i]] = 0;
     done += listed;
   }
-  metric_.chooseAngles(first_new, mesh.cellEnd());
+  angles_.choose(first_new, mesh.cellEnd());
   return front;
 }
 

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "angles.h"
 #include "balance_sample.h"
 #include "link_border.h"
 #include "metric.h"
@@ -23,6 +24,7 @@ class Resolver {
   Resolver(Core<S>& core, Metric<S>& metric, Account& account)
       : core_(core),
         metric_(metric),
+        angles_(core),
         sheets_(core),
         corners_(account, 256),
         open_(account),
@@ -98,6 +100,7 @@ class Resolver {
 
   Core<S>& core_;
   Metric<S>& metric_;
+  Angles<S> angles_;
   Sheets<S> sheets_;
   std::vector<Part> parts_;
   Array<uint32_t> corners_;  // of the stars that are looked at
