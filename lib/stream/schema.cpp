@@ -64,10 +64,10 @@ int findColumn(const std::vector<Column>& columns, const std::string& name) {
 
 bool namesPartition(const std::string& name) {
   static constexpr const char* kNames[] = {
-      "decomposition", "ghosttype",   "gmshpartition", "metispartition", "mpirank",
-      "ownerrank",     "partition",   "partitionid",   "proc",           "processid",
-      "processor",     "processorid", "procid",        "rank",           "vtkghostlevels",
-      "vtkghosttype",  "vtkprocessid"};
+      "decomposition", "ghosttype",      "gmshpartition", "metis",       "metispartition",
+      "mpirank",       "ownerrank",      "partition",     "partitionid", "proc",
+      "processid",     "processor",      "processorid",   "procid",      "procs",
+      "rank",          "vtkghostlevels", "vtkghosttype",  "vtkprocessid"};
   std::string plain;  // letters alone, in lower case
   for (char c : name)
     if (std::isalpha(static_cast<unsigned char>(c)))

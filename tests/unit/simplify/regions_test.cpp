@@ -92,7 +92,8 @@ TEST(SimplifierRegions, KeepTheirInterface) {
 // Which process had a cell is nothing of the domain's, unless it is asked for.
 TEST(SimplifierRegions, AreNotThePartsOfAParallelRun) {
   TestMesh mesh = twoMaterials(4);
-  for (const char* name : {"Proc_ID", "vtkProcessId", "mpi rank", "PARTITION", "vtkGhostType"}) {
+  for (const char* name :
+       {"Proc_ID", "procs", "vtkProcessId", "mpi rank", "METIS", "PARTITION", "vtkGhostType"}) {
     mesh.schema.cell_data[0].name = name;
     const Result result = withRegions(mesh, "auto", 0);
     EXPECT_EQ(result.report.regions.rfind("none (", 0), 0u);
