@@ -31,10 +31,11 @@ constexpr double kShareThin = 0.5;
 // interfaces or on labelled faces. There a cell that has become flat cannot move into the wall:
 // without a price on such cells collapses end at two and a half times the target (21 tubes in a
 // shell), or take two to three times the error. Bodies have 0.001 to 0.02 of such cells, gears,
-// grains and walls 0.08 to 1. Of few cells it tells nothing, and flips take memory that a budget
-// has not planned. Where regions meet less is enough: without the price 27 spheres in a block had
-// 1.17 times the RMS error at 0.1, nine cylinders in a cube twice that at 0.05, 40 inclusions 1.6
-// times that at 0.03 and nine times the distance of the boundary, in as much time.
+// grains and walls 0.08 to 1. Of few cells it tells nothing; under a memory budget small targets
+// alone have that price (dear_angles.h). Where regions meet less is enough: without the price 27
+// spheres in a block had 1.17 times the RMS error at 0.1, nine cylinders in a cube twice that at
+// 0.05, 40 inclusions 1.6 times that at 0.03 and nine times the distance of the boundary, in as
+// much time.
 constexpr double kShareOfWalls = 0.05, kShareBetweenRegions = 0.001;
 constexpr int64_t kLeastForWalls = 400;
 // A prime: cells often come in patterns of 5, 6, 12 or 24, a hexahedron after the other.

@@ -54,14 +54,14 @@ void Regions<S>::take(uint32_t first, uint32_t end) {
 }
 
 template <class S>
-bool Regions<S>::isScattered(int offset, int components) {
-  if (neighbours_.empty()) neighbours_ = someNeighbours(core_.window.mesh);
+bool Regions<S>::isScattered(int offset, int components,
+                             const std::vector<CellPair>& neighbours) const {
   std::vector<int> columns(static_cast<size_t>(components));
   std::iota(columns.begin(), columns.end(), offset);
   CellLabels labels = core_.cellLabels();
   labels.columns = columns.data();
   labels.count = components;
-  return areScattered(labels, neighbours_);
+  return areScattered(labels, neighbours);
 }
 
 static void add(std::string* names, const std::string& name) {
@@ -73,19 +73,21 @@ void Regions<S>::decide() {
   decided_ = true;
   const bool is_auto = core_.options.regions == "auto";
   std::string taken, ids, scattered;
+  std::vector<CellPair> neighbours;  // once they are needed
   for (int column : columns_) {
     const Column& c = core_.plan.schema.cell_data[static_cast<size_t>(column)];
     const int offset = core_.plan.cell_data[static_cast<size_t>(column)].offset;
-    if (is_auto && looksLikeIds(offset, c.components)) {
+    const bool is_id = is_auto && looksLikeIds(offset, c.components);
+    if (is_auto && !is_id && neighbours.empty()) neighbours = someNeighbours(core_.window.mesh);
+    if (is_id) {
       add(&ids, c.name);
-    } else if (is_auto && isScattered(offset, c.components)) {
+    } else if (is_auto && isScattered(offset, c.components, neighbours)) {
       add(&scattered, c.name);
     } else {
       add(&taken, c.name);
       for (int i = 0; i < c.components; ++i) core_.region_picks.push_back(offset + i);
     }
   }
-  neighbours_ = {};
   core_.report.regions = taken.empty() ? "none" : "by " + taken;
   if (!ids.empty()) core_.report.regions += " (" + ids + ": few cells to a label, taken as ids)";
   if (!scattered.empty())

@@ -21,13 +21,12 @@ class Regions {
  private:
   void decide();
   bool looksLikeIds(int offset, int components) const;
-  bool isScattered(int offset, int components);
+  bool isScattered(int offset, int components, const std::vector<CellPair>& neighbours) const;
 
   Core<S>& core_;
   bool decided_ = false;
-  std::vector<int> columns_;          // candidates, by column
-  std::string partitions_;            // names of arrays that are none
-  std::vector<CellPair> neighbours_;  // while it is decided, once needed
+  std::vector<int> columns_;  // candidates, by column
+  std::string partitions_;    // names of arrays that are none
 };
 
 }  // namespace tetstream

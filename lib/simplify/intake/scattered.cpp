@@ -39,8 +39,10 @@ std::vector<CellPair> someNeighbours(const Topology& mesh) {
     for (size_t j = 0; j < 4; ++j) {
       const uint32_t* t = mesh.corners(c);
       Face face = {{t[(j + 1) % 4], t[(j + 2) % 4], t[(j + 3) % 4]}, c};
+      const uint32_t least = *std::min_element(face.corners.begin(), face.corners.end());
+      if (mix(least + 1) % one_in != 0) continue;
       std::sort(face.corners.begin(), face.corners.end());
-      if (mix(face.corners[0] + 1) % one_in == 0) faces.push_back(face);
+      faces.push_back(face);
     }
   std::sort(faces.begin(), faces.end());
   std::vector<CellPair> pairs;

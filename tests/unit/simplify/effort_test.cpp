@@ -49,6 +49,10 @@ TEST(Effort, IsMadeWhereFewCellsAreLeft) {
   expectReached(few);
   EXPECT_GT(few.report.flips, 0);
   EXPECT_EQ(simplified(mesh, with(Effort::kNormal, 0.11)).report.flips, 0);
+  const auto third = static_cast<int64_t>(mesh.cellCount()) / 3;
+  const Result in_parts = simplified(mesh, with(Effort::kNormal, 0.02, third));
+  EXPECT_EQ(in_parts.report.flips, 0);
+  EXPECT_LT(shareBelow(few.out.mesh, 10), 0.7 * shareBelow(in_parts.out.mesh, 10));
   SimplifyOptions options = with(Effort::kNormal, 0.02);
   for (const int64_t kilobytes : {16 << 10, slowRun() ? 1 << 10 : 2 << 10}) {
     options.ratio = 0.02;
