@@ -578,9 +578,9 @@ typedef struct tetstream_report {
   const char *regions;          /* what was taken as region labels, in words; at the end also which
                                    changed their volume by more than 1 % */
   const char *limited_by;       /* what stopped the run short of its target, or "" */
-  double estimated_error;       /* RMS field error in percent of the range, from the quadrics; as a
-                                   rule not less than the true one; NaN where no field is
-                                   measured or quadrics are garland-zhou's. Since 0.1 */
+  double estimated_error;       /* RMS field error in percent of the range, measured at points of the
+                                   input; as a rule not less than the true one; NaN where no field
+                                   is measured or quadrics are garland-zhou's. Since 0.1 */
   const char *reached;          /* the target that ended the run: "ratio", "cells", "error", or "" */
   const char *order;            /* how the input was ordered, in words. Since 0.1 */
   const char *balance;          /* what the boundary and interfaces count for less, and fields for

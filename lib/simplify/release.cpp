@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "error_sample.h"
 #include "settled.h"
 #include "vector3.h"
 
@@ -130,6 +131,7 @@ void Release<S>::writeCell(uint32_t cell) {
   cornersIn(core_.window, cell, corners);
   const double volume = std::fabs(sixVolume(corners)) / 6;
   volume_ += volume;
+  if (core_.error_sample) core_.error_sample->leave(cell, corners);
   if (!core_.region_picks.empty())
     core_.label_volumes.add(core_.cellLabels(), cell, volume, LabelVolumes::kOutput);
   if (core_.window.faces.anyPlaced()) writeFaces(cell);
@@ -197,9 +199,11 @@ void Release<S>::write(const Staying& most) {
   const Topology& mesh = core_.window.mesh;
   countUses();
   if (core_.tracer && mustGo(most)) core_.tracer->bringHome(core_.window.scratch());
+  if (core_.error_sample) core_.error_sample->startLeaving();
   if (core_.options.release == ReleaseOrder::kError) writeDearest(most);
   for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(most); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);
+  if (core_.error_sample) core_.error_sample->endLeaving();
   pack();
 }
 

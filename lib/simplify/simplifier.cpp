@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "budget.h"
+#include "error_sample.h"
 #include "intake.h"
 #include "missed_target.h"
 #include "parking.h"
@@ -55,6 +56,8 @@ class WindowedEngine final : public Simplifier::Engine {
         selector_(makeSelector()),
         release_(core_, out, account_) {
     if (sinks.any()) core_.tracer = &tracer_.emplace(core_.window, plan_, sinks, account_);
+    if (plan_.tellsErrors())
+      core_.error_sample = &error_sample_.emplace(core_, account_, static_cast<size_t>(capacity_));
     core_.report.window_cells = capacity_;
     core_.target_ratio = targetRatio();
     core_.is_tight = size_.isTight();
@@ -231,7 +234,8 @@ class WindowedEngine final : public Simplifier::Engine {
     front_cells_ =
         resolver_.resolve(resolved_cells_, intake_.finalized(), intake_.finalizedCount());
     intake_.clearFinalized();
-    if (options_.error > 0) core_.error_limit = errorOf(core_, options_.error);
+    if (error_sample_) error_sample_->take(resolved_cells_, mesh().cellEnd());
+    if (options_.error > 0 && error_sample_) error_sample_->limitError();
     resolved_cells_ = mesh().cellEnd();
   }
 
@@ -361,8 +365,7 @@ class WindowedEngine final : public Simplifier::Engine {
     r.rejected_locked = t.rejected_locked;
     r.rejected_other = t.rejected_other;
     r.largest_error = t.largest_error;
-    r.estimated_error =
-        plan_.tellsErrors() ? percentOf(core_, t.error) : std::numeric_limits<double>::quiet_NaN();
+    r.estimated_error = estimatedError();
     r.cells_in = static_cast<int64_t>(intake_.cellsRead());
     r.vertices_in = static_cast<int64_t>(core_.front.introduced());
     r.cells_out = static_cast<int64_t>(release_.cellsWritten());
@@ -374,6 +377,13 @@ class WindowedEngine final : public Simplifier::Engine {
     r.front_span = core_.front.span();
     if (plan_.schema.front_cells >= 0) r.front_cells = plan_.schema.front_cells;
     r.peak_window_bytes = account_.peak();
+  }
+
+  // What quadrics tell is above the true one as a rule, and what was measured nearer, unless points
+  // were found in cells that lie upon theirs.
+  double estimatedError() const {
+    if (!error_sample_) return std::numeric_limits<double>::quiet_NaN();
+    return std::min(percentOf(core_, core_.tally.error), error_sample_->percent());
   }
 
   void closeReport() {
@@ -410,6 +420,7 @@ class WindowedEngine final : public Simplifier::Engine {
   double told_ = 0;  // the last fraction of the progress
   Core<S> core_;
   std::optional<Tracer<S>> tracer_;
+  std::optional<ErrorSample<S>> error_sample_;
   bool knows_pilot_, knows_parts_;
   double parked_times_;  // above 1: the windows' cells are parked
   std::unique_ptr<Budget> budget_;

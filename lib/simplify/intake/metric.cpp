@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "error_sample.h"
 #include "field_weights.h"
 #include "one_number.h"
 #include "orient.h"
@@ -199,6 +200,7 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
     if (!has_left) unsettle(core_.window, v);
   }
   core_.tally.error *= static_cast<double>(weight);
+  if (core_.error_sample) core_.error_sample->rescale(static_cast<double>(weight));
   core_.rescaled *= static_cast<double>(weight);
 }
 

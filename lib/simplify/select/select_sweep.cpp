@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dear_angles.h"
+#include "error_sample.h"
 #include "lane.h"
 #include "select.h"
 #include "settled.h"
@@ -78,6 +79,7 @@ class SweepSelector final : public Selector {
   }
   Lane<S>& lane() { return *lanes_[0]; }
   void sweep(double bound, int approaches, const std::function<void()>& tick);
+  bool leavesErrorAfterAll(int64_t cells_before);
   bool isStoppedByFloor(const Tally& before, int64_t cells_before) const;
   void lowerFloor();
   void sweepOut(const std::function<void()>& tick);
@@ -147,6 +149,7 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
     bool more = pass(static_cast<float>(bound), tick) || tiling_.othersWait();
     // What is left out, of a pass that could do nothing, is left to what comes after all passes.
     more |= tiling_.leavesOut() && core_.window.liveCells() < before;
+    if (leavesErrorAfterAll(before)) continue;
     // A pass that the limit on the error ended was left half done: the one before tells the bound.
     if (!core_.tally.error_reached || first) bound_ = bound;
     if (core_.tally.error_reached) return;
@@ -167,6 +170,21 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
     bound = bounds_.next(bound, wanted);
     if (bound == last) return;
   }
+}
+
+// Up to a bound on the error what was made is measured after a pass. Returns whether one that was
+// ended by what the quadrics tell, and made something, may go on.
+template <class S>
+bool SweepSelector<S>::leavesErrorAfterAll(int64_t cells_before) {
+  if (!(core_.options.error > 0) || !core_.error_sample) return false;
+  const bool is_left = core_.error_sample->limitError();
+  const bool goes_on =
+      is_left && core_.tally.error_reached && core_.window.liveCells() < cells_before;
+  if (goes_on) {
+    core_.tally.error_reached = false;
+    was_stopped_ = true;
+  }
+  return goes_on;
 }
 
 template <class S>

@@ -106,6 +106,9 @@ inline int64_t tileVertices(const SimplifyOptions& options, int64_t vertex_bytes
 }
 
 template <class S>
+class ErrorSample;
+
+template <class S>
 struct Core {
   Core(const Plan& the_plan, const SimplifyOptions& the_options, Account& account, size_t cells,
        size_t vertices, uint64_t span)
@@ -151,11 +154,18 @@ struct Core {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options);
     bytes += 1;  // what is tiled is marked: a byte of a vertex, rounded up
+    if (plan.tellsErrors()) bytes += sampledBytes(plan.dimension) / kCellsPerSampled;
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
       bytes += Tracer<S>::kCellBytes + Tracer<S>::kVertexBytes / kCellsPerVertex +
                static_cast<size_t>(kPoints * Tracer<S>::pointBytes());
     return bytes;
+  }
+
+  // A point at which errors are measured, with its number in a bin and two bins.
+  static constexpr size_t kCellsPerSampled = 16;
+  static size_t sampledBytes(int dimension) {
+    return sizeof(S) * static_cast<size_t>(dimension) + sizeof(float) + 3 * sizeof(uint32_t);
   }
 
   // What a patch takes for a vertex that it owns: its arrays have a quarter to spare, and small
@@ -280,12 +290,14 @@ struct Core {
   LabelVolumes label_volumes;     // of those
   Report report;
   LockedVertices locked;
-  Tracer<S>* tracer = nullptr;  // told of all collapses, and of what leaves
+  Tracer<S>* tracer = nullptr;             // told of all collapses, and of what leaves
+  ErrorSample<S>* error_sample = nullptr;  // null: no errors are told
 };
 
-// The quadrics measure errors at the vertices, where they are larger than between them, and those
+// The quadrics tell errors at the vertices, where they are larger than between them, and those
 // of the boundary and of shapes beside the fields': on real meshes reduced to 0.5, 0.1 and 0.02 the
 // square root of their sum was 1.5 to 4.2 times the RMS error. This share of it is still above.
+// Nearer is what is measured (error_sample.h).
 constexpr double kErrorShare = 0.8;
 
 // The RMS error in percent of the range that an error over a volume stands for, and back.

@@ -1,0 +1,363 @@
+#include "error_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "barycentric.h"
+#include "mix.h"
+#include "vector3.h"
+
+namespace tetstream {
+
+namespace {
+
+// Of meshes up to so many cells all are looked at; of larger ones fewer, one of so many at least.
+constexpr int64_t kCellsOfAll = 1 << 16;
+constexpr int64_t kMostStep = 16, kUnknownStep = 4;
+// Points that wait at most: few of a small window, under a budget of memory fewer still, and of
+// many fields.
+constexpr size_t kFewest = 64, kFew = 2048, kMost = 16384, kMostBytes = 1 << 20;
+// Standard errors of the mean of squares that are added to it.
+constexpr double kChance = 2;
+// What is told is more by this than what was measured: at vertices, where somebody may look for
+// errors, they are larger than between them; and of a mesh of few cells most vertices are on the
+// boundary, where they are largest.
+constexpr double kMargin = 1.15, kMarginOfFew = 4.5;
+// Rounding may have put a point on a face outside of both cells.
+constexpr double kOutside = 1e-6;
+// Of the error that is allowed: what is measured later may be more.
+constexpr double kAim = 0.95;
+// Of what is left of its square, what a pass may make: of few cells more may be real than is told.
+constexpr double kWay = 0.65;
+// Where more is left of the square, another pass pays.
+constexpr double kWorthGoingOn = 0.2;
+constexpr int kMostBins = 256;  // along an axis
+constexpr double kWider = 1.3;
+
+double uniform(uint64_t random) {
+  return static_cast<double>(random >> 11) * 0x1p-53;
+}
+
+// Those of a point of a cell, each as likely.
+void placeByChance(uint64_t number, double w[4]) {
+  double cuts[3];
+  for (double& cut : cuts) cut = uniform(number = mix(~number));
+  std::sort(cuts, cuts + 3);
+  w[0] = cuts[0];
+  w[1] = cuts[1] - cuts[0];
+  w[2] = cuts[2] - cuts[1];
+  w[3] = 1 - cuts[2];
+}
+
+double square(double x) {
+  return x * x;
+}
+
+int64_t stepFor(int64_t cells) {
+  return cells < 0 ? kUnknownStep : std::clamp<int64_t>(cells / kCellsOfAll, 1, kMostStep);
+}
+
+}  // namespace
+
+template <class S>
+size_t ErrorSample<S>::roomFor(size_t cells) const {
+  const size_t few = core_.options.memory_bytes > 0 ? kFewest : kFew;
+  const size_t most = kMostBytes / Core<S>::sampledBytes(core_.plan.dimension);
+  return std::min(std::clamp(cells / Core<S>::kCellsPerSampled, few, kMost),
+                  std::max(most, kFewest));
+}
+
+template <class S>
+ErrorSample<S>::ErrorSample(Core<S>& core, Account& account, size_t cells)
+    : core_(core),
+      points_(account),
+      weights_(account),
+      begin_(account),
+      order_(account),
+      room_(roomFor(cells)) {
+  points_.resize(room_ * dimension());
+  weights_.resize(room_);
+  begin_.resize(2 * room_ + 2);
+  order_.resize(room_);
+}
+
+// In the window's units of length, in which no power of theirs is out of reach.
+template <class S>
+void ErrorSample<S>::scale(double corners[4][3]) const {
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) corners[k][i] *= static_cast<double>(core_.scale[0]);
+}
+
+template <class S>
+void ErrorSample<S>::take(uint32_t first, uint32_t end) {
+  const auto step = static_cast<uint32_t>(stepFor(core_.stream_cells));
+  cells_ += end - first;
+  double corners[4][3];
+  for (uint64_t c = first; c < end; c += step) {
+    const uint64_t number = ++blocks_;
+    const auto cell = static_cast<uint32_t>(c + mix(number) % step);
+    if (cell >= end || !core_.window.mesh.isLive(cell)) continue;
+    cornersIn(core_.window, cell, corners);
+    scale(corners);
+    placeIn(cell, number, step * std::fabs(sixVolume(corners)) / 6);
+  }
+}
+
+template <class S>
+void ErrorSample<S>::placeIn(uint32_t cell, uint64_t number, double volume) {
+  due_ += volume;
+  if (!(due_ >= stride_) || !(due_ > 0)) return;
+  if (count_ == room_) thinOut();
+  double w[4];
+  placeByChance(number, w);
+  const uint32_t* v = core_.window.mesh.corners(cell);
+  for (size_t i = 0; i < dimension(); ++i) {
+    double value = 0;
+    for (int k = 0; k < 4; ++k) value += w[k] * static_cast<double>(core_.window.values(v[k])[i]);
+    points_[count_ * dimension() + i] = static_cast<S>(value);
+  }
+  weights_[count_++] = static_cast<float>(due_);
+  due_ = 0;
+}
+
+// Points that lie in no cell any more, since the boundary has moved, will not be measured.
+template <class S>
+void ErrorSample<S>::keepFound() {
+  if (count_ == 0) return;
+  sort();
+  const auto notFound = [](float weight) { return -weight; };
+  std::transform(weights_.data(), weights_.data() + count_, weights_.data(), notFound);
+  for (uint32_t c = 0; c < core_.window.mesh.cellEnd(); ++c)
+    if (core_.window.mesh.isLive(c))
+      visitLive(c, [&](size_t i, const double*) { weights_[i] = std::fabs(weights_[i]); });
+  for (size_t i = 0; i < count_; ++i) weights_[i] = std::max(weights_[i], 0.0f);
+  compact();
+}
+
+// To half of the room, by strides of volume.
+template <class S>
+void ErrorSample<S>::thinOut() {
+  double volume = 0;
+  for (size_t i = 0; i < count_; ++i) volume += static_cast<double>(weights_[i]);
+  stride_ = std::max(stride_, 2 * volume / static_cast<double>(room_));
+  double due = 0;
+  for (size_t i = 0; i < count_; ++i) {
+    due += static_cast<double>(weights_[i]);
+    const bool is_kept = due >= stride_;
+    weights_[i] = is_kept ? static_cast<float>(due) : 0;
+    if (is_kept) due = 0;
+  }
+  compact();
+}
+
+template <class S>
+void ErrorSample<S>::compact() {
+  size_t kept = 0;
+  for (size_t i = 0; i < count_; ++i) {
+    if (!(weights_[i] > 0)) continue;
+    if (kept < i) std::copy_n(point(i), dimension(), points_.data() + kept * dimension());
+    weights_[kept++] = weights_[i];
+  }
+  count_ = kept;
+}
+
+template <class S>
+void ErrorSample<S>::scaledPoint(size_t i, double x[3]) const {
+  for (int k = 0; k < 3; ++k)
+    x[k] = static_cast<double>(core_.scale[0]) * static_cast<double>(point(i)[k]);
+}
+
+// About one for a point, and never more than there is room for.
+template <class S>
+void ErrorSample<S>::chooseBins() {
+  double high[3], x[3], longest = 0, volume = 1;
+  std::fill_n(low_, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
+  for (size_t p = 0; p < count_; ++p) {
+    scaledPoint(p, x);
+    for (int i = 0; i < 3; ++i) {
+      low_[i] = std::min(low_[i], x[i]);
+      high[i] = std::max(high[i], x[i]);
+    }
+  }
+  for (int i = 0; i < 3; ++i) longest = std::max(longest, high[i] - low_[i]);
+  for (int i = 0; i < 3; ++i) volume *= std::max(high[i] - low_[i], longest / kMostBins);
+  double side = std::cbrt(volume / static_cast<double>(std::max<size_t>(count_, 1)));
+  do {
+    for (int i = 0; i < 3; ++i) {
+      const double extent = high[i] - low_[i], bins = side > 0 ? std::floor(extent / side) : 1;
+      bins_[i] = static_cast<size_t>(std::clamp(bins, 1.0, double{kMostBins}));
+      bins_by_unit_[i] = extent > 0 ? static_cast<double>(bins_[i]) / extent : 0;
+    }
+    side *= kWider;
+  } while (bins_[0] * bins_[1] * bins_[2] + 1 >= begin_.size());
+}
+
+// Along an axis; places beyond its ends count as there.
+template <class S>
+size_t ErrorSample<S>::binAlong(int axis, double x) const {
+  const double place = (x - low_[axis]) * bins_by_unit_[axis];
+  return static_cast<size_t>(std::clamp(place, 0.0, static_cast<double>(bins_[axis] - 1)));
+}
+
+template <class S>
+size_t ErrorSample<S>::binOf(const double x[3]) const {
+  return (binAlong(0, x[0]) * bins_[1] + binAlong(1, x[1])) * bins_[2] + binAlong(2, x[2]);
+}
+
+template <class S>
+void ErrorSample<S>::sort() {
+  if (count_ == 0) return;
+  chooseBins();
+  const size_t bins = bins_[0] * bins_[1] * bins_[2];
+  std::fill_n(begin_.data(), bins + 2, 0u);
+  double x[3];
+  for (size_t p = 0; p < count_; ++p) {
+    scaledPoint(p, x);
+    ++begin_[binOf(x) + 2];
+  }
+  for (size_t b = 1; b <= bins; ++b) begin_[b + 1] += begin_[b];
+  for (size_t p = 0; p < count_; ++p) {
+    scaledPoint(p, x);
+    order_[begin_[binOf(x) + 1]++] = static_cast<uint32_t>(p);
+  }
+}
+
+template <class S>
+template <class Visit>
+void ErrorSample<S>::visitLive(uint32_t cell, Visit visitOne) const {
+  double corners[4][3];
+  cornersIn(core_.window, cell, corners);
+  scale(corners);
+  visit(corners, visitOne);
+}
+
+// visitOne(point, weights) for each that is not gone and lies in the cell.
+template <class S>
+template <class Visit>
+void ErrorSample<S>::visit(const double corners[4][3], Visit visitOne) const {
+  double x[3], w[4];
+  size_t first[3], last[3];
+  for (int i = 0; i < 3; ++i) {
+    const auto [low, high] =
+        std::minmax({corners[0][i], corners[1][i], corners[2][i], corners[3][i]});
+    first[i] = binAlong(i, low);
+    last[i] = binAlong(i, high);
+  }
+  CellFrame frame;
+  bool is_set = false;
+  for (size_t a = first[0]; a <= last[0]; ++a)
+    for (size_t b = first[1]; b <= last[1]; ++b) {
+      const size_t row = (a * bins_[1] + b) * bins_[2];
+      const uint32_t end = begin_[row + last[2] + 1];
+      for (uint32_t k = begin_[row + first[2]]; k < end; ++k) {
+        const uint32_t p = order_[k];
+        if (weights_[p] == 0) continue;
+        if (!std::exchange(is_set, true)) frame.set(corners[0]);
+        scaledPoint(p, x);
+        frame.weights(x, w);
+        if (std::min({w[0], w[1], w[2], w[3]}) >= -kOutside) visitOne(p, w);
+      }
+    }
+}
+
+// That smooth fields have beside others counts where edges are chosen, not for what is told.
+template <class S>
+double ErrorSample<S>::weightFound(size_t component) const {
+  const std::vector<double>& found = core_.balance.fields;
+  const auto field = static_cast<size_t>(core_.plan.measured_column[component]);
+  return found.empty() ? 1 : found[field];
+}
+
+// Of the point, between what the fields are in the cell and what they were in the input; the
+// window's units.
+template <class S>
+double ErrorSample<S>::squaredError(size_t i, uint32_t cell, const double weights[4]) const {
+  const uint32_t* v = core_.window.mesh.corners(cell);
+  double sum = 0;
+  for (size_t k = 3; k < dimension(); ++k) {
+    double value = 0;
+    for (int j = 0; j < 4; ++j)
+      value += weights[j] * static_cast<double>(core_.window.values(v[j])[k]);
+    const double error =
+        static_cast<double>(core_.scale[k]) * (value - static_cast<double>(point(i)[k]));
+    sum += error * error / weightFound(k - 3);
+  }
+  return sum;
+}
+
+template <class S>
+void ErrorSample<S>::add(Sum& sum, size_t i, uint32_t cell, const double weights[4]) const {
+  const double volume = std::fabs(static_cast<double>(weights_[i]));
+  const double error = volume * squaredError(i, cell, weights);
+  sum.weight += volume;
+  sum.error += error;
+  sum.square += error * error;
+}
+
+template <class S>
+void ErrorSample<S>::startLeaving() {
+  sort();
+}
+
+template <class S>
+void ErrorSample<S>::leave(uint32_t cell, const double corners[4][3]) {
+  if (count_ == 0) return;
+  double scaled[4][3];
+  std::copy_n(corners[0], 12, scaled[0]);
+  scale(scaled);
+  visit(scaled, [&](size_t i, const double* weights) {
+    add(sum_, i, cell, weights);
+    weights_[i] = 0;
+  });
+}
+
+template <class S>
+void ErrorSample<S>::endLeaving() {
+  compact();
+  if (count_ > room_ / 2) keepFound();
+}
+
+template <class S>
+void ErrorSample<S>::rescale(double factor) {
+  sum_.error *= factor;
+  sum_.square *= factor * factor;
+}
+
+template <class S>
+double ErrorSample<S>::percentOf(const Sum& sum) const {
+  if (!(sum.weight > 0)) return std::numeric_limits<double>::infinity();
+  const double mean = (sum.error + kChance * std::sqrt(sum.square)) / sum.weight;
+  const double margin = kMargin * (1 + kMarginOfFew / std::cbrt(static_cast<double>(cells_)));
+  return 100 * margin * std::sqrt(mean) / core_.extent;
+}
+
+template <class S>
+double ErrorSample<S>::percentNow() {
+  Sum sum = sum_;
+  sort();
+  const Topology& mesh = core_.window.mesh;
+  for (uint32_t c = 0; c < mesh.cellEnd() && count_ > 0; ++c)
+    if (mesh.isLive(c))
+      visitLive(c, [&](size_t i, const double* weights) { add(sum, i, c, weights); });
+  return percentOf(sum);
+}
+
+// Quadrics may tell what is allowed in any case. Beyond that a pass may make by them a part of what
+// is left by measure, which is less as a rule.
+template <class S>
+bool ErrorSample<S>::limitError() {
+  const double asked = square(core_.options.error), allowed = square(kAim) * asked;
+  const double told = square(tetstream::percentOf(core_, core_.tally.error));
+  const double left = allowed - std::min(square(percentNow()), told);
+  const double limit = std::max(asked, told + kWay * std::max(left, 0.0));
+  core_.error_limit = errorOf(core_, std::sqrt(limit));
+  return left > kWorthGoingOn * allowed;
+}
+
+template class ErrorSample<float>;
+template class ErrorSample<double>;
+
+}  // namespace tetstream

@@ -1,0 +1,79 @@
+// simplify/state: the RMS error of the fields, measured at points. Depends on core.h.
+//
+// The quadrics tell an error that the fields' is below as a rule, often by half, and that of the
+// boundary and of shapes with it. What the error is shows where it is measured: of the cells that
+// are read some have a point by chance, whose values wait until the cell that it lies in then
+// leaves the window. Points are spread evenly over the volume, each for as much of it.
+#pragma once
+
+#include <cstdint>
+
+#include "core.h"
+
+namespace tetstream {
+
+template <class S>
+class ErrorSample {
+ public:
+  // For a window of so many cells.
+  ErrorSample(Core<S>& core, Account& account, size_t cells);
+
+  // Cells [first, end) of the window are new, and their scales are known.
+  void take(uint32_t first, uint32_t end);
+  // Cells leave, between the two.
+  void startLeaving();
+  void leave(uint32_t cell, const double corners[4][3]);
+  void endLeaving();
+  // Squared errors count so many times as much in the units of now.
+  void rescale(double factor);
+
+  // In percent of the range, with what chance may have left out: of what has left, and with the
+  // live cells as they are. Infinite where nothing was measured.
+  double percent() const { return percentOf(sum_); }
+  double percentNow();
+  // Bounds what quadrics may tell by what is measured now, for the error that is allowed. Returns
+  // whether much of that is left.
+  bool limitError();
+
+ private:
+  struct Sum {  // of weights, of squared errors by weight, and of the squares of these
+    double weight = 0, error = 0, square = 0;
+  };
+
+  size_t roomFor(size_t cells) const;
+  double percentOf(const Sum& sum) const;
+  const S* point(size_t i) const { return points_.data() + i * dimension(); }
+  size_t dimension() const { return static_cast<size_t>(core_.plan.dimension); }
+  void placeIn(uint32_t cell, uint64_t number, double volume);
+  void scale(double corners[4][3]) const;
+  void keepFound();
+  void thinOut();
+  void compact();
+  void sort();
+  void chooseBins();
+  size_t binAlong(int axis, double x) const;
+  size_t binOf(const double x[3]) const;
+  void scaledPoint(size_t i, double x[3]) const;
+  template <class Visit>
+  void visitLive(uint32_t cell, Visit visitOne) const;
+  template <class Visit>
+  void visit(const double corners[4][3], Visit visitOne) const;
+  double weightFound(size_t component) const;
+  double squaredError(size_t i, uint32_t cell, const double weights[4]) const;
+  void add(Sum& sum, size_t i, uint32_t cell, const double weights[4]) const;
+
+  Core<S>& core_;
+  Array<S> points_;        // of each, in the user's units: the place, and the fields there
+  Array<float> weights_;   // the volume that each stands for; 0: gone
+  Array<uint32_t> begin_;  // of bins: where their points begin among those in order
+  Array<uint32_t> order_;
+  size_t room_, count_ = 0;
+  uint64_t cells_ = 0;               // that were read
+  uint64_t blocks_ = 0;              // of cells, one of which was looked at
+  double stride_ = 0, due_ = 0;      // volume between points, and since the last one
+  double low_[3], bins_by_unit_[3];  // of bins
+  size_t bins_[3];
+  Sum sum_;  // of what has left
+};
+
+}  // namespace tetstream
