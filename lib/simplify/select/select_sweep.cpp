@@ -177,7 +177,7 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
 template <class S>
 bool SweepSelector<S>::leavesErrorAfterAll(int64_t cells_before) {
   if (!(core_.options.error > 0) || !core_.error_sample) return false;
-  const bool is_left = core_.error_sample->limitError();
+  const bool is_left = core_.error_sample->limitErrorAfterPass();
   const bool goes_on =
       is_left && core_.tally.error_reached && core_.window.liveCells() < cells_before;
   if (goes_on) {

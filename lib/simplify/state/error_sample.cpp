@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "barycentric.h"
@@ -30,7 +31,7 @@ constexpr double kOutside = 1e-6;
 // Of the error that is allowed: what is measured later may be more.
 constexpr double kAim = 0.95;
 // Of what is left of its square, what a pass may make: of few cells more may be real than is told.
-constexpr double kWay = 0.65;
+constexpr double kWay = 0.5;
 // Where more is left of the square, another pass pays.
 constexpr double kWorthGoingOn = 0.2;
 constexpr int kMostBins = 256;  // along an axis
@@ -238,14 +239,18 @@ void ErrorSample<S>::visitLive(uint32_t cell, Visit visitOne) const {
 template <class S>
 template <class Visit>
 void ErrorSample<S>::visit(const double corners[4][3], Visit visitOne) const {
-  double x[3], w[4];
+  double low[3], high[3], x[3], w[4];
   size_t first[3], last[3];
   for (int i = 0; i < 3; ++i) {
-    const auto [low, high] =
+    std::tie(low[i], high[i]) =
         std::minmax({corners[0][i], corners[1][i], corners[2][i], corners[3][i]});
-    first[i] = binAlong(i, low);
-    last[i] = binAlong(i, high);
+    first[i] = binAlong(i, low[i]);
+    last[i] = binAlong(i, high[i]);
   }
+  const auto isInBox = [&] {
+    return x[0] >= low[0] && x[0] <= high[0] && x[1] >= low[1] && x[1] <= high[1] &&
+           x[2] >= low[2] && x[2] <= high[2];
+  };
   CellFrame frame;
   bool is_set = false;
   for (size_t a = first[0]; a <= last[0]; ++a)
@@ -254,9 +259,9 @@ void ErrorSample<S>::visit(const double corners[4][3], Visit visitOne) const {
       const uint32_t end = begin_[row + last[2] + 1];
       for (uint32_t k = begin_[row + first[2]]; k < end; ++k) {
         const uint32_t p = order_[k];
-        if (weights_[p] == 0) continue;
-        if (!std::exchange(is_set, true)) frame.set(corners[0]);
         scaledPoint(p, x);
+        if (!isInBox() || weights_[p] == 0) continue;
+        if (!std::exchange(is_set, true)) frame.set(corners[0]);
         frame.weights(x, w);
         if (std::min({w[0], w[1], w[2], w[3]}) >= -kOutside) visitOne(p, w);
       }
@@ -317,7 +322,7 @@ void ErrorSample<S>::leave(uint32_t cell, const double corners[4][3]) {
 template <class S>
 void ErrorSample<S>::endLeaving() {
   compact();
-  if (count_ > room_ / 2) keepFound();
+  if (count_ > room_ - room_ / 4) keepFound();
 }
 
 template <class S>
@@ -351,10 +356,19 @@ template <class S>
 bool ErrorSample<S>::limitError() {
   const double asked = square(core_.options.error), allowed = square(kAim) * asked;
   const double told = square(tetstream::percentOf(core_, core_.tally.error));
-  const double left = allowed - std::min(square(percentNow()), told);
+  const bool is_far = told + kWay * allowed <= asked;  // whatever would be measured
+  const double left = is_far ? allowed : allowed - std::min(square(percentNow()), told);
   const double limit = std::max(asked, told + kWay * std::max(left, 0.0));
   core_.error_limit = errorOf(core_, std::sqrt(limit));
+  made_ = core_.tally.error;
   return left > kWorthGoingOn * allowed;
+}
+
+// One that has made less than half of what it might leaves the limit as it is.
+template <class S>
+bool ErrorSample<S>::limitErrorAfterPass() {
+  const bool is_small = 2 * (core_.tally.error - made_) < core_.error_limit - made_;
+  return (is_small && !core_.tally.error_reached) || limitError();
 }
 
 template class ErrorSample<float>;

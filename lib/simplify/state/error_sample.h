@@ -34,6 +34,7 @@ class ErrorSample {
   // Bounds what quadrics may tell by what is measured now, for the error that is allowed. Returns
   // whether much of that is left.
   bool limitError();
+  bool limitErrorAfterPass();
 
  private:
   struct Sum {  // of weights, of squared errors by weight, and of the squares of these
@@ -73,7 +74,8 @@ class ErrorSample {
   double stride_ = 0, due_ = 0;      // volume between points, and since the last one
   double low_[3], bins_by_unit_[3];  // of bins
   size_t bins_[3];
-  Sum sum_;  // of what has left
+  Sum sum_;          // of what has left
+  double made_ = 0;  // by what quadrics tell, when the limit was set
 };
 
 }  // namespace tetstream
