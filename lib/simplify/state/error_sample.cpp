@@ -31,7 +31,7 @@ constexpr double kOutside = 1e-6;
 // Of the error that is allowed: what is measured later may be more.
 constexpr double kAim = 0.95;
 // Of what is left of its square, what a pass may make: of few cells more may be real than is told.
-constexpr double kWay = 0.5;
+constexpr double kWay = 0.65;
 // Where more is left of the square, another pass pays.
 constexpr double kWorthGoingOn = 0.2;
 constexpr int kMostBins = 256;  // along an axis
