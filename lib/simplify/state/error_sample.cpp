@@ -21,7 +21,7 @@ constexpr int64_t kMostStep = 16, kUnknownStep = 4;
 // many fields.
 constexpr size_t kFewest = 64, kFew = 2048, kMost = 16384, kMostBytes = 1 << 20;
 // Standard errors of the mean of squares that are added to it.
-constexpr double kChance = 2;
+constexpr double kChance = 1;
 // What is told is more by this than what was measured: at vertices, where somebody may look for
 // errors, they are larger than between them; and of a mesh of few cells most vertices are on the
 // boundary, where they are largest.
