@@ -155,6 +155,16 @@ def check_traces(build):
     assert float(rows[0]["window MB map"]) > float(rows[0]["window MB"]) > 0, rows
 
 
+def check_bounds(build):
+    with tempfile.TemporaryDirectory(prefix="tetstream-") as folder:
+        rows = table(build, "bounds.py", "--rows", fluid(build, folder), "--ratios", "0.2",
+                     "--errors", "5", "--samples", "0")
+    assert [row["asked"] for row in rows] == ["--ratio 0.2", "--error 5"], rows
+    for row in rows:
+        assert 0 < float(row["cells kept %"]) < 60 and 0.9 < float(row["told / RMS"]) < 2, row
+    assert float(rows[1]["RMS %"]) <= 5, rows
+
+
 def check_windows(build, mesh):
     rows = table(build, "windows.py", "--rows", mesh, "--fronts", "4", "--samples", "2000",
                  "--modes", "default", "paper")
@@ -256,6 +266,7 @@ def main():
     check_orders(build)
     check_cost_of_fields(build)
     check_traces(build)
+    check_bounds(build)
     check_islands()
     check_solvers(build)
     try:

@@ -225,6 +225,12 @@ TEST(EstimatedError, IsNearTheOneThatIsMade) {
       }
 }
 
+TEST(EstimatedError, IsNothingWhereNothingIsDone) {
+  const TestMesh mesh = wavyMesh(k64);
+  for (const int64_t window : {int64_t{0}, fourFrontsOfBox()})
+    EXPECT_LT(simplified(mesh, toRatio(1, window)).report.estimated_error, 1e-9) << window;
+}
+
 // A long box with all of its detail in the middle.
 TestMesh quietAtItsEnds() {
   const int n = slowRun() ? 4 : 10;
