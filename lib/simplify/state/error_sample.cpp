@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "barycentric.h"
@@ -17,6 +16,9 @@ namespace {
 // Of meshes up to so many cells all are looked at; of larger ones fewer, one of so many at least.
 constexpr int64_t kCellsOfAll = 1 << 16;
 constexpr int64_t kMostStep = 16, kUnknownStep = 4;
+// Of a stream of several windows, which have many together, fewer points wait in each: every cell
+// that leaves is looked up among them.
+constexpr size_t kCellsPerSampledOfLong = 64;
 // Points that wait at most: few of a small window, under a budget of memory fewer still, and of
 // many fields.
 constexpr size_t kFewest = 64, kFew = 2048, kMost = 16384, kMostBytes = 1 << 20;
@@ -66,8 +68,9 @@ template <class S>
 size_t ErrorSample<S>::roomFor(size_t cells) const {
   const size_t few = core_.options.memory_bytes > 0 ? kFewest : kFew;
   const size_t most = kMostBytes / Core<S>::sampledBytes(core_.plan.dimension);
-  return std::min(std::clamp(cells / Core<S>::kCellsPerSampled, few, kMost),
-                  std::max(most, kFewest));
+  const bool is_long = core_.stream_cells > static_cast<int64_t>(cells);
+  const size_t per_point = is_long ? kCellsPerSampledOfLong : Core<S>::kCellsPerSampled;
+  return std::min(std::clamp(cells / per_point, few, kMost), std::max(most, kFewest));
 }
 
 template <class S>
@@ -242,8 +245,10 @@ void ErrorSample<S>::visit(const double corners[4][3], Visit visitOne) const {
   double low[3], high[3], x[3], w[4];
   size_t first[3], last[3];
   for (int i = 0; i < 3; ++i) {
-    std::tie(low[i], high[i]) =
-        std::minmax({corners[0][i], corners[1][i], corners[2][i], corners[3][i]});
+    const auto [a, b] = std::minmax(corners[0][i], corners[1][i]);
+    const auto [c, d] = std::minmax(corners[2][i], corners[3][i]);
+    low[i] = std::min(a, c);
+    high[i] = std::max(b, d);
     first[i] = binAlong(i, low[i]);
     last[i] = binAlong(i, high[i]);
   }
