@@ -28,6 +28,8 @@ constexpr double kChance = 1;
 // errors, they are larger than between them; and of a mesh of few cells most vertices are on the
 // boundary, where they are largest.
 constexpr double kMargin = 1.15, kMarginOfFew = 4.5;
+// In the window's units, so that sums are within reach of float32.
+constexpr double kLargestVolume = 1e25;
 // Rounding may have put a point on a face outside of both cells.
 constexpr double kOutside = 1e-6;
 // Of the error that is allowed: what is measured later may be more.
@@ -111,7 +113,7 @@ void ErrorSample<S>::take(uint32_t first, uint32_t end) {
 
 template <class S>
 void ErrorSample<S>::placeIn(uint32_t cell, uint64_t number, double volume) {
-  due_ += volume;
+  due_ += std::min(volume, kLargestVolume);
   if (!(due_ >= stride_) || !(due_ > 0)) return;
   if (count_ == room_) thinOut();
   double w[4];
