@@ -12,4 +12,9 @@ inline uint64_t mix(uint64_t x) {
   return x ^ (x >> 33);
 }
 
+// At least 0 and below 1, each as likely, of what looks random.
+inline double uniform(uint64_t random) {
+  return static_cast<double>(random >> 11) * 0x1p-53;
+}
+
 }  // namespace tetstream

@@ -92,7 +92,7 @@ void Bricks::take(size_t wanted, double share) {
   usual_ = static_cast<uint64_t>(std::max(share * part, 1.0));
   std::vector<Piece> pieces;
   for (size_t k = 0; k < wanted && all > 0; ++k) {
-    const double within = static_cast<double>(mix(k + 1) >> 11) * 0x1p-53;
+    const double within = uniform(mix(k + 1));
     const auto vertex = static_cast<uint64_t>((static_cast<double>(k) + within) * part);
     const Piece piece = pieceAt(std::min(vertex, cells_.back() - 1));
     if (pieces.empty() || piece.begin >= pieces.back().end) pieces.push_back(piece);

@@ -235,7 +235,7 @@ class WindowedEngine final : public Simplifier::Engine {
         resolver_.resolve(resolved_cells_, intake_.finalized(), intake_.finalizedCount());
     intake_.clearFinalized();
     if (error_sample_) error_sample_->take(resolved_cells_, mesh().cellEnd());
-    if (options_.error > 0 && error_sample_) error_sample_->limitError();
+    if (options_.error > 0) error_sample_->limitError();
     resolved_cells_ = mesh().cellEnd();
   }
 

@@ -176,7 +176,7 @@ void SweepSelector<S>::sweep(double bound, int approaches, const std::function<v
 // ended by what the quadrics tell, and made something, may go on.
 template <class S>
 bool SweepSelector<S>::leavesErrorAfterAll(int64_t cells_before) {
-  if (!(core_.options.error > 0) || !core_.error_sample) return false;
+  if (!(core_.options.error > 0)) return false;
   const bool is_left = core_.error_sample->limitErrorAfterPass();
   const bool goes_on =
       is_left && core_.tally.error_reached && core_.window.liveCells() < cells_before;

@@ -154,7 +154,7 @@ struct Core {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options);
     bytes += 1;  // what is tiled is marked: a byte of a vertex, rounded up
-    if (plan.tellsErrors()) bytes += sampledBytes(plan.dimension) / kCellsPerSampled;
+    if (plan.tellsErrors()) bytes += 1 + sampledBytes(plan.dimension) / kCellsPerSampledOfBudget;
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
       bytes += Tracer<S>::kCellBytes + Tracer<S>::kVertexBytes / kCellsPerVertex +
@@ -163,7 +163,7 @@ struct Core {
   }
 
   // A point at which errors are measured, with its number in a bin and two bins.
-  static constexpr size_t kCellsPerSampled = 16;
+  static constexpr size_t kCellsPerSampledOfBudget = 128;
   static size_t sampledBytes(int dimension) {
     return sizeof(S) * static_cast<size_t>(dimension) + sizeof(float) + 3 * sizeof(uint32_t);
   }

@@ -16,9 +16,9 @@ namespace {
 // Of meshes up to so many cells all are looked at; of larger ones fewer, one of so many at least.
 constexpr int64_t kCellsOfAll = 1 << 16;
 constexpr int64_t kMostStep = 16, kUnknownStep = 4;
-// Of a stream of several windows, which have many together, fewer points wait in each: every cell
-// that leaves is looked up among them.
-constexpr size_t kCellsPerSampledOfLong = 64;
+// Cells of a window for one point that waits. Streams of several windows have many together, and
+// every cell that leaves is looked up among those.
+constexpr size_t kCellsPerSampled = 16, kCellsPerSampledOfLong = 64;
 // Points that wait at most: few of a small window, under a budget of memory fewer still, and of
 // many fields.
 constexpr size_t kFewest = 64, kFew = 2048, kMost = 16384, kMostBytes = 1 << 20;
@@ -40,10 +40,6 @@ constexpr double kWay = 0.65;
 constexpr double kWorthGoingOn = 0.2;
 constexpr int kMostBins = 256;  // along an axis
 constexpr double kWider = 1.3;
-
-double uniform(uint64_t random) {
-  return static_cast<double>(random >> 11) * 0x1p-53;
-}
 
 // Those of a point of a cell, each as likely.
 void placeByChance(uint64_t number, double w[4]) {
@@ -68,11 +64,14 @@ int64_t stepFor(int64_t cells) {
 
 template <class S>
 size_t ErrorSample<S>::roomFor(size_t cells) const {
-  const size_t few = core_.options.memory_bytes > 0 ? kFewest : kFew;
+  const bool has_budget = core_.options.memory_bytes > 0;
   const size_t most = kMostBytes / Core<S>::sampledBytes(core_.plan.dimension);
   const bool is_long = core_.stream_cells > static_cast<int64_t>(cells);
-  const size_t per_point = is_long ? kCellsPerSampledOfLong : Core<S>::kCellsPerSampled;
-  return std::min(std::clamp(cells / per_point, few, kMost), std::max(most, kFewest));
+  const size_t per_point = has_budget ? Core<S>::kCellsPerSampledOfBudget
+                           : is_long  ? kCellsPerSampledOfLong
+                                      : kCellsPerSampled;
+  return std::min(std::clamp(cells / per_point, has_budget ? kFewest : kFew, kMost),
+                  std::max(most, kFewest));
 }
 
 template <class S>
