@@ -131,7 +131,7 @@ void Release<S>::writeCell(uint32_t cell) {
   cornersIn(core_.window, cell, corners);
   const double volume = std::fabs(sixVolume(corners)) / 6;
   volume_ += volume;
-  if (core_.error_sample) core_.error_sample->leave(cell, corners);
+  if (core_.error_sample) core_.error_sample->leave(cell);
   if (!core_.region_picks.empty())
     core_.label_volumes.add(core_.cellLabels(), cell, volume, LabelVolumes::kOutput);
   if (core_.window.faces.anyPlaced()) writeFaces(cell);

@@ -162,10 +162,10 @@ struct Core {
     return bytes;
   }
 
-  // A point at which errors are measured, with its number in a bin and two bins.
+  // A point at which errors are measured, with its number and place in a bin and two bins.
   static constexpr size_t kCellsPerSampledOfBudget = 128;
   static size_t sampledBytes(int dimension) {
-    return sizeof(S) * static_cast<size_t>(dimension) + sizeof(float) + 3 * sizeof(uint32_t);
+    return sizeof(S) * static_cast<size_t>(dimension + 3) + sizeof(float) + 3 * sizeof(uint32_t);
   }
 
   // What a patch takes for a vertex that it owns: its arrays have a quarter to spare, and small

@@ -81,11 +81,13 @@ ErrorSample<S>::ErrorSample(Core<S>& core, Account& account, size_t cells)
       weights_(account),
       begin_(account),
       order_(account),
+      places_(account),
       room_(roomFor(cells)) {
   points_.resize(room_ * dimension());
   weights_.resize(room_);
   begin_.resize(2 * room_ + 2);
   order_.resize(room_);
+  places_.resize(3 * room_);
 }
 
 // In the window's units of length, in which no power of theirs is out of reach.
@@ -136,7 +138,7 @@ void ErrorSample<S>::keepFound() {
   std::transform(weights_.data(), weights_.data() + count_, weights_.data(), notFound);
   for (uint32_t c = 0; c < core_.window.mesh.cellEnd(); ++c)
     if (core_.window.mesh.isLive(c))
-      visitLive(c, [&](size_t i, const double*) { weights_[i] = std::fabs(weights_[i]); });
+      visit(c, [&](size_t i, const double*) { weights_[i] = std::fabs(weights_[i]); });
   for (size_t i = 0; i < count_; ++i) weights_[i] = std::max(weights_[i], 0.0f);
   compact();
 }
@@ -169,9 +171,9 @@ void ErrorSample<S>::compact() {
 }
 
 template <class S>
-void ErrorSample<S>::scaledPoint(size_t i, double x[3]) const {
-  for (int k = 0; k < 3; ++k)
-    x[k] = static_cast<double>(core_.scale[0]) * static_cast<double>(point(i)[k]);
+void ErrorSample<S>::scaled(const S x[3], double out[3]) const {
+  for (int i = 0; i < 3; ++i)
+    out[i] = static_cast<double>(core_.scale[0]) * static_cast<double>(x[i]);
 }
 
 // About one for a point, and never more than there is room for.
@@ -181,7 +183,7 @@ void ErrorSample<S>::chooseBins() {
   std::fill_n(low_, 3, std::numeric_limits<double>::infinity());
   std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
   for (size_t p = 0; p < count_; ++p) {
-    scaledPoint(p, x);
+    scaled(point(p), x);
     for (int i = 0; i < 3; ++i) {
       low_[i] = std::min(low_[i], x[i]);
       high[i] = std::max(high[i], x[i]);
@@ -202,13 +204,14 @@ void ErrorSample<S>::chooseBins() {
 
 // Along an axis; places beyond its ends count as there.
 template <class S>
-size_t ErrorSample<S>::binAlong(int axis, double x) const {
-  const double place = (x - low_[axis]) * bins_by_unit_[axis];
+size_t ErrorSample<S>::binAlong(int axis, S x) const {
+  const double place = (static_cast<double>(core_.scale[0]) * static_cast<double>(x) - low_[axis]) *
+                       bins_by_unit_[axis];
   return static_cast<size_t>(std::clamp(place, 0.0, static_cast<double>(bins_[axis] - 1)));
 }
 
 template <class S>
-size_t ErrorSample<S>::binOf(const double x[3]) const {
+size_t ErrorSample<S>::binOf(const S x[3]) const {
   return (binAlong(0, x[0]) * bins_[1] + binAlong(1, x[1])) * bins_[2] + binAlong(2, x[2]);
 }
 
@@ -218,42 +221,30 @@ void ErrorSample<S>::sort() {
   chooseBins();
   const size_t bins = bins_[0] * bins_[1] * bins_[2];
   std::fill_n(begin_.data(), bins + 2, 0u);
-  double x[3];
-  for (size_t p = 0; p < count_; ++p) {
-    scaledPoint(p, x);
-    ++begin_[binOf(x) + 2];
-  }
+  for (size_t p = 0; p < count_; ++p) ++begin_[binOf(point(p)) + 2];
   for (size_t b = 1; b <= bins; ++b) begin_[b + 1] += begin_[b];
   for (size_t p = 0; p < count_; ++p) {
-    scaledPoint(p, x);
-    order_[begin_[binOf(x) + 1]++] = static_cast<uint32_t>(p);
+    const size_t at = begin_[binOf(point(p)) + 1]++;
+    order_[at] = static_cast<uint32_t>(p);
+    std::copy_n(point(p), 3, places_.data() + 3 * at);
   }
-}
-
-template <class S>
-template <class Visit>
-void ErrorSample<S>::visitLive(uint32_t cell, Visit visitOne) const {
-  double corners[4][3];
-  cornersIn(core_.window, cell, corners);
-  scale(corners);
-  visit(corners, visitOne);
 }
 
 // visitOne(point, weights) for each that is not gone and lies in the cell.
 template <class S>
 template <class Visit>
-void ErrorSample<S>::visit(const double corners[4][3], Visit visitOne) const {
-  double low[3], high[3], x[3], w[4];
+void ErrorSample<S>::visit(uint32_t cell, Visit visitOne) const {
+  const uint32_t* const v = core_.window.mesh.corners(cell);
+  S low[3], high[3];
   size_t first[3], last[3];
   for (int i = 0; i < 3; ++i) {
-    const auto [a, b] = std::minmax(corners[0][i], corners[1][i]);
-    const auto [c, d] = std::minmax(corners[2][i], corners[3][i]);
-    low[i] = std::min(a, c);
-    high[i] = std::max(b, d);
+    const auto at = [&](int k) { return core_.window.values(v[k])[i]; };
+    low[i] = std::min(std::min(at(0), at(1)), std::min(at(2), at(3)));
+    high[i] = std::max(std::max(at(0), at(1)), std::max(at(2), at(3)));
     first[i] = binAlong(i, low[i]);
     last[i] = binAlong(i, high[i]);
   }
-  const auto isInBox = [&] {
+  const auto isInBox = [&](const S* x) {
     return x[0] >= low[0] && x[0] <= high[0] && x[1] >= low[1] && x[1] <= high[1] &&
            x[2] >= low[2] && x[2] <= high[2];
   };
@@ -264,10 +255,17 @@ void ErrorSample<S>::visit(const double corners[4][3], Visit visitOne) const {
       const size_t row = (a * bins_[1] + b) * bins_[2];
       const uint32_t end = begin_[row + last[2] + 1];
       for (uint32_t k = begin_[row + first[2]]; k < end; ++k) {
+        const S* const place = places_.data() + 3 * size_t{k};
         const uint32_t p = order_[k];
-        scaledPoint(p, x);
-        if (!isInBox() || weights_[p] == 0) continue;
-        if (!std::exchange(is_set, true)) frame.set(corners[0]);
+        if (!isInBox(place) || weights_[p] == 0) continue;
+        if (!std::exchange(is_set, true)) {
+          double corners[4][3];
+          cornersIn(core_.window, cell, corners);
+          scale(corners);
+          frame.set(corners[0]);
+        }
+        double x[3], w[4];
+        scaled(place, x);
         frame.weights(x, w);
         if (std::min({w[0], w[1], w[2], w[3]}) >= -kOutside) visitOne(p, w);
       }
@@ -314,12 +312,9 @@ void ErrorSample<S>::startLeaving() {
 }
 
 template <class S>
-void ErrorSample<S>::leave(uint32_t cell, const double corners[4][3]) {
+void ErrorSample<S>::leave(uint32_t cell) {
   if (count_ == 0) return;
-  double scaled[4][3];
-  std::copy_n(corners[0], 12, scaled[0]);
-  scale(scaled);
-  visit(scaled, [&](size_t i, const double* weights) {
+  visit(cell, [&](size_t i, const double* weights) {
     add(sum_, i, cell, weights);
     weights_[i] = 0;
   });
@@ -351,8 +346,7 @@ double ErrorSample<S>::percentNow() {
   sort();
   const Topology& mesh = core_.window.mesh;
   for (uint32_t c = 0; c < mesh.cellEnd() && count_ > 0; ++c)
-    if (mesh.isLive(c))
-      visitLive(c, [&](size_t i, const double* weights) { add(sum, i, c, weights); });
+    if (mesh.isLive(c)) visit(c, [&](size_t i, const double* weights) { add(sum, i, c, weights); });
   return percentOf(sum);
 }
 

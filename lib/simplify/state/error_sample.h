@@ -22,7 +22,7 @@ class ErrorSample {
   void take(uint32_t first, uint32_t end);
   // Cells leave, between the two.
   void startLeaving();
-  void leave(uint32_t cell, const double corners[4][3]);
+  void leave(uint32_t cell);
   void endLeaving();
   // Squared errors count so many times as much in the units of now.
   void rescale(double factor);
@@ -52,13 +52,11 @@ class ErrorSample {
   void compact();
   void sort();
   void chooseBins();
-  size_t binAlong(int axis, double x) const;
-  size_t binOf(const double x[3]) const;
-  void scaledPoint(size_t i, double x[3]) const;
+  size_t binAlong(int axis, S x) const;
+  size_t binOf(const S x[3]) const;
+  void scaled(const S x[3], double out[3]) const;
   template <class Visit>
-  void visitLive(uint32_t cell, Visit visitOne) const;
-  template <class Visit>
-  void visit(const double corners[4][3], Visit visitOne) const;
+  void visit(uint32_t cell, Visit visitOne) const;
   double weightFound(size_t component) const;
   double squaredError(size_t i, uint32_t cell, const double weights[4]) const;
   void add(Sum& sum, size_t i, uint32_t cell, const double weights[4]) const;
@@ -68,6 +66,7 @@ class ErrorSample {
   Array<float> weights_;   // the volume that each stands for; 0: gone
   Array<uint32_t> begin_;  // of bins: where their points begin among those in order
   Array<uint32_t> order_;
+  Array<S> places_;  // of points in order
   size_t room_, count_ = 0;
   uint64_t cells_ = 0;               // that were read
   uint64_t blocks_ = 0;              // of cells, one of which was looked at
