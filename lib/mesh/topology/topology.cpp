@@ -6,8 +6,11 @@
 
 namespace tetstream {
 
-// Corners are numbered with 32 bits.
-constexpr size_t kMostCells = (size_t{1} << 30) - 1;
+static void checkRoom(size_t wanted, const char* what) {
+  if (wanted > Topology::kMost)
+    fail(Status::kNoMemory, "a window holds at most %zu %s, not %zu", Topology::kMost, what,
+         wanted);
+}
 
 Topology::Topology(Account& account, size_t cell_capacity, size_t vertex_capacity, bool linked)
     : linked_(linked),
@@ -21,14 +24,14 @@ Topology::Topology(Account& account, size_t cell_capacity, size_t vertex_capacit
 }
 
 void Topology::growCells(size_t capacity) {
-  if (capacity > kMostCells)
-    fail(Status::kNoMemory, "a window holds at most %zu cells, not %zu", kMostCells, capacity);
+  checkRoom(capacity, "cells");
   vertex_of_.resize(4 * capacity);
   if (linked_) next_.resize(4 * capacity);
   cell_flags_.resize(capacity);
 }
 
 void Topology::growVertices(size_t capacity) {
+  checkRoom(capacity, "vertices");
   if (linked_) first_corner_.resize(capacity);
   vertex_flags_.resize(capacity);
 }

@@ -89,6 +89,9 @@ class Topology {
 
   size_t cellCapacity() const { return cell_flags_.size(); }
   size_t vertexCapacity() const { return vertex_flags_.size(); }
+  // Corners are numbered with 32 bits, pairs of vertices and two bits with 64: windows have at most
+  // so many cells, and so many vertices.
+  static constexpr size_t kMost = (size_t{1} << 30) - 1;
   void growCells(size_t capacity);
   void growVertices(size_t capacity);
 

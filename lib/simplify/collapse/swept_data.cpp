@@ -103,7 +103,7 @@ void SweptData::start(size_t sides, const CellLabels& labels) {
 
 constexpr uint64_t kMet = ~uint64_t{0};  // from both sides
 
-// note: a window has fewer than 2^30 cells, so that two vertices and a kind fit.
+// note: a window has fewer than 2^30 vertices, so that two vertices and a kind fit.
 void SweptData::addSide(Kind kind, uint64_t others, double gain) {
   const uint64_t key = others << 2 | kind;
   const auto cell = static_cast<uint32_t>(cells_.size() - 1);

@@ -25,8 +25,8 @@ void LinkBorder::sumEdges(const Star& star) {
 }
 
 // Sorts the edges that may have no other that goes back: both ends have sums other than 0. With
-// their directions in the lowest bit, for which there is room: a window has fewer than 2^30 cells,
-// so fewer vertices than 2^31.
+// their directions in the lowest bit, for which there is room: a window has fewer than 2^30
+// vertices.
 void LinkBorder::listOpen(const Star& star) {
   edges_.resize(3 * star.size());
   size_t count = 0;

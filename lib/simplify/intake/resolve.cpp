@@ -318,8 +318,8 @@ const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t other, uint32_t v, u
 template <class S>
 template <class Visit>
 void Resolver<S>::forLinkEdges(Visit visit) {
-  // Pairs of slots fit 31 bits each: a window has fewer than 2^30 cells, so fewer vertices than
-  // 2^31. The lowest bit is the direction.
+  // Pairs of slots fit 31 bits each: a window has fewer than 2^30 vertices. The lowest bit is
+  // the direction.
   if (edges_.size() < 3 * star().size()) edges_.resize(6 * star().size());
   size_t count = 0;
   for (const StarCell& s : star())

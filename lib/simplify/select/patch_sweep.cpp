@@ -262,6 +262,7 @@ void PatchSweep<S>::copySeamRow(uint32_t slot, size_t row) {
 template <class S>
 float PatchSweep<S>::leastAcrossSeam(uint32_t v) {
   listNeighbours(v);
+  seen_[v] = kAlways;
   Window<S>& window = core_.window;
   copySeamRow(patch_.slotOf(v), 0);
   for (size_t i = 0; i < count_; ++i) {

@@ -129,7 +129,7 @@ template <class S>
 void QueueSelector<S>::collapseInOrder(const std::function<void()>& tick) {
   const Topology& mesh = core_.window.mesh;
   int64_t cells_then = mesh.liveCells();  // when all edges were queued
-  for (int step = 1; !reached(); ++step) {
+  for (int64_t step = 1; !reached(); ++step) {
     if (step % kStepsPerTick == 0) tick();
     const int64_t gone = cells_then - mesh.liveCells();
     const bool is_due = edges_.empty() ? gone > 0 : gone > cells_then / kRetryShare;

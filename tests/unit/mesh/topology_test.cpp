@@ -229,10 +229,11 @@ TEST(Topology, WithoutLinksIsAListOfCells) {
   EXPECT_LT(account.used() - with, 1000 * (16 + 1 + 1) + 1000u);
 }
 
-TEST(Topology, RefusesMoreCellsThanCornersCanBeNumbered) {
+TEST(Topology, RefusesMoreThanCanBeNumbered) {
   Account account;
   Topology t(account, 1, 1);
   EXPECT_THROW(t.growCells(size_t{1} << 30), Error);
+  EXPECT_THROW(t.growVertices(size_t{1} << 30), Error);
 }
 
 }  // namespace
