@@ -18,6 +18,7 @@ void Window<S>::forVertexArrays(Visit visit) {
   visit(picks_, static_cast<size_t>(shape_.picks), size_t{0});
   visit(out_rank_, size_t{1}, size_t{0});
   visit(origins_, size_t{shape_.origins}, size_t{0});
+  visit(errors_, size_t{shape_.errors}, size_t{0});
   visit(remap_, size_t{1}, size_t{0});
 }
 
@@ -127,6 +128,7 @@ void Window<S>::moveVertices(uint32_t end) {
     moveRow(picks_.data(), static_cast<size_t>(shape_.picks), v, to);
     out_rank_[to] = out_rank_[v];
     if (shape_.origins) origins_[to] = origins_[v];
+    if (shape_.errors) errors_[to] = errors_[v];
   }
 }
 

@@ -25,6 +25,7 @@ struct WindowShape {
   int cell_picks = 0;    // int64 per cell: integer cell data
   bool origins = false;  // int64 per vertex: where it came from
   bool points = false;   // uint32 per cell: the first of the points traced in it
+  bool errors = false;   // float per vertex: the error that was made where it stands
 };
 
 // Rows are short: a call would take longer than the copying.
@@ -48,6 +49,7 @@ class Window {
         picks_(account),
         out_rank_(account),
         origins_(account),
+        errors_(account),
         cell_means_(account),
         cell_picks_(account),
         first_points_(account),
@@ -70,6 +72,8 @@ class Window {
   // Where there are origins: the vertex's own in the input, or its complement, below 0, once the
   // vertex stands elsewhere.
   int64_t& origin(uint32_t v) { return origins_[v]; }
+  // Where there are errors: what merging vertices into it has added, nothing at first.
+  float& error(uint32_t v) { return errors_[v]; }
   // Where there are points: the first one of each cell, or kNone.
   uint32_t* firstPoints() { return first_points_.data(); }
   // Volume that the cell stands for, then the means over it.
@@ -135,6 +139,7 @@ class Window {
   Array<int64_t> picks_;
   Array<uint64_t> out_rank_;
   Array<int64_t> origins_;
+  Array<float> errors_;
   Array<double> cell_means_;
   Array<int64_t> cell_picks_;
   Array<uint32_t> first_points_;

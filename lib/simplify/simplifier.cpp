@@ -150,7 +150,14 @@ class WindowedEngine final : public Simplifier::Engine {
     }
   }
   [[noreturn]] void failForBudget(const char* why) const {
-    size_.fail(why, std::max(plan_.schema.front_cells, front_cells_));
+    size_.fail(why, std::max(plan_.schema.front_cells, front_cells_), waitingBytes());
+  }
+
+  // Of vertices that came before their cells; where there are no cells yet, all may.
+  int64_t waitingBytes() const {
+    auto waiting = static_cast<int64_t>(intake_.waiting());
+    if (intake_.cellsRead() == 0) waiting = std::max(waiting, plan_.schema.vertex_count);
+    return waiting * static_cast<int64_t>(Core<S>::bytesPerVertex(plan_, options_));
   }
 
   std::unique_ptr<Selector> makeSelector() {
@@ -301,11 +308,7 @@ class WindowedEngine final : public Simplifier::Engine {
     if (wanted > capacity_) {
       wanted = std::min(std::max(wanted, capacity_ + capacity_ / 4), affordable(stuck));
       if (wanted <= capacity_ && capacity_ - live < std::max<int64_t>(capacity_ / 64, 1))
-        failForBudget(textOf("the front of the stream does not fit a window of %lld cells, and the "
-                             "memory budget of %lld bytes allows no more",
-                             static_cast<long long>(capacity_),
-                             static_cast<long long>(options_.memory_bytes))
-                          .c_str());
+        size_.failForFront(capacity_, std::max(plan_.schema.front_cells, front_cells_));
     }
     holdCells(std::max(wanted, capacity_));
   }
@@ -320,9 +323,10 @@ class WindowedEngine final : public Simplifier::Engine {
 
   // The largest window that the budget allows; a stuck one may take half of what is left beyond.
   int64_t affordable(bool stuck) const {
-    if (options_.memory_bytes == 0) return std::numeric_limits<int64_t>::max();
+    if (options_.memory_bytes == 0) return kMostCells;
     const auto left = static_cast<int64_t>((account_.limit() - account_.used()) / 2);
-    return std::max(size_.fitting(), stuck ? capacity_ + left / size_.cellBytes() : 0);
+    const int64_t beyond = stuck ? capacity_ + left / size_.cellBytes() : 0;
+    return std::min(std::max(size_.fitting(), beyond), kMostCells);
   }
 
   // All cells are in the window, in the order in which they came: a pilot for a second reading.
@@ -379,11 +383,8 @@ class WindowedEngine final : public Simplifier::Engine {
     r.peak_window_bytes = account_.peak();
   }
 
-  // What quadrics tell is above the true one as a rule, and what was measured nearer, unless points
-  // were found in cells that lie upon theirs.
   double estimatedError() const {
-    if (!error_sample_) return std::numeric_limits<double>::quiet_NaN();
-    return std::min(percentOf(core_, core_.tally.error), error_sample_->percent());
+    return error_sample_ ? error_sample_->percent() : std::numeric_limits<double>::quiet_NaN();
   }
 
   void closeReport() {
@@ -442,7 +443,7 @@ std::unique_ptr<Simplifier::Engine> makeEngine(const Plan& plan, const SimplifyO
     return std::make_unique<WindowedEngine<S>>(plan, options, pilot, out, sinks, progress);
   } catch (const Error& error) {
     if (error.status() != Status::kNoMemory || options.memory_bytes == 0) throw;
-    windowSize<S>(plan, options).fail(error.what(), plan.schema.front_cells);
+    windowSize<S>(plan, options).fail(error.what(), plan.schema.front_cells, 0);
   }
 }
 

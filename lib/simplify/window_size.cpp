@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 #include "status.h"
 
@@ -47,7 +48,9 @@ int64_t WindowSize::knownFront() const {
 }
 
 int64_t WindowSize::forFront(int64_t front) const {
-  return front < kWideFront ? kFrontsPerWindow * front : kQuarterFrontsOfWide * front / 4;
+  const int64_t cells =
+      front < kWideFront ? kFrontsPerWindow * front : kQuarterFrontsOfWide * front / 4;
+  return std::min(cells, kMostCells);
 }
 
 // A larger mesh: where cells are to go, and it is not kept to an error, for which it takes longer
@@ -125,21 +128,35 @@ int64_t WindowSize::heldBack(int64_t cells) const {
   return kFixedBytes + options_.memory_bytes / 4 + (foreseen(cells) - cells) * cell_bytes_;
 }
 
-int64_t WindowSize::budgetFor(int64_t front) const {
+// What a window leaves of a larger budget is a sixth, unless it holds all cells.
+int64_t WindowSize::budgetFor(int64_t front, int64_t waiting) const {
   SimplifyOptions larger = options_;
   const WindowSize size(schema_, larger, cell_bytes_, patch_vertex_bytes_);
   const int64_t asked = options_.window_cells > 0 ? first() : 0;
   const int64_t cells = std::max(kRoomyHalfFronts * std::min(front, kWidestFront) / 2, asked);
+  const auto isTooSmall = [&] {
+    const bool holds_all = schema_.cell_count >= 0 && size.fitting() >= schema_.cell_count;
+    return size.fitting() < cells || (larger.memory_bytes / 6 < waiting && !holds_all);
+  };
   do larger.memory_bytes += larger.memory_bytes / 8 + 1;
-  while (size.fitting() < cells);
+  while (isTooSmall());
   return larger.memory_bytes + kSpareBytes;
 }
 
-void WindowSize::fail(const char* why, int64_t front) const {
-  const auto enough = static_cast<long long>(budgetFor(front));
+void WindowSize::fail(const char* why, int64_t front, int64_t waiting) const {
+  const auto enough = static_cast<long long>(budgetFor(front, waiting));
   if (front <= 0) tetstream::fail(Status::kNoMemory, "%s; %lld should do", why, enough);
   tetstream::fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", why,
                   static_cast<long long>(front), enough);
+}
+
+void WindowSize::failForFront(int64_t window, int64_t front) const {
+  const std::string why = textOf("the front of the stream does not fit a window of %lld cells",
+                                 static_cast<long long>(window));
+  if (options_.memory_bytes == 0) tetstream::fail(Status::kNoMemory, "%s", why.c_str());
+  const std::string most = textOf("%s, and the memory budget of %lld bytes allows no more",
+                                  why.c_str(), static_cast<long long>(options_.memory_bytes));
+  fail(most.c_str(), front, 0);
 }
 
 }  // namespace tetstream

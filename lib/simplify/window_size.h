@@ -12,6 +12,8 @@ constexpr int64_t kFrontsPerWindow = 4;
 // Of 1e9 cells with four components six fronts would take 260 MB, these less than 256.
 constexpr int64_t kWideFront = 1 << 18, kQuarterFrontsOfWide = 23;
 
+constexpr auto kMostCells = static_cast<int64_t>(Topology::kMost);  // of any window
+
 // What the map from ranks to slots should expect: the span, unless few of its vertices are active.
 uint64_t expectedSpan(const Schema& schema);
 
@@ -47,11 +49,14 @@ class WindowSize {
   // Bytes of a budget that points of a map beyond those it is made for leave free then.
   int64_t heldBack(int64_t cells) const;
   // Throws kNoMemory: why this budget does not do, and a larger one for a front of so many cells,
-  // unless it is not known (0 or less), and a window that was asked for.
-  [[noreturn]] void fail(const char* why, int64_t front) const;
+  // unless it is not known (0 or less), for vertices that wait for their cells, in bytes, and for a
+  // window that was asked for.
+  [[noreturn]] void fail(const char* why, int64_t front, int64_t waiting) const;
+  // The same of a window of so many cells, which the front fills and which may not grow.
+  [[noreturn]] void failForFront(int64_t window, int64_t front) const;
 
  private:
-  int64_t budgetFor(int64_t front) const;
+  int64_t budgetFor(int64_t front, int64_t waiting) const;
   int64_t knownFront() const;
   bool gainsWhole() const;
   int64_t least() const;

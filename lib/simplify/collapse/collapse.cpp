@@ -294,7 +294,9 @@ bool Collapser<Mesh>::passesLimit(uint32_t u, uint32_t v, S error) {
 
 template <class Mesh>
 void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
-  tally_.error += growth(u, v, error);
+  const double grown = growth(u, v, error);
+  tally_.error += grown;
+  if (core_.window.shape().errors) addError(mesh_.slotOf(u), mesh_.slotOf(v), grown);
   if (core_.plan.values > core_.plan.dimension) place_.interpolateCarried(stars_);
   if (core_.plan.picks > 0 && place_.isFartherFromU())
     std::copy_n(mesh_.picks(v), core_.plan.picks, mesh_.picks(u));
@@ -311,6 +313,12 @@ void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   for (int i = 0; i < last; ++i) a[i] += b[i];
   a[last] = error;
   tally_.largest_error = std::max(tally_.largest_error, in_users_terms);
+}
+
+template <class Mesh>
+void Collapser<Mesh>::addError(uint32_t u, uint32_t v, double grown) {
+  Window<S>& window = core_.window;
+  window.error(u) += window.error(v) + std::max(static_cast<float>(grown), 0.0f);
 }
 
 template <class Mesh>

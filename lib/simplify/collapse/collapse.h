@@ -108,6 +108,7 @@ class Collapser {
   Outcome thins(uint32_t u, uint32_t v, float most_price, const StarShape& after);
   bool thinsOut(uint32_t u, uint32_t v, typename Thin::Angle angle, size_t after);
   void mergeInto(uint32_t u, uint32_t v, S error);
+  void addError(uint32_t u, uint32_t v, double grown);
   void handOverCellData(uint32_t u, uint32_t v);
   void trace(uint32_t u, uint32_t v, double error);
 

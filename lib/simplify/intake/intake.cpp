@@ -196,6 +196,7 @@ void Intake<S>::takeVertex(size_t row) {
   for (size_t i = 0; i < core_.plan.fields.size(); ++i) readColumn(i, row, slot);
   lone_values_.add(window.values(slot));
   std::fill_n(window.quadric(slot), window.shape().quadric, S(0));
+  if (window.shape().errors) window.error(slot) = 0;
   if (window.shape().origins)
     window.origin(slot) =
         batch_.origins ? batch_.origins[row] : static_cast<int64_t>(batch_.first_vertex + row);

@@ -196,6 +196,7 @@ void Metric<S>::rescaleQuadrics(const std::vector<S>& factor) {
   const Topology& mesh = core_.window.mesh;
   for (uint32_t v = 0; v < mesh.vertexEnd(); ++v) {
     core_.kernels.rescale(factor.data(), weight, core_.plan.dimension, core_.window.quadric(v));
+    if (core_.window.shape().errors) core_.window.error(v) *= static_cast<float>(weight);
     const bool has_left = (mesh.vertexFlags(v) & kWritten) && !mesh.isOfParked(v);
     if (!has_left) unsettle(core_.window, v);
   }

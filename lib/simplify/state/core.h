@@ -130,18 +130,24 @@ struct Core {
         keeps_body(!followsPaper(the_options.mode)) {}
 
   static WindowShape shapeOf(const Plan& plan) {
-    return {plan.values,       quadricSize(plan.layout, plan.dimension),
-            plan.picks,        plan.cell_means,
-            plan.cell_picks,   plan.traces_vertices,
-            plan.traces_points};
+    return {plan.values,        quadricSize(plan.layout, plan.dimension),
+            plan.picks,         plan.cell_means,
+            plan.cell_picks,    plan.traces_vertices,
+            plan.traces_points, plan.tellsErrors()};
+  }
+
+  // What a vertex of a window takes.
+  static size_t bytesPerVertex(const Plan& plan, const SimplifyOptions& options) {
+    const WindowShape shape = shapeOf(plan);
+    return sizeof(S) * static_cast<size_t>(shape.values + shape.quadric) +
+           sizeof(int64_t) * static_cast<size_t>(shape.picks) + rowBytes(options).vertex;
   }
 
   // What a window of one cell takes, with its share of vertices and the steps' own arrays.
   static size_t bytesPerCell(const Plan& plan, const SimplifyOptions& options) {
     const RowBytes row = rowBytes(options);
     const WindowShape shape = shapeOf(plan);
-    const size_t vertex = sizeof(S) * static_cast<size_t>(shape.values + shape.quadric) +
-                          sizeof(int64_t) * static_cast<size_t>(shape.picks) + row.vertex;
+    const size_t vertex = bytesPerVertex(plan, options);
     const size_t data = sizeof(double) * static_cast<size_t>(shape.cell_means + 1) +
                         sizeof(int64_t) * static_cast<size_t>(shape.cell_picks);
     return row.cell + (shape.cell_means + shape.cell_picks ? data : 0) + vertex / kCellsPerVertex;
@@ -154,7 +160,9 @@ struct Core {
     constexpr double kPoints = kTracedPerCell + 1.0 / kCellsPerVertex;
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options);
     bytes += 1;  // what is tiled is marked: a byte of a vertex, rounded up
-    if (plan.tellsErrors()) bytes += 1 + sampledBytes(plan.dimension) / kCellsPerSampledOfBudget;
+    if (plan.tellsErrors())
+      bytes += 2 + sampledBytes(plan.dimension) / kCellsPerSampledOfBudget +
+               sizeof(float) / kCellsPerVertex;
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
       bytes += Tracer<S>::kCellBytes + Tracer<S>::kVertexBytes / kCellsPerVertex +

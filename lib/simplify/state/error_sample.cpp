@@ -24,10 +24,13 @@ constexpr size_t kCellsPerSampled = 16, kCellsPerSampledOfLong = 64;
 constexpr size_t kFewest = 64, kFew = 2048, kMost = 16384, kMostBytes = 1 << 20;
 // Standard errors of the mean of squares that are added to it.
 constexpr double kChance = 1;
+// And of what points have met by chance, before the rest counts as missed.
+constexpr double kChanceToMiss = 2;
 // What is told is more by this than what was measured: at vertices, where somebody may look for
 // errors, they are larger than between them; and of a mesh of few cells most vertices are on the
 // boundary, where they are largest.
 constexpr double kMargin = 1.15, kMarginOfFew = 4.5;
+constexpr double kMeanShare = 2;  // of a cell: one by volume, one by number
 // In the window's units, so that sums are within reach of float32.
 constexpr double kLargestVolume = 1e25;
 // Rounding may have put a point on a face outside of both cells.
@@ -36,6 +39,10 @@ constexpr double kOutside = 1e-6;
 constexpr double kAim = 0.95;
 // Of what is left of its square, what a pass may make: of few cells more may be real than is told.
 constexpr double kWay = 0.65;
+// Of the square of what is asked for: where quadrics tell less it is not measured.
+constexpr double kFar = 1.0 / 16;
+// Of what is asked for: more than this quadrics may not tell, whatever is measured.
+constexpr double kMostTimes = 4;
 // Where more is left of the square, another pass pays.
 constexpr double kWorthGoingOn = 0.2;
 constexpr int kMostBins = 256;  // along an axis
@@ -54,6 +61,10 @@ void placeByChance(uint64_t number, double w[4]) {
 
 double square(double x) {
   return x * x;
+}
+
+bool isFinite(double x) {
+  return std::isfinite(x);
 }
 
 int64_t stepFor(int64_t cells) {
@@ -108,15 +119,33 @@ void ErrorSample<S>::take(uint32_t first, uint32_t end) {
     if (cell >= end || !core_.window.mesh.isLive(cell)) continue;
     cornersIn(core_.window, cell, corners);
     scale(corners);
-    placeIn(cell, number, step * std::fabs(sixVolume(corners)) / 6);
+    if (!std::all_of(corners[0], corners[0] + 12, isFinite)) continue;
+    const double volume = std::min(std::fabs(sixVolume(corners)) / 6, kLargestVolume);
+    placeByTurns(cell, number, step * volume);
   }
 }
 
+// A cell's share is its volume in that of the mean, and one for the cell. Shares add up until a
+// point is due; a cell of more than that has one of its own.
 template <class S>
-void ErrorSample<S>::placeIn(uint32_t cell, uint64_t number, double volume) {
-  due_ += std::min(volume, kLargestVolume);
-  if (!(due_ >= stride_) || !(due_ > 0)) return;
-  if (count_ == room_) thinOut();
+void ErrorSample<S>::placeByTurns(uint32_t cell, uint64_t number, double volume) {
+  ++looked_at_;
+  volume_ += volume;
+  if (!(volume > 0)) return;
+  const double share = 1 + volume / volume_ * static_cast<double>(looked_at_);
+  if (share >= stride_) return placeIn(cell, number, volume);
+  due_ += share;
+  if (due_ < stride_) return;
+  due_ -= stride_;
+  placeIn(cell, number, volume * (stride_ / share));
+}
+
+template <class S>
+void ErrorSample<S>::placeIn(uint32_t cell, uint64_t number, double weight) {
+  if (count_ == room_) {
+    thinOut();
+    weight *= 2;
+  }
   double w[4];
   placeByChance(number, w);
   const uint32_t* v = core_.window.mesh.corners(cell);
@@ -125,8 +154,7 @@ void ErrorSample<S>::placeIn(uint32_t cell, uint64_t number, double volume) {
     for (int k = 0; k < 4; ++k) value += w[k] * static_cast<double>(core_.window.values(v[k])[i]);
     points_[count_ * dimension() + i] = static_cast<S>(value);
   }
-  weights_[count_++] = static_cast<float>(due_);
-  due_ = 0;
+  weights_[count_++] = static_cast<float>(weight);
 }
 
 // Points that lie in no cell any more, since the boundary has moved, will not be measured.
@@ -143,19 +171,11 @@ void ErrorSample<S>::keepFound() {
   compact();
 }
 
-// To half of the room, by strides of volume.
+// Every other point stays, for two.
 template <class S>
 void ErrorSample<S>::thinOut() {
-  double volume = 0;
-  for (size_t i = 0; i < count_; ++i) volume += static_cast<double>(weights_[i]);
-  stride_ = std::max(stride_, 2 * volume / static_cast<double>(room_));
-  double due = 0;
-  for (size_t i = 0; i < count_; ++i) {
-    due += static_cast<double>(weights_[i]);
-    const bool is_kept = due >= stride_;
-    weights_[i] = is_kept ? static_cast<float>(due) : 0;
-    if (is_kept) due = 0;
-  }
+  stride_ = stride_ > 0 ? 2 * stride_ : 2 * kMeanShare;
+  for (size_t i = 0; i < count_; ++i) weights_[i] = i % 2 == 0 ? 2 * weights_[i] : 0;
   compact();
 }
 
@@ -202,12 +222,14 @@ void ErrorSample<S>::chooseBins() {
   } while (bins_[0] * bins_[1] * bins_[2] + 1 >= begin_.size());
 }
 
-// Along an axis; places beyond its ends count as there.
+// Along an axis; places beyond its ends count as there, and those that are no numbers, as where
+// the window's units are too small for what comes.
 template <class S>
 size_t ErrorSample<S>::binAlong(int axis, S x) const {
   const double place = (static_cast<double>(core_.scale[0]) * static_cast<double>(x) - low_[axis]) *
                        bins_by_unit_[axis];
-  return static_cast<size_t>(std::clamp(place, 0.0, static_cast<double>(bins_[axis] - 1)));
+  const auto last = static_cast<double>(bins_[axis] - 1);
+  return place > 0 ? static_cast<size_t>(std::min(place, last)) : 0;
 }
 
 template <class S>
@@ -234,6 +256,7 @@ void ErrorSample<S>::sort() {
 template <class S>
 template <class Visit>
 void ErrorSample<S>::visit(uint32_t cell, Visit visitOne) const {
+  if (count_ == 0) return;
   const uint32_t* const v = core_.window.mesh.corners(cell);
   S low[3], high[3];
   size_t first[3], last[3];
@@ -297,13 +320,38 @@ double ErrorSample<S>::squaredError(size_t i, uint32_t cell, const double weight
   return sum;
 }
 
+// Of its corners: the error that quadrics told where each stands, of the volume it stands for.
 template <class S>
-void ErrorSample<S>::add(Sum& sum, size_t i, uint32_t cell, const double weights[4]) const {
-  const double volume = std::fabs(static_cast<double>(weights_[i]));
-  const double error = volume * squaredError(i, cell, weights);
-  sum.weight += volume;
-  sum.error += error;
-  sum.square += error * error;
+void ErrorSample<S>::toldAt(uint32_t cell, double told[4]) const {
+  const int w = core_.window.shape().quadric - 2;
+  for (int j = 0; j < 4; ++j) {
+    const uint32_t v = core_.window.mesh.corners(cell)[j];
+    const auto volume = static_cast<double>(core_.window.quadric(v)[w]);
+    told[j] = volume > 0 ? static_cast<double>(core_.window.error(v)) / volume : 0;
+  }
+}
+
+// seen(point): each that lies in the cell.
+template <class S>
+template <class Seen>
+void ErrorSample<S>::addCell(Sum& sum, uint32_t cell, Seen seen) const {
+  double corners[4][3], told[4];
+  cornersIn(core_.window, cell, corners);
+  scale(corners);
+  toldAt(cell, told);
+  sum.told_of_all += std::fabs(sixVolume(corners)) / 24 * (told[0] + told[1] + told[2] + told[3]);
+  visit(cell, [&](size_t i, const double* w) {
+    const double volume = std::fabs(static_cast<double>(weights_[i]));
+    const double error = volume * squaredError(i, cell, w);
+    const double by_quadrics =
+        volume * (w[0] * told[0] + w[1] * told[1] + w[2] * told[2] + w[3] * told[3]);
+    sum.weight += volume;
+    sum.error += error;
+    sum.square += square(error);
+    sum.told += by_quadrics;
+    sum.told_square += square(by_quadrics);
+    seen(i);
+  });
 }
 
 template <class S>
@@ -313,11 +361,7 @@ void ErrorSample<S>::startLeaving() {
 
 template <class S>
 void ErrorSample<S>::leave(uint32_t cell) {
-  if (count_ == 0) return;
-  visit(cell, [&](size_t i, const double* weights) {
-    add(sum_, i, cell, weights);
-    weights_[i] = 0;
-  });
+  addCell(sum_, cell, [&](size_t i) { weights_[i] = 0; });
 }
 
 template <class S>
@@ -330,14 +374,35 @@ template <class S>
 void ErrorSample<S>::rescale(double factor) {
   sum_.error *= factor;
   sum_.square *= factor * factor;
+  sum_.told *= factor;
+  sum_.told_square *= factor * factor;
+  sum_.told_of_all *= factor;
 }
 
+// Of what quadrics tell of all cells, what points have not come upon; chance may have left out
+// some.
+template <class S>
+double ErrorSample<S>::missedShare(const Sum& sum) const {
+  if (!(sum.told_of_all > 0)) return 0;
+  const double met = (sum.told + kChanceToMiss * std::sqrt(sum.told_square)) / sum.told_of_all;
+  return std::max(0.0, 1 - met);
+}
+
+// No less than was measured, and no more than quadrics tell besides. What was missed counts as the
+// rest, which is measured, the less of it there is: a little of it lies outside the boundary as it
+// is now, where quadrics tell of that.
 template <class S>
 double ErrorSample<S>::percentOf(const Sum& sum) const {
-  if (!(sum.weight > 0)) return std::numeric_limits<double>::infinity();
-  const double mean = (sum.error + kChance * std::sqrt(sum.square)) / sum.weight;
+  const double told = tetstream::percentOf(core_, core_.tally.error);
+  if (!(sum.weight > 0)) return told;
+  const double measured = 100 * std::sqrt(sum.error / sum.weight) / core_.extent;
+  const double chance =
+      100 * std::sqrt(kChance * std::sqrt(sum.square) / sum.weight) / core_.extent;
   const double margin = kMargin * (1 + kMarginOfFew / std::cbrt(static_cast<double>(cells_)));
-  return 100 * margin * std::sqrt(mean) / core_.extent;
+  const double missed = missedShare(sum);
+  const double likely =
+      square(margin) * (1 + missed) * (square(measured) + square(chance)) + square(missed * told);
+  return std::max(measured, std::min(told, std::sqrt(likely)));
 }
 
 template <class S>
@@ -345,23 +410,24 @@ double ErrorSample<S>::percentNow() {
   Sum sum = sum_;
   sort();
   const Topology& mesh = core_.window.mesh;
-  for (uint32_t c = 0; c < mesh.cellEnd() && count_ > 0; ++c)
-    if (mesh.isLive(c)) visit(c, [&](size_t i, const double* weights) { add(sum, i, c, weights); });
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
+    if (mesh.isLive(c)) addCell(sum, c, [](size_t) {});
   return percentOf(sum);
 }
 
-// Quadrics may tell what is allowed in any case. Beyond that a pass may make by them a part of what
-// is left by measure, which is less as a rule.
+// Quadrics may tell what is allowed in any case, but where the error is more than they tell. Beyond
+// that a pass may make by them a part of what is left by measure, which is less as a rule.
 template <class S>
 bool ErrorSample<S>::limitError() {
   const double asked = square(core_.options.error), allowed = square(kAim) * asked;
   const double told = square(tetstream::percentOf(core_, core_.tally.error));
-  const bool is_far = told + kWay * allowed <= asked;  // whatever would be measured
-  const double left = is_far ? allowed : allowed - std::min(square(percentNow()), told);
-  const double limit = std::max(asked, told + kWay * std::max(left, 0.0));
-  core_.error_limit = errorOf(core_, std::sqrt(limit));
+  const double now = told <= kFar * asked ? told : square(percentNow());
+  const double left = std::max(allowed - now, 0.0);
+  const double limit =
+      now > told ? told + kWay * left * (told / now) : std::max(asked, told + kWay * left);
+  core_.error_limit = errorOf(core_, std::sqrt(std::min(limit, square(kMostTimes) * asked)));
   made_ = core_.tally.error;
-  return left > kWorthGoingOn * allowed;
+  return left > kWorthGoingOn * allowed && limit > told;
 }
 
 // One that has made less than half of what it might leaves the limit as it is.

@@ -3,7 +3,12 @@
 // The quadrics tell an error that the fields' is below as a rule, often by half, and that of the
 // boundary and of shapes with it. What the error is shows where it is measured: of the cells that
 // are read some have a point by chance, whose values wait until the cell that it lies in then
-// leaves the window. Points are spread evenly over the volume, each for as much of it.
+// leaves the window. A cell is as likely to have one as its share of the volume and that of the
+// number of cells are in the mean, so that neither large cells nor a finely meshed part is missed,
+// and each point stands for as much volume as that makes. Where they have missed what makes errors,
+// as small parts of a graded mesh, or what lies outside now, shows in what quadrics tell there: of
+// that their points find less than the cells have. The rest counts as quadrics tell it (a
+// difference estimator).
 #pragma once
 
 #include <cstdint>
@@ -28,7 +33,7 @@ class ErrorSample {
   void rescale(double factor);
 
   // In percent of the range, with what chance may have left out: of what has left, and with the
-  // live cells as they are. Infinite where nothing was measured.
+  // live cells as they are. What quadrics tell where nothing was measured.
   double percent() const { return percentOf(sum_); }
   double percentNow();
   // Bounds what quadrics may tell by what is measured now, for the error that is allowed. Returns
@@ -37,15 +42,20 @@ class ErrorSample {
   bool limitErrorAfterPass();
 
  private:
-  struct Sum {  // of weights, of squared errors by weight, and of the squares of these
+  // Of points: their weights, squared errors by weight, and the squares of these; the same of what
+  // quadrics tell there; and of that, of all cells.
+  struct Sum {
     double weight = 0, error = 0, square = 0;
+    double told = 0, told_square = 0, told_of_all = 0;
   };
 
   size_t roomFor(size_t cells) const;
   double percentOf(const Sum& sum) const;
+  double missedShare(const Sum& sum) const;
   const S* point(size_t i) const { return points_.data() + i * dimension(); }
   size_t dimension() const { return static_cast<size_t>(core_.plan.dimension); }
-  void placeIn(uint32_t cell, uint64_t number, double volume);
+  void placeByTurns(uint32_t cell, uint64_t number, double volume);
+  void placeIn(uint32_t cell, uint64_t number, double weight);
   void scale(double corners[4][3]) const;
   void keepFound();
   void thinOut();
@@ -59,7 +69,9 @@ class ErrorSample {
   void visit(uint32_t cell, Visit visitOne) const;
   double weightFound(size_t component) const;
   double squaredError(size_t i, uint32_t cell, const double weights[4]) const;
-  void add(Sum& sum, size_t i, uint32_t cell, const double weights[4]) const;
+  void toldAt(uint32_t cell, double told[4]) const;
+  template <class Seen>
+  void addCell(Sum& sum, uint32_t cell, Seen seen) const;
 
   Core<S>& core_;
   Array<S> points_;        // of each, in the user's units: the place, and the fields there
@@ -70,7 +82,9 @@ class ErrorSample {
   size_t room_, count_ = 0;
   uint64_t cells_ = 0;               // that were read
   uint64_t blocks_ = 0;              // of cells, one of which was looked at
-  double stride_ = 0, due_ = 0;      // volume between points, and since the last one
+  uint64_t looked_at_ = 0;           // cells that had a volume
+  double volume_ = 0;                // of what was looked at
+  double stride_ = 0, due_ = 0;      // shares between points, and since the last one
   double low_[3], bins_by_unit_[3];  // of bins
   size_t bins_[3];
   Sum sum_;          // of what has left

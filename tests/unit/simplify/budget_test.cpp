@@ -6,6 +6,7 @@
 #include "simplifier.h"
 #include "simplify_testing.h"
 #include "tasks.h"
+#include "window_size.h"
 
 namespace tetstream::test {
 namespace {
@@ -211,9 +212,9 @@ BudgetRun simplifiedWithin(const TestMesh& mesh, SimplifyOptions options, int64_
 
 // The budget that the sentence says should do; 0: none.
 int64_t budgetToldBy(const std::string& text) {
-  const std::string before = " cells ";
-  const size_t at = text.rfind(before);
-  return at == std::string::npos ? 0 : std::atoll(text.c_str() + at + before.size());
+  const size_t end = text.rfind(" should do");
+  if (end == std::string::npos) return 0;
+  return std::atoll(text.c_str() + text.rfind(' ', end - 1));
 }
 
 // A budget either holds or the run says that it is too small; it is never passed.
@@ -309,6 +310,27 @@ TEST(SimplifierMemory, IsSaidToSufficeWhereItDoes) {
       EXPECT_GT(enough, limit) << small.text;
       EXPECT_EQ(simplifiedWithin(mesh, toRatio(0.2, 0, mode), enough, cut).status, Status::kOk);
     }
+}
+
+// A window leaves little room beside its own vertices.
+TEST(SimplifierMemory, IsSaidToSufficeWhereVerticesComeFirst) {
+  const TestMesh mesh =
+      gridWith(slowRun() ? 10 : 16, [](double x, double y, double z) { return x * y + z; });
+  Cut cut;
+  cut.all_vertices_first = true;
+  for (const int64_t limit : {slowRun() ? 450000 : 600000, slowRun() ? 500000 : 900000}) {
+    const BudgetRun small = simplifiedWithin(mesh, toRatio(0.2), limit, cut);
+    EXPECT_EQ(small.status, Status::kNoMemory);
+    const BudgetRun enough = simplifiedWithin(mesh, toRatio(0.2), budgetToldBy(small.text), cut);
+    EXPECT_EQ(enough.status, Status::kOk) << small.text << "; " << enough.text;
+  }
+}
+
+TEST(WindowSize, IsNoMoreThanCanBeNumbered) {
+  const Schema schema;
+  const SimplifyOptions options;
+  EXPECT_EQ(WindowSize(schema, options, 100, 100).forFront(1 << 28),
+            static_cast<int64_t>(Topology::kMost));
 }
 
 // Before the first window is full nobody may know the front: then the message tells of none.
