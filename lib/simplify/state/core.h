@@ -161,7 +161,7 @@ struct Core {
     size_t bytes = bytesPerCell(plan, options) + embeddedBytes(plan.schema, options);
     bytes += 1;  // what is tiled is marked: a byte of a vertex, rounded up
     if (plan.tellsErrors())
-      bytes += 2 + sampledBytes(plan.dimension) / kCellsPerSampledOfBudget +
+      bytes += 1 + sampledBytes(plan.dimension) / kCellsPerSampledOfBudget +
                sizeof(float) / kCellsPerVertex;
     if (plan.traces_vertices) bytes += sizeof(int64_t) / kCellsPerVertex;
     if (plan.traces_points)
