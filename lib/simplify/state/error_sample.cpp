@@ -63,8 +63,8 @@ double square(double x) {
   return x * x;
 }
 
-bool isFinite(double x) {
-  return std::isfinite(x);
+bool isFinite(const double x[3]) {
+  return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
 }
 
 int64_t stepFor(int64_t cells) {
@@ -119,7 +119,7 @@ void ErrorSample<S>::take(uint32_t first, uint32_t end) {
     if (cell >= end || !core_.window.mesh.isLive(cell)) continue;
     cornersIn(core_.window, cell, corners);
     scale(corners);
-    if (!std::all_of(corners[0], corners[0] + 12, isFinite)) continue;
+    if (!std::all_of(corners, corners + 4, isFinite)) continue;
     const double volume = std::min(std::fabs(sixVolume(corners)) / 6, kLargestVolume);
     placeByTurns(cell, number, step * volume);
   }
