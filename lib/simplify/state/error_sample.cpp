@@ -67,6 +67,13 @@ bool isFinite(const double x[3]) {
   return std::isfinite(x[0]) && std::isfinite(x[1]) && std::isfinite(x[2]);
 }
 
+// 0 of what lies beyond the window's units.
+double volumeOf(const double corners[4][3]) {
+  if (!std::all_of(corners, corners + 4, isFinite)) return 0;
+  const double volume = std::fabs(sixVolume(corners)) / 6;
+  return volume < kLargestVolume ? volume : kLargestVolume;  // also where products overflow
+}
+
 int64_t stepFor(int64_t cells) {
   return cells < 0 ? kUnknownStep : std::clamp<int64_t>(cells / kCellsOfAll, 1, kMostStep);
 }
@@ -119,9 +126,7 @@ void ErrorSample<S>::take(uint32_t first, uint32_t end) {
     if (cell >= end || !core_.window.mesh.isLive(cell)) continue;
     cornersIn(core_.window, cell, corners);
     scale(corners);
-    if (!std::all_of(corners, corners + 4, isFinite)) continue;
-    const double volume = std::min(std::fabs(sixVolume(corners)) / 6, kLargestVolume);
-    placeByTurns(cell, number, step * volume);
+    placeByTurns(cell, number, step * volumeOf(corners));
   }
 }
 
@@ -129,9 +134,9 @@ void ErrorSample<S>::take(uint32_t first, uint32_t end) {
 // point is due; a cell of more than that has one of its own.
 template <class S>
 void ErrorSample<S>::placeByTurns(uint32_t cell, uint64_t number, double volume) {
+  if (!(volume > 0)) return;
   ++looked_at_;
   volume_ += volume;
-  if (!(volume > 0)) return;
   const double share = 1 + volume / volume_ * static_cast<double>(looked_at_);
   if (share >= stride_) return placeIn(cell, number, volume);
   due_ += share;
@@ -142,10 +147,7 @@ void ErrorSample<S>::placeByTurns(uint32_t cell, uint64_t number, double volume)
 
 template <class S>
 void ErrorSample<S>::placeIn(uint32_t cell, uint64_t number, double weight) {
-  if (count_ == room_) {
-    thinOut();
-    weight *= 2;
-  }
+  if (count_ == room_) thinOut();
   double w[4];
   placeByChance(number, w);
   const uint32_t* v = core_.window.mesh.corners(cell);
@@ -339,7 +341,7 @@ void ErrorSample<S>::addCell(Sum& sum, uint32_t cell, Seen seen) const {
   cornersIn(core_.window, cell, corners);
   scale(corners);
   toldAt(cell, told);
-  sum.told_of_all += std::fabs(sixVolume(corners)) / 24 * (told[0] + told[1] + told[2] + told[3]);
+  sum.told_of_all += volumeOf(corners) / 4 * (told[0] + told[1] + told[2] + told[3]);
   visit(cell, [&](size_t i, const double* w) {
     const double volume = std::fabs(static_cast<double>(weights_[i]));
     const double error = volume * squaredError(i, cell, w);

@@ -1,6 +1,9 @@
 // The error that is told, over the volume, where it is easily missed: all of it in a small, finely
 // meshed part; more of it than quadrics tell; lengths beyond the window's units.
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 
 #include "field_error.h"
 #include "simplify_testing.h"
