@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Finds names of the standard library in lib/ whose header is not included, by the file itself or
-by a header of the project that it includes. The compiler does not: where headers are precompiled,
-all files see them. Prints a line for each, and exits with 1 if there are any."""
+"""Finds names of the standard library, and types and constants of lib/'s own headers, whose header is
+not included, by the file itself or by a header of the project that it includes. The compiler does
+not: where headers are precompiled, or a room is compiled as one file, all files see them. Prints a
+line for each, and exits with 1 if there are any."""
 import functools
 import pathlib
 import re
@@ -65,6 +66,11 @@ CONTAINERS = {"array", "deque", "list", "map", "set", "string", "string_view", "
 NAMES_OF_CONTAINERS = {"erase", "erase_if", "initializer_list", "size"}
 ANYWHERE = {"get"}  # of tuples, pairs, arrays, variants
 INTEGER = re.compile(r"\bu?int(?:8|16|32|64)_t\b")
+# What a file declares: for all others at the start of a line, for itself anywhere.
+DECLARED = (r"(?:(?:struct|class|enum class|enum) (\w+)|using (\w+) =|"
+            r"(?:inline )?(?:static )?constexpr [\w:<>]+ (k[A-Z]\w*))")
+OF_A_HEADER, OF_A_FILE = re.compile("^" + DECLARED, re.M), re.compile(r"\b" + DECLARED)
+ENUM = re.compile(r"\benum [^{};]*{([^}]*)}")
 
 HEADERS = {}
 for header, names in NAMES.items():
@@ -76,30 +82,53 @@ HEADERS["string_view"].add("string")  # which is made from one
 HEADERS["int64_t"] = {"cstdint"}  # and the others
 
 
+def declared(pattern, text):
+    return {name for found in pattern.findall(text) for name in found if name}
+
+
 def main():
     root = pathlib.Path(__file__).resolve().parent.parent / "lib"
     files = [f for f in root.rglob("*") if f.suffix in (".h", ".cpp", ".inl")]
     by_name = {f.name: f for f in files}
     text = {f: re.sub(r"//.*", "", f.read_text()) for f in files}
+    code = {f: re.sub(r'"[^"\n]*"', "", t) for f, t in text.items()}
+    own = {}  # of each name the headers that declare it
+    for file in files:
+        for name in declared(OF_A_HEADER, text[file]) if file.suffix == ".h" else ():
+            own.setdefault(name, []).append(file)
 
     @functools.cache
-    def headers_of(file):
-        found = set(re.findall(r"#include <(\w+)>", text[file]))
+    def seen_by(file):
+        """The files, and the standard headers, that it includes, and those that they do."""
+        found = set(re.findall(r"#include <(\w+)>", text[file])) | {file}
         for name in re.findall(r'#include "([\w.]+)"', text[file]):
             if name in by_name:
-                found |= headers_of(by_name[name])
+                found |= seen_by(by_name[name])
         return found
 
-    missing = 0
-    for file in sorted(files):
+    @functools.cache
+    def known_to(file):
+        seen = [text[f] for f in seen_by(file) if f in text]
+        members = " ".join(enum for t in seen for enum in ENUM.findall(t))
+        own_names = {name for t in seen for name in declared(OF_A_FILE, t)}
+        return own_names | set(re.findall(r"\w+", members))
+
+    def missing(file):
         used = set(re.findall(r"\bstd::(\w+)", text[file])) - ANYWHERE
         used |= {"int64_t"} if INTEGER.search(text[file]) else set()
         for name in sorted(used):
-            if not HEADERS.get(name, set()) & headers_of(file):
-                where = " or ".join(f"<{h}>" for h in sorted(HEADERS.get(name, ["?"])))
-                print(f"{file.relative_to(root.parent)}: std::{name} without {where}")
-                missing += 1
-    return missing > 0
+            if not HEADERS.get(name, set()) & seen_by(file):
+                yield "std::" + name, [f"<{h}>" for h in sorted(HEADERS.get(name, ["?"]))]
+        if file.suffix == ".inl":  # included where all is known
+            return
+        words = set(re.findall(r"(?<![\w.:])[A-Z]\w+|(?<![\w.:])k[A-Z]\w+", code[file]))
+        for name in sorted(words & set(own) - known_to(file)):
+            yield name, [f'"{header.name}"' for header in own[name]]
+
+    found = [(file, *what) for file in sorted(files) for what in missing(file)]
+    for file, name, headers in found:
+        print(f"{file.relative_to(root.parent)}: {name} without {' or '.join(headers)}")
+    return len(found) > 0
 
 
 sys.exit(main())

@@ -75,15 +75,17 @@ class Exodus {
     piece_.points = std::move(points);
   }
 
-  // `held` values of a variable from `first` on; throws now if they are not there.
+  [[noreturn]] void failShort(const std::string& variable, uint64_t needed) const {
+    failFile(Status::kBadData, "\"" + cutName(variable) + "\" has not the " +
+                                   std::to_string(needed) + " values that are needed");
+  }
+
+  // `count` values of a variable from `first` on; throws now if they are not there.
   std::function<std::unique_ptr<Values>(uint64_t)> opener(const std::string& variable,
-                                                          uint64_t first, uint64_t held,
-                                                          uint64_t needed) {
-    if (held != needed || file_->need(variable).count() < first + held)
-      failFile(Status::kBadData, "\"" + cutName(variable) + "\" has not the " +
-                                     std::to_string(needed) + " values that are needed");
-    return [file = file_, variable, first, held](uint64_t) {
-      return file->open(variable, first, held);
+                                                          uint64_t first, uint64_t count) {
+    if (file_->need(variable).count() < first + count) failShort(variable, count);
+    return [file = file_, variable, first, count](uint64_t) {
+      return file->open(variable, first, count);
     };
   }
 
@@ -178,6 +180,31 @@ class Exodus {
     return !is_there;
   }
 
+  // Of a variable of its own: what a step of it has for each of the rows. The format has scalars
+  // only; some writers give vectors one dimension more.
+  int componentsOf(const std::string& variable, uint64_t rows) {
+    const NetcdfVariable& v = file_->need(variable);
+    const uint64_t steps = v.size(0), values = steps > 0 ? v.count() / steps : 0;
+    if (v.text || rows == 0 || values < rows || values % rows != 0) failShort(variable, rows);
+    return static_cast<int>(std::min<uint64_t>(values / rows, kMaxComponents + 1));
+  }
+
+  // Where variables may have fewer steps than there are times.
+  bool hasStep(const std::string& variable, const std::string& name) {
+    const bool has = file_->need(variable).size(0) > step_;
+    if (!has)
+      mesh_.addNote(
+          textOf("variable \"%s\" is left out: it has no values of this time step", name.c_str()));
+    return has;
+  }
+
+  bool isTooWide(const std::string& name, int components) {
+    if (components > kMaxComponents)
+      mesh_.addNote(textOf("variable \"%s\" is left out: it has more than %d components",
+                           name.c_str(), kMaxComponents));
+    return components > kMaxComponents;
+  }
+
   // One variable each, or, in old files, all of them in one.
   void addNodal(size_t i, const std::vector<std::string>& names) {
     const uint64_t nodes = piece_.point_count;
@@ -185,34 +212,58 @@ class Exodus {
     const bool apart = file_->find(own) != nullptr;
     const std::string variable = apart ? own : "vals_nod_var";
     const uint64_t row = apart ? step_ : step_ * names.size() + i;
-    const ValueType type = file_->need(variable).type;
-    piece_.point_data.push_back(
-        {shown(names[i], i), type, 1, opener(variable, row * nodes, nodes, nodes)});
+    if (!hasStep(variable, shown(names[i], i))) return;
+    const int components = apart && nodes > 0 ? componentsOf(variable, nodes) : 1;
+    if (isTooWide(shown(names[i], i), components)) return;
+    const uint64_t values = nodes * static_cast<uint64_t>(components);
+    piece_.point_data.push_back({shown(names[i], i), file_->need(variable).type, components,
+                                 opener(variable, row * values, values)});
   }
 
+  // Of each block a variable, where it has one.
   void addElemental(size_t i, const std::string& name) {
     ValueType type = ValueType::kFloat32;
-    std::vector<ValuesPart> parts;
+    int components = 0;  // of the first block that has it
     uint64_t without = 0;
     for (size_t b = 0; b < blocks_.size(); ++b) {
       const uint64_t elements = blocks_[b].elements;
       if (elements == 0) continue;
-      const std::string variable = numbered("vals_elem_var", i + 1) + numbered("eb", b + 1);
-      const NetcdfVariable* found = file_->find(variable);
-      if (found && found->type != ValueType::kFloat32) type = ValueType::kFloat64;
+      const NetcdfVariable* found = file_->find(elemental(i, b));
       without += found ? 0 : elements;
-      if (!found) {
-        parts.push_back({elements, [] { return openSequence(0, 0); }});
-        continue;
-      }
-      const auto open = opener(variable, step_ * elements, elements, elements);
-      parts.push_back({elements, [open, elements] { return open(elements); }});
+      if (!found) continue;
+      if (!hasStep(elemental(i, b), shown(name, i))) return;
+      if (found->type != ValueType::kFloat32) type = ValueType::kFloat64;
+      const int here = componentsOf(elemental(i, b), elements);
+      if (components == 0) components = here;
+      if (here != components)
+        return mesh_.addNote(textOf("variable \"%s\" is left out: its blocks differ in components",
+                                    shown(name, i).c_str()));
     }
+    if (isTooWide(shown(name, i), components)) return;
     if (without > 0)
       mesh_.addNote(textOf("\"%s\" has no value at %llu elements, where it is taken as 0",
                            shown(name, i).c_str(), static_cast<unsigned long long>(without)));
-    piece_.cell_data.push_back(
-        {shown(name, i), type, 1, [parts](uint64_t) { return openParts(parts); }});
+    components = std::max(components, 1);
+    piece_.cell_data.push_back({shown(name, i), type, components, openElemental(i, components)});
+  }
+
+  std::function<std::unique_ptr<Values>(uint64_t)> openElemental(size_t i, int components) {
+    std::vector<ValuesPart> parts;
+    for (size_t b = 0; b < blocks_.size(); ++b) {
+      const uint64_t values = blocks_[b].elements * static_cast<uint64_t>(components);
+      if (values == 0) continue;
+      if (!file_->find(elemental(i, b))) {
+        parts.push_back({values, [] { return openSequence(0, 0); }});
+        continue;
+      }
+      const auto open = opener(elemental(i, b), step_ * values, values);
+      parts.push_back({values, [open, values] { return open(values); }});
+    }
+    return [parts](uint64_t) { return openParts(parts); };
+  }
+
+  static std::string elemental(size_t variable, size_t block) {
+    return numbered("vals_elem_var", variable + 1) + numbered("eb", block + 1);
   }
 
   static std::string shown(const std::string& name, size_t i) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "embedded.h"
 #include "topology.h"
 
 namespace tetstream {

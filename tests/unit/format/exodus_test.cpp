@@ -102,6 +102,43 @@ TEST(Exodus, OldFilesHaveCoordinatesAndVariablesInOneEach) {
   EXPECT_EQ(valuesAs<double>(mesh.fields[1]), (std::vector<double>{25, 26, 27, 28, 29}));
 }
 
+// As some writers have vectors, though the format has none.
+TEST(Exodus, VariablesOfOneDimensionMoreAreVectors) {
+  NetcdfMaker m = twoBlocks();
+  m.dimensions["three"] = 3;
+  m.dimensions["ten"] = 10;
+  TestVariable& of_nodes = variable(m, "vals_nod_var1");
+  of_nodes.dimensions.push_back("three");
+  of_nodes.values.resize(45);
+  for (size_t i = 0; i < 45; ++i) of_nodes.values[i] = static_cast<double>(i);
+  TestVariable& of_elements = variable(m, "vals_elem_var1eb2");
+  of_elements.dimensions.push_back("three");
+  of_elements.values = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const VtuMesh mesh = readAs("exodus", m.make(), 2);
+  ASSERT_EQ(mesh.schema.fields.size(), 1u);
+  EXPECT_EQ(mesh.schema.fields[0].components, 3);
+  const std::vector<double> nodal = valuesAs<double>(mesh.fields[0]);
+  ASSERT_EQ(nodal.size(), 15u);
+  for (size_t i = 0; i < 15; ++i) EXPECT_EQ(nodal[i], 30 + static_cast<double>(i));
+  ASSERT_EQ(mesh.schema.cell_data.size(), 2u);
+  EXPECT_EQ(valuesAs<float>(mesh.cell_data[1]), (std::vector<float>{0, 0, 0, 7, 8, 9}));
+  of_nodes.dimensions.back() = "ten";
+  of_nodes.values.resize(150);
+  const VtuMesh wide = readAs("exodus", m.make(), 2);
+  EXPECT_TRUE(hasNote(wide, "variable \"p\" is left out: it has more than 9 components"));
+  EXPECT_TRUE(wide.schema.fields.empty());
+}
+
+TEST(Exodus, StepsThatAVariableLacksAreTold) {
+  NetcdfMaker m = twoBlocks();
+  TestVariable& values = variable(m, "vals_nod_var1");
+  values.dimensions = {"two", "nodes"};
+  values.values.resize(10);
+  const VtuMesh mesh = readAs("exodus", m.make(), 2);
+  EXPECT_TRUE(hasNote(mesh, "variable \"p\" is left out: it has no values of this time step"));
+  EXPECT_TRUE(mesh.schema.fields.empty());
+}
+
 // Of six nodes and of more the first triangle is turned inwards, as in hexahedra the first square.
 TEST(Exodus, PrismsBecomeTetrahedraOfPositiveVolume) {
   NetcdfMaker m = twoBlocks();
