@@ -20,7 +20,7 @@ NAMES = {
         popcount""",
     "charconv": "chars_format errc from_chars from_chars_result to_chars",
     "chrono": "chrono",
-    "cmath": """abs acos cbrt ceil cos exp exp2 fabs floor fma fmax frexp ilogb isfinite isinf isnan ldexp
+    "cmath": """abs acos cbrt ceil cos exp exp2 fabs floor fma fmax frexp ilogb isfinite isinf isnan ldexp nan
         expm1 llround log log10 log2 lround pow round sin sqrt trunc""",
     "condition_variable": "condition_variable",
     "cctype": "isalpha tolower",

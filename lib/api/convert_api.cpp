@@ -7,7 +7,7 @@ using namespace tetstream;
 
 static void noteUnused(tetstream_reader& reader, int64_t vertices) {
   if (vertices > 0)
-    reader.notes.push_back(
+    reader.notes.add(
         textOf("vertices that are in no cell, left out: %lld", static_cast<long long>(vertices)));
 }
 
@@ -105,9 +105,9 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
     for (size_t f = 0; f < found.not_finite.size(); ++f)
       if (found.not_finite[f] > 0)
-        r.notes.push_back(textOf("values of the field \"%s\" that are not finite: %lld",
-                                 found.schema.fields[f].name.c_str(),
-                                 static_cast<long long>(found.not_finite[f])));
+        r.notes.add(textOf("values of the field \"%s\" that are not finite: %lld",
+                           found.schema.fields[f].name.c_str(),
+                           static_cast<long long>(found.not_finite[f])));
     r.front = publicFront(found);
     r.face_labels.clear();
     for (const auto& [label, figures] : found.face_labels.labels())

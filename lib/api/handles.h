@@ -1,7 +1,6 @@
 // api: what the opaque handles hold. Depends on run.h, registry.h, option_values.h, callbacks.h.
 #pragma once
 
-#include <list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "callbacks.h"
 #include "compare.h"
 #include "guard.h"
+#include "notes.h"
 #include "option_values.h"
 #include "output.h"
 #include "rounding_source.h"
@@ -33,7 +33,7 @@ struct tetstream_reader : tetstream::Handle {
   std::unique_ptr<const tetstream::PublicSchema> inspected;
   tetstream_front_info front = {};                     // once inspected
   std::vector<tetstream_face_label_info> face_labels;  // likewise
-  std::list<std::string> notes;
+  tetstream::Notes notes;
 };
 
 struct tetstream_writer : tetstream::Handle {

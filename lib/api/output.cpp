@@ -1,6 +1,5 @@
 #include "output.h"
 
-#include <iterator>
 #include <utility>
 
 #include "compressed_bytes.h"
@@ -8,11 +7,6 @@
 #include "rounding_source.h"
 
 namespace tetstream {
-
-const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept {
-  if (index < 0 || static_cast<size_t>(index) >= notes.size()) return nullptr;
-  return std::next(notes.begin(), index)->c_str();
-}
 
 const Format& writtenFormat(const std::string& name, const std::string& path) {
   const Format& format = needFormat(name, path, FormatUse::kWriting);
@@ -105,12 +99,12 @@ bool Output::mustRound(const Schema& schema) {
 
 void Output::addNote(const std::string& note) {
   const std::lock_guard<std::mutex> lock(noting_);
-  notes_.push_back(note);
+  notes_.add(note);
 }
 
 const char* Output::note(int32_t index) const noexcept {
   const std::lock_guard<std::mutex> lock(noting_);
-  return noteOf(notes_, index);
+  return notes_.at(index);
 }
 
 void Output::start(const std::string& temp_dir, bool is_mapped) {

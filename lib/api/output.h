@@ -4,7 +4,6 @@
 
 #include <atomic>
 #include <functional>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -14,13 +13,11 @@
 #include "callbacks.h"
 #include "guard.h"
 #include "joint_files.h"
+#include "notes.h"
 #include "options.h"
 #include "registry.h"
 
 namespace tetstream {
-
-// Note `index`, or null.
-const char* noteOf(const std::list<std::string>& notes, int32_t index) noexcept;
 
 // The row of a format, by its name or the path's extension; throws kUnsupported if it is not
 // written.
@@ -81,7 +78,7 @@ class Output final : public Sink {
   WriteOptions options_;
   bool stays_with_caller_ = true;
   mutable std::mutex noting_;  // notes may come while the caller looks at them
-  std::list<std::string> notes_;
+  Notes notes_;
   std::unique_ptr<Sink> sink_;
   std::function<void()> rest_;
   ProgressFunction progress_;

@@ -89,7 +89,7 @@ static void openBytes(tetstream_reader& reader, const Format& format,
   const size_t threads = run.simplify.memory_bytes > 0 ? 1 : threadsOf(run);
   reader.tasks = std::make_unique<const Tasks>(threads, run.workers);
   options.threads.tasks = reader.tasks.get();
-  options.note = [&reader](const std::string& note) { reader.notes.push_back(note); };
+  options.note = [&reader](const std::string& note) { reader.notes.add(note); };
   const ByteWatch watch(openingTold(settings));
   options.watch = &watch;
   wrappingOf(path, &options.path);
@@ -265,7 +265,7 @@ tetstream_status tetstream_reader_get_info(tetstream_reader* reader, tetstream_s
 }
 
 const char* tetstream_reader_note(const tetstream_reader* reader, int32_t index) {
-  return reader ? noteOf(reader->notes, index) : nullptr;
+  return reader ? reader->notes.at(index) : nullptr;
 }
 
 tetstream_status tetstream_reader_get_front(tetstream_reader* reader, tetstream_front_info* front) {

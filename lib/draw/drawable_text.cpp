@@ -4,7 +4,7 @@
 
 namespace tetstream {
 
-// The bytes of UTF-8 that begin at `at`: 0 if there are none such.
+// The bytes of UTF-8 that begin at `at`: 0 if there are none such, or cairo refuses them.
 static size_t characterAt(const std::string& text, size_t at) {
   const auto byte = [&](size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
@@ -20,7 +20,8 @@ static size_t characterAt(const std::string& text, size_t at) {
   }
   const bool too_long = (size == 3 && code < 0x800) || (size == 4 && code < 0x10000);
   const bool unpaired = code >= 0xd800 && code < 0xe000;
-  return too_long || unpaired || code > 0x10ffff ? 0 : size;
+  const bool no_character = (code & 0xfffe) == 0xfffe || (code >= 0xfdd0 && code < 0xfdf0);
+  return too_long || unpaired || no_character || code > 0x10ffff ? 0 : size;
 }
 
 std::string drawableText(const std::string& text) {

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <type_traits>
 
+#include "text_number.h"
+
 namespace tetstream {
 
 template <class T>
@@ -14,8 +16,7 @@ bool parseValue(std::string_view word, T* value) {
   const std::from_chars_result r = std::from_chars(word.data(), end, *value);
   if (r.ec == std::errc() && r.ptr == end) return true;
   if constexpr (std::is_floating_point_v<T>) {
-    const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
-    if (r.ec == std::errc::result_out_of_range && r.ptr == end && tiny) {
+    if (r.ec == std::errc::result_out_of_range && r.ptr == end && isTiny(word)) {
       *value = word[0] == '-' ? -T(0) : T(0);
       return true;
     }

@@ -1,4 +1,4 @@
-// file: words of text as values of an array's type. Depends on piece_parser.h, values.h.
+// file: words of text as values of an array's type. Depends on piece_parser.h, values.h, file/text.
 #pragma once
 
 #include <string_view>

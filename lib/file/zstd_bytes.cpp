@@ -17,9 +17,12 @@ namespace {
 constexpr int kZstdLevel = 3;
 
 void checkZstd(size_t result, const std::string& name) {
-  if (zstdFailed(result))
-    fail(Status::kBadData, "%s: the compressed data are damaged: %s", name.c_str(),
-         ZSTD_getErrorName(result));
+  if (!zstdFailed(result)) return;
+  if (ZSTD_getErrorCode(result) == ZSTD_error_frameParameter_windowTooLarge)
+    fail(Status::kUnsupported, "%s: zstd packed it with a window of more than 128 MiB",
+         name.c_str());
+  fail(Status::kBadData, "%s: the compressed data are damaged: %s", name.c_str(),
+       ZSTD_getErrorName(result));
 }
 
 class ZstdSource final : public WrappedSource {

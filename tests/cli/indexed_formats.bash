@@ -125,6 +125,9 @@ for way in 100:first 100:0 200:1 300:2 300:last; do
 done
 sed 's/timestep="0"/timestep="nan"/' steps.pvd >step.nan.pvd
 expect_error 2 "step.nan.pvd: byte 148: a timestep is no number" info step.nan.pvd
+sed 's/timestep="0.5"/timestep="  +0.5D0 "/' steps.pvd >step.fortran.pvd
+expect 0 info step.fortran.pvd
+contains "$out" "time          0.5"
 sed 's/timestep="[^"]*"//; /file="step[1-9]/d' steps.pvd >step.untold.pvd
 expect 0 info step.untold.pvd --json
 contains "$out" '"time": null'

@@ -22,9 +22,8 @@ static std::errc parseAs(std::string_view word, T* out) {
   return r.ptr == end && !word.empty() ? r.ec : std::errc::invalid_argument;
 }
 
-// Whether a decimal number out of a double's range is below it and not above. Its size is that of
-// 0.d * 10^(places + exponent), d the first digit that is not 0.
-static bool isTiny(std::string_view word) {
+// Its size is that of 0.d * 10^(places + exponent), d the first digit that is not 0.
+bool isTiny(std::string_view word) {
   const size_t e = word.find_first_of("eE");
   int64_t places = 0, exponent = 0;
   bool point = false, found = false;
@@ -119,6 +118,15 @@ const char* readWord(const char* begin, const char* end, int64_t* value) {
 
 const char* readWord(const char* begin, const char* end, double* value) {
   return readWordAs(begin, end, value);
+}
+
+std::optional<double> realIn(std::string_view text) {
+  const char* begin = std::find_if_not(text.begin(), text.end(), isBlank);
+  const char* const end = text.end();
+  double value;
+  const char* const word_end = begin == end ? nullptr : readWord(begin, end, &value);
+  if (!word_end || !std::all_of(word_end, end, isBlank)) return {};
+  return value;
 }
 
 // note: general notation, for plain to_chars prints large floats as integers of more digits than

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -25,11 +26,17 @@ inline std::string_view takeWord(std::string_view& rest) {
 bool parseNumber(std::string_view word, ScalarType type, void* out);
 bool parseInteger(std::string_view word, int64_t* out);
 
+// Whether a decimal number out of a type's range is below it and not above.
+bool isTiny(std::string_view word);
+
 // The number that stands at `begin`, as all but .sva has them: a plus sign may stand before it, and
 // a real one may have Fortran's exponent, as in 1.5D+03. Returns the end of the word, which is at
 // the first blank or at `end`; null: it is no such number.
 const char* readWord(const char* begin, const char* end, int64_t* value);
 const char* readWord(const char* begin, const char* end, double* value);
+
+// The one real number of a text, such as a word of a markup, likewise; blanks may stand round it.
+std::optional<double> realIn(std::string_view text);
 
 // The shortest text that reads back as the same number.
 void printNumber(const void* value, ScalarType type, std::string& out);

@@ -1,13 +1,13 @@
 // Reads .pvd files, which name the .vtu and .pvtu files of each time step: those of one step are
 // pieces. Points that pieces share are one each.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 
 #include "file_pool.h"
 #include "pieced_mesh.h"
 #include "status.h"
+#include "text_number.h"
 #include "time_steps.h"
 #include "vtk_format.h"
 #include "vtu_pieces.h"
@@ -53,10 +53,8 @@ class StepFiles final : XmlFeed {
     if (files_.size() == kMaxFiles) failHere("too many files", Status::kUnsupported);
     StepFile row = {file};
     if (timestep) {
-      const char* end = timestep + std::strlen(timestep);
-      const std::from_chars_result r = std::from_chars(timestep, end, row.time);
-      if (r.ec != std::errc() || r.ptr != end || std::isnan(row.time))
-        failHere("a timestep is no number");
+      row.time = realIn(timestep).value_or(std::nan(""));
+      if (std::isnan(row.time)) failHere("a timestep is no number");
       row.is_told = true;
     }
     files_.push_back(std::move(row));

@@ -213,6 +213,7 @@ class VtkParser {
   void readPoints() {
     if (file_.points) fail("there are two sets of POINTS");
     VtkArray array{"Points", ValueType::kFloat32, false, 3, number("the number of points"), 0, 0};
+    described_ = array.components;
     if (!readType(array, scan_.word())) fail("points are no strings");
     passValues(array);
     file_.points = array;
@@ -301,7 +302,7 @@ class VtkParser {
     array.name = cutName(name);
     if (array.name.size() < name.size())
       note("array \"" + array.name + "\" has a longer name, cut to 255 bytes");
-    array.components = static_cast<int>(components);
+    array.components = described_ = static_cast<int>(components);
     if (components >= 1 && components <= kMaxComponents) return true;
     note("array \"" + array.name + "\" is left out: it has " + std::to_string(components) +
          " components, 1 to 9 are possible");
@@ -399,17 +400,21 @@ class VtkParser {
     passValues(table);
   }
 
-  // Names of components and facts about an array, up to an empty line.
+  // Names of components and facts about the last array, up to an empty line; components without a
+  // name have an empty line, too.
   void skipMetadata() {
     scan_.line();
-    while (!scan_.atEnd() && !scan_.line().empty()) {
-    }
+    std::string line = scan_.line();
+    if (lower(line) == "component_names")
+      for (int i = 0; i < described_; ++i) line = scan_.line() + ".";
+    while (!scan_.atEnd() && !line.empty()) line = scan_.line();
   }
 
   ByteSource& bytes_;
   VtkScan scan_;
   VtkFile file_;
   Part part_ = Part::kNone;
+  int described_ = 0;  // components of the last array
   uint64_t keyword_at_ = 0;
 };
 

@@ -113,8 +113,13 @@ class Xdmf {
     const int grid = steps[static_cast<size_t>(step)];
     if (at(grid).time) return at(grid).time;
     const std::vector<XdmfItem>& lists = at(collection).times;
-    if (lists.size() == 1 && lists[0].count() == steps.size())
-      return timeIn(*arrays_.arrayOf(lists[0], "times", 1).open(steps.size()), step);
+    const bool are_even = at(collection).has_even_times;
+    if (const size_t held = are_even ? 3 : steps.size();
+        lists.size() == 1 && lists[0].count() == held) {
+      const std::unique_ptr<Values> times = arrays_.arrayOf(lists[0], "times", 1).open(held);
+      return are_even ? timeIn(*times, 0) + static_cast<double>(step) * timeIn(*times, 1)
+                      : timeIn(*times, step);
+    }
     const std::vector<int> leaves = leavesOf(grid);
     return leaves.empty() ? std::nullopt : at(leaves[0]).time;
   }

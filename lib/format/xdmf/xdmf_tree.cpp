@@ -2,10 +2,12 @@
 
 #include <strings.h>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 
 #include "mesh_pieces.h"
+#include "text_number.h"
 
 namespace tetstream {
 
@@ -138,14 +140,11 @@ class XdmfTree final : XmlFeed {
       return kAttribute;
     }
     if (std::strcmp(name, "Time") == 0) {
-      const std::string value = wordOf(attributes, "Value", "");
-      const size_t begin = value.find_first_not_of(" \t\r\n");
-      double time = 0;
-      if (begin != std::string::npos &&
-          std::from_chars(value.data() + begin, value.data() + value.size(), time).ec ==
-              std::errc())
-        grid.time = time;
-      if (sameWord(wordOf(attributes, "TimeType", ""), "List")) {
+      const char* const value = find(attributes, "Value");
+      if (value) grid.time = realIn(value).value_or(std::nan(""));
+      const std::string type = wordOf(attributes, "TimeType", "");
+      grid.has_even_times = sameWord(type, "HyperSlab");
+      if (grid.has_even_times || sameWord(type, "List")) {
         items_ = &grid.times;
         return kTimes;
       }

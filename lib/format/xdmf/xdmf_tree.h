@@ -50,14 +50,15 @@ struct XdmfGeometry {
 struct XdmfGrid {
   std::string name;
   enum Kind { kUniform, kTemporal, kSpatial } kind = kUniform;
-  int parent = -1;  // in the list of all
-  std::optional<double> time;
+  int parent = -1;             // in the list of all
+  std::optional<double> time;  // NaN: what is told is no number
   std::optional<XdmfTopology> topology;
   std::optional<XdmfGeometry> geometry;
   std::vector<XdmfAttribute> attributes;
   std::vector<std::string> includes;  // xpointers to what the grid takes from others
   bool has_sets = false;              // of nodes, faces or cells
   std::vector<XdmfItem> times;        // of the grids in it, in a list
+  bool has_even_times = false;        // the list is the first one, the step and their number
 };
 
 struct XdmfFile {

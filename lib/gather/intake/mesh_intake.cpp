@@ -14,6 +14,8 @@ namespace tetstream {
 
 namespace {
 
+constexpr size_t kMaxData = 1 << 12;  // as they are compared by name
+
 std::string plural(uint64_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
 }
@@ -203,6 +205,7 @@ void MeshIntake::leaveOutFaces(const std::string& things) {
 // ------------------------------------------------------------------------------------------ data
 
 size_t MeshIntake::addData(const Column& column, bool of_cells) {
+  if (data_.size() == kMaxData) fail(Status::kUnsupported, "%s: too many arrays", name_.c_str());
   data_.push_back(std::make_unique<Data>(column, of_cells));
   return data_.size() - 1;
 }
@@ -245,13 +248,16 @@ void MeshIntake::putData(size_t data, uint64_t row, const double* values) {
     convertScalars(values, ScalarType::kFloat64, rounded, ScalarType::kFloat32, count);
   } else {
     for (size_t k = 0; k < count; ++k) {
-      const double limit = d.column.type == ScalarType::kInt32 ? 0x1p31 : 0x1p63;
-      if (!(values[k] >= -limit && values[k] < limit && values[k] == std::trunc(values[k])))
+      const bool is_narrow = d.column.type == ScalarType::kInt32;
+      const double limit = is_narrow ? 0x1p31 : 0x1p63;
+      const bool is_rounded = !is_narrow && values[k] == limit;  // from the largest ones
+      if (!(values[k] >= -limit && values[k] < limit && values[k] == std::trunc(values[k])) &&
+          !is_rounded)
         file_.failBad("\"" + d.column.name + "\" is said to hold integers, and here is none");
-      const auto value = static_cast<int64_t>(values[k]);
+      const int64_t value = is_rounded ? INT64_MAX : static_cast<int64_t>(values[k]);
       const auto narrow = static_cast<int32_t>(value);
       auto* to = reinterpret_cast<unsigned char*>(rounded) + k * sizeOf(d.column.type);
-      if (d.column.type == ScalarType::kInt32)
+      if (is_narrow)
         std::memcpy(to, &narrow, sizeof narrow);
       else
         std::memcpy(to, &value, sizeof value);

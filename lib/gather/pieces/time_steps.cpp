@@ -62,7 +62,7 @@ uint64_t chooseStep(MeshPieces& mesh, uint64_t count, const ReadOptions& options
   std::string text = textOf(
       "of %llu time steps, 0 to %llu, step %llu is read", static_cast<unsigned long long>(count),
       static_cast<unsigned long long>(count - 1), static_cast<unsigned long long>(step));
-  if (told) text += textOf(", at time %.9g", *told);
+  if (told && std::isfinite(*told)) text += textOf(", at time %.9g", *told);
   mesh.addNote(text);
   return step;
 }

@@ -65,6 +65,10 @@ TEST(DrawableText, ShowsOtherBytesAsQuestionMarks) {
   EXPECT_EQ(drawableText("\xf0\x80\x80\xaf"), "????");
   EXPECT_EQ(drawableText("\xed\xa0\x80"), "???");
   EXPECT_EQ(drawableText("\xf4\x90\x80\x80"), "????");
+  EXPECT_EQ(drawableText("\xef\xbf\xbf"), "???");  // no characters, which cairo refuses
+  EXPECT_EQ(drawableText("\xef\xb7\x90"), "???");
+  EXPECT_EQ(drawableText("\xf0\x9f\xbf\xbe"), "????");
+  EXPECT_EQ(drawableText("\xef\xbf\xbd"), "\xef\xbf\xbd");
   EXPECT_EQ(drawableText("a\nb\x7f"), "a?b?");
 }
 

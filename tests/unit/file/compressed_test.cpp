@@ -71,6 +71,30 @@ TEST(Compressed, ReadsSeveralMembersAndPadding) {
   }
 }
 
+#ifdef TETSTREAM_WITH_ZSTD
+Bytes bytesOf(const std::string& text) {
+  return Bytes(text.begin(), text.end());
+}
+
+TEST(Compressed, PassesFramesThatAreToBeSkipped) {
+  Bytes data = bytesOf(std::string("\x5e\x2a\x4d\x18\x03\0\0\0abc", 11));
+  const Bytes frame = wrap("one", Wrapping::kZstd);
+  data.insert(data.end(), frame.begin(), frame.end());
+  EXPECT_EQ(unwrap(data), "one");
+  EXPECT_EQ(unwrap(data, 1), "one");
+}
+
+// A frame of one byte, whose window would be 256 MiB.
+TEST(Compressed, WindowsThatAreTooLargeAreNoDamage) {
+  try {
+    unwrap(bytesOf(std::string("\x28\xb5\x2f\xfd\0\x90\x09\0\0v", 10)));
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::kUnsupported) << error.text();
+  }
+}
+#endif
+
 TEST(Compressed, RefusesWhatIsCutOrDamaged) {
   for (Wrapping wrapping : kinds()) {
     if (wrapping == Wrapping::kNone) continue;

@@ -60,6 +60,8 @@ const char* const kOldVtkText =
     "ids 1 5 vtkIdType\n"
     "5 4 3 2 1\n"
     "METADATA\n"
+    "COMPONENT_NAMES\n"
+    "\n"
     "INFORMATION 1\n"
     "NAME L2_NORM_RANGE LOCATION vtkDataArray\n"
     "DATA 2 1 5\n"
@@ -117,7 +119,7 @@ std::string binaryFile(const std::string& version, const std::string& cells) {
          std::string("\x80\x02") + "bc" + std::string("\x40\x00\x00\x01", 4) + "d" +
          std::string("\0\0\0\0\0\0\0\x01", 8) + "e" + "\xC0" + "\nd 2 5 double\n" +
          big<double>({1, 2, 3, 4, 5, 6, 7, 8, 9, 10}) +
-         "\nMETADATA\nINFORMATION 0\n\nCELL_DATA 2\nTENSORS t float\n" +
+         "\nMETADATA\nCOMPONENT_NAMES\n\ny\nINFORMATION 0\n\nCELL_DATA 2\nTENSORS t float\n" +
          big<float>({1, 2, 3, 4, 5, 6, 7, 8, 9, 1, 2, 3, 4, 5, 6, 7, 8, 9}) + "\n";
 }
 

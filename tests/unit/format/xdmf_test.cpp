@@ -90,7 +90,12 @@ TEST(Xdmf, AGridMayTellItsTime) {
   EXPECT_EQ(readAs("xdmf", file(uniform("mesh", grid + "<Time Value=\"0.5\"/>"))).schema.time, 0.5);
   EXPECT_EQ(readAs("xdmf", file(uniform("mesh", grid + "<Time Value=\" 0.5 \"/>"))).schema.time,
             0.5);
+  EXPECT_EQ(readAs("xdmf", file(uniform("mesh", grid + "<Time Value=\"+0.3D+01\"/>"))).schema.time,
+            3);
   EXPECT_FALSE(readAs("xdmf", file(uniform("mesh", grid))).schema.time);
+  const VtuMesh strange = readAs("xdmf", file(uniform("mesh", grid + "<Time Value=\"1.5 s\"/>")));
+  EXPECT_FALSE(strange.schema.time);
+  EXPECT_TRUE(hasNote(strange, "the time is left out"));
 }
 
 TEST(Xdmf, AStepHasTheTimeThatIsToldOfItAlone) {
@@ -106,6 +111,10 @@ TEST(Xdmf, AStepHasTheTimeThatIsToldOfItAlone) {
              "</Time>" +
              uniform("a", grid) + uniform("b", grid)),
       2);
+  EXPECT_EQ(timeOf("<Time TimeType=\"HyperSlab\"><DataItem Dimensions=\"3\" Format=\"XML\">"
+                   "0.5 0.25 2</DataItem></Time>" +
+                   uniform("a", grid) + uniform("b", grid)),
+            0.75);
 }
 
 // What cannot be read of a time is no reason not to read the mesh.
