@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Finds names of the standard library, and types and constants of lib/'s own headers, whose header is
-not included, by the file itself or by a header of the project that it includes. The compiler does
+"""Finds names of the standard library, and types, constants and functions of lib/'s own headers, whose
+header is not included, by the file itself or by a header of the project that it includes. The compiler does
 not: where headers are precompiled, or a room is compiled as one file, all files see them. Prints a
 line for each, and exits with 1 if there are any."""
 import functools
@@ -69,6 +69,10 @@ INTEGER = re.compile(r"\bu?int(?:8|16|32|64)_t\b")
 # What a file declares: for all others at the start of a line, for itself anywhere.
 DECLARED = (r"(?:(?:struct|class|enum class|enum) (\w+)|using (\w+) =|"
             r"(?:inline )?(?:static )?constexpr [\w:<>]+ (k[A-Z]\w*))")
+FUNCTION = r"(?!return|else|using|typedef|throw)(?:[\w:]+(?:<.*>)?[ *&]+)+(\w+)\("
+FREE_FUNCTION = re.compile("^" + FUNCTION, re.M)
+ANY_FUNCTION = re.compile("^ *" + FUNCTION, re.M)
+CALLED = re.compile(r"\b(\w+) = \[|\w (\w+)[,)]")  # lambdas and parameters
 OF_A_HEADER, OF_A_FILE = re.compile("^" + DECLARED, re.M), re.compile(r"\b" + DECLARED)
 ENUM = re.compile(r"\benum [^{};]*{([^}]*)}")
 
@@ -94,7 +98,9 @@ def main():
     code = {f: re.sub(r'"[^"\n]*"', "", t) for f, t in text.items()}
     own = {}  # of each name the headers that declare it
     for file in files:
-        for name in declared(OF_A_HEADER, text[file]) if file.suffix == ".h" else ():
+        if file.suffix != ".h":
+            continue
+        for name in declared(OF_A_HEADER, text[file]) | set(FREE_FUNCTION.findall(text[file])):
             own.setdefault(name, []).append(file)
 
     @functools.cache
@@ -111,7 +117,9 @@ def main():
         seen = [text[f] for f in seen_by(file) if f in text]
         members = " ".join(enum for t in seen for enum in ENUM.findall(t))
         own_names = {name for t in seen for name in declared(OF_A_FILE, t)}
-        return own_names | set(re.findall(r"\w+", members))
+        functions = {name for t in seen for name in ANY_FUNCTION.findall(t)}
+        called = {name for found in CALLED.findall(text[file]) for name in found}
+        return own_names | functions | called | set(re.findall(r"\w+", members)) | {"alignas"}
 
     def missing(file):
         used = set(re.findall(r"\bstd::(\w+)", text[file])) - ANYWHERE
@@ -122,6 +130,7 @@ def main():
         if file.suffix == ".inl":  # included where all is known
             return
         words = set(re.findall(r"(?<![\w.:])[A-Z]\w+|(?<![\w.:])k[A-Z]\w+", code[file]))
+        words |= set(re.findall(r"(?<![\w.:>])([a-z]\w+)\(", code[file]))
         for name in sorted(words & set(own) - known_to(file)):
             yield name, [f'"{header.name}"' for header in own[name]]
 

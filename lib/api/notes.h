@@ -12,8 +12,10 @@ namespace tetstream {
 class Notes {
  public:
   void add(const std::string& note) {
-    if (notes_.size() < kMost) notes_.push_back(note);
-    if (notes_.size() == kMost) notes_.emplace_back("further notes are left out");
+    if (notes_.size() < kMost)
+      notes_.push_back(note);
+    else if (notes_.size() == kMost)
+      notes_.emplace_back("further notes are left out");
   }
   // Note `index`, or null.
   const char* at(int32_t index) const noexcept {

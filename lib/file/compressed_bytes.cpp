@@ -20,12 +20,13 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 Wrapping wrappingOf(const unsigned char* head, size_t size) {
   if (size >= 2 && head[0] == 0x1f && head[1] == 0x8b) return Wrapping::kGzip;
-  const auto is = [&](unsigned char a, unsigned char b, unsigned char c) {
-    return size >= 4 && head[1] == a && head[2] == b && head[3] == c;
+  if (size < kMagicBytes) return Wrapping::kNone;
+  const auto goesOn = [head](unsigned char a, unsigned char b, unsigned char c) {
+    return head[1] == a && head[2] == b && head[3] == c;
   };
   // A frame of data, or one that is skipped, which parallel packers begin with.
-  const bool zstd = (head[0] == 0x28 && is(0xb5, 0x2f, 0xfd)) ||
-                    ((head[0] & 0xf0) == 0x50 && is(0x2a, 0x4d, 0x18));
+  const bool zstd = (head[0] == 0x28 && goesOn(0xb5, 0x2f, 0xfd)) ||
+                    ((head[0] & 0xf0) == 0x50 && goesOn(0x2a, 0x4d, 0x18));
   return zstd ? Wrapping::kZstd : Wrapping::kNone;
 }
 

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "simplifier.h"
+#include "target.h"
 #include "window_size.h"
 
 namespace tetstream {

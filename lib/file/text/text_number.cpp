@@ -37,7 +37,7 @@ bool isTiny(std::string_view word) {
   if (e == std::string_view::npos) return places < 0;
   const std::string_view digits = withoutPlus(word.substr(e + 1));
   if (parseAs(digits, &exponent) == std::errc::result_out_of_range) return digits[0] == '-';
-  return exponent < 0 && places < -exponent;
+  return places < -std::max(exponent, -INT64_MAX);
 }
 
 static bool parseFloat64(std::string_view word, double* out) {

@@ -14,7 +14,7 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kMaxData = 1 << 12;  // as they are compared by name
+constexpr size_t kMaxData = 1 << 14;  // as they are compared by name
 
 std::string plural(uint64_t count, const std::string& things) {
   return std::to_string(count) + " " + things;
@@ -205,7 +205,8 @@ void MeshIntake::leaveOutFaces(const std::string& things) {
 // ------------------------------------------------------------------------------------------ data
 
 size_t MeshIntake::addData(const Column& column, bool of_cells) {
-  if (data_.size() == kMaxData) fail(Status::kUnsupported, "%s: too many arrays", name_.c_str());
+  if (data_.size() == kMaxData)
+    fail(Status::kUnsupported, "%s: there are more than %zu arrays", name_.c_str(), kMaxData);
   data_.push_back(std::make_unique<Data>(column, of_cells));
   return data_.size() - 1;
 }

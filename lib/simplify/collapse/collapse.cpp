@@ -61,7 +61,8 @@ Outcome Collapser<Mesh>::thins(uint32_t u, uint32_t v, float most_price, const S
     const size_t left = stars_.u.size() + stars_.v.size();
     price_ = std::max(price_, flatPrice(flat, after.middle, stars_.ring.size(), left));
   }
-  if (price_ < kThinPrice && !thinsOut(u, v, Thin::kFirstDear, after.thin)) price_ = kThinPrice;
+  const float price = thinPrice(core_.shapesFirst());
+  if (price_ < price && !thinsOut(u, v, Thin::kFirstDear, after.thin)) price_ = price;
   return price_ > most_price ? Outcome::kDear : Outcome::kDone;
 }
 

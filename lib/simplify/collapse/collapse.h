@@ -102,7 +102,8 @@ class Collapser {
                       const ThinAngle& angle) const;
   // Whether its thin cells may cost a collapse more than that.
   bool isPriced(float most_price) const {
-    return !core_.dear.empty() && most_price < (core_.isFlat() ? kHighestPrice : kThinPrice);
+    return !core_.dear.empty() &&
+           most_price < (core_.isFlat() ? kHighestPrice : thinPrice(core_.shapesFirst()));
   }
   using Thin = ThinCounts<Mesh>;
   Outcome thins(uint32_t u, uint32_t v, float most_price, const StarShape& after);

@@ -9,12 +9,12 @@ namespace tetstream {
 
 // Cells with a dihedral angle below the floor harm a solver: as few as the input has are made. The
 // floor is the largest of these, in degrees, that hardly any cell of the input is below: stretched
-// meshes would lose their field for angles that they never had. Where shapes come first they begin
-// higher; the paper's mode has the least only.
+// meshes would lose their field for angles that they never had. Where shapes come first there is a
+// higher one; where the input has too many cells below that, each that is made has a high price
+// (price.h): floors between had 1.1 to 3.7 times the error, and as many such cells. The paper's
+// mode has the least only.
 constexpr double kFloors[] = {3, 2, 1.4, 1.01, 0.5, 0.2, kLeastFloor, 0.02, 0.008, 0.003};
-constexpr double kSolverFloors[] = {10,   8,   6,   4.5,         3,    2,     1.4,
-                                    1.01, 0.5, 0.2, kLeastFloor, 0.02, 0.008, 0.003};
-constexpr double kShareBelow = 0.01;
+constexpr double kSolverFloor = 10, kShareBelow = 0.01;
 // Cells just above a floor can hardly become others: of stretched meshes, all of whose cells are
 // alike, nearly every edge would be refused for it. No more than this share may be below so many
 // floors. Where shapes come first the floor is what was asked for.
@@ -48,10 +48,10 @@ template <class S>
 Angles<S>::Angles(Core<S>& core) : core_(core) {
   if (followsPaper(core.options.mode))
     floors_.emplace_back(kLeastFloor);
-  else if (core.options.shape == Shape::kSolver)
-    for (double degrees : kSolverFloors) floors_.emplace_back(degrees);
-  else
+  else {
+    if (core.options.shape == Shape::kSolver) floors_.emplace_back(kSolverFloor);
     for (double degrees : kFloors) floors_.emplace_back(degrees);
+  }
   below_.assign(floors_.size(), 0);
   if (!followsPaper(core.options.mode))
     for (const ThinAngle& floor : floors_) near_.emplace_back(kNearFloor * floor.degrees);
@@ -155,7 +155,8 @@ void Angles<S>::choose(uint32_t first, uint32_t end) {
     if (!(dear_[k].cos2 < core_.thin.cos2)) continue;  // not above
     const auto below = static_cast<double>(below_dear_[k]);
     const bool is_wanted =
-        k == 0 && (core_.options.effort == Effort::kHigh || isWall() || leavesFewInParts(core_));
+        k == 0 && (core_.options.shape == Shape::kSolver || core_.options.effort == Effort::kHigh ||
+                   isWall() || leavesFewInParts(core_));
     if (is_wanted || below > kShareToSpare * all)
       dear.push_back(dear_[k]);
     else if (k == 0 && core_.options.shape == Shape::kField)

@@ -218,7 +218,7 @@ void PatchSweep<S>::sweepSpared(float level) {
     any = true;
   }
   if (!any) return;
-  const float reach = core_.isFlat() ? level : level / kThinPrice;
+  const float reach = core_.isFlat() ? level : level / thinPrice(core_.shapesFirst());
   while (sweepLevel(reach, level) <= reach) {
   }
 }

@@ -72,14 +72,16 @@ TEST(AsciiValues, RealsAreThoseOfTheStandardLibrary) {
 // However they are written: with no exponent, or with one that is below 0.
 TEST(AsciiValues, FloatsThatAreTooSmallAreNone) {
   const std::string zeros(60, '0'), behind(100, ' ');
-  const Text file("0." + zeros + "1 -0." + zeros + "1 1" + zeros + "e-120 1" + behind);
-  float found[4];
-  file.open(ValueType::kFloat32, 4)->read(0, 4, found, ScalarType::kFloat32);
+  const Text file("0." + zeros + "1 -0." + zeros + "1 1" + zeros + "e-120 1 0." + zeros + "1e+5" +
+                  behind);
+  float found[5];
+  file.open(ValueType::kFloat32, 5)->read(0, 5, found, ScalarType::kFloat32);
   EXPECT_EQ(found[0], 0);
   EXPECT_TRUE(std::signbit(found[1]));
   EXPECT_EQ(found[1], 0);
   EXPECT_EQ(found[2], 0);
   EXPECT_EQ(found[3], 1);
+  EXPECT_EQ(found[4], 0);
   const Text large("1" + zeros + "e-5" + behind);
   const auto values = large.open(ValueType::kFloat32, 1);
   EXPECT_THROW(values->read(0, 1, found, ScalarType::kFloat32), Error);

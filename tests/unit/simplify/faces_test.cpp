@@ -46,7 +46,7 @@ Faced simplified(const Labelled& in, const SimplifyOptions& options, size_t batc
 // The cells are all of one region: what comes out is labelled by its side, all of it is, and no
 // side has grown or shrunk.
 void expectLabelsKept(int64_t window, const Way& way, size_t batch_cells) {
-  const Labelled in(slowRun() ? 4 : 6);
+  const Labelled in(slowRun() ? 5 : 6);
   const Faced result = simplified(in, way.toRatio(0.25, window), batch_cells);
   expectFlips(result.report, way);
   EXPECT_EQ(result.report.limited_by, "");
