@@ -51,6 +51,7 @@ class SweepBounds {
                          kLastWorth = {100, 4};
 
   bool isNear(const Goal& goal) const;
+  double heaviest() const;
   double errorIn(const Reach& reach) const;
   double partAllowed() const;
   const Reach* widest(const Goal& goal, const Refused& refused) const;

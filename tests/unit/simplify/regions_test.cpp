@@ -296,6 +296,24 @@ TEST(SimplifierRegions, DoNotCostTheBodyForNothing) {
   expectBodyKept(grains(12, 20), 12, 0.1, 0.5, 3, 1950, "a tenth", "grain");
 }
 
+// Spheres in each other, of cells that have their centres in them, to a number of cells that is
+// near: for 75 cells of 1401 the corners went, with 2.6 times the error.
+TEST(SimplifierRegions, DoNotCostTheBodyForTheLastCells) {
+  const int n = 14;
+  TestMesh mesh = fullGrid(n, n, n);
+  addPositionField(mesh, {"u", 1, k64}, [n](double x, double y, double z) {
+    return std::sin(5 * x / n) * std::cos(4 * y / n) + z / n * (z / n);
+  });
+  mesh.addIntegerCellData("shell", [&mesh, n](size_t c) {
+    double square = 0;
+    for (const double x : centreOf(mesh, c)) square += (x / n - 0.5) * (x / n - 0.5);
+    int64_t shell = 0;
+    for (double radius : {0.15, 0.25, 0.35, 0.5}) shell += square > radius * radius;
+    return shell;
+  });
+  expectBodyKept(mesh, n, 0.07, 1, 4, 1420, "a fifth", "shell");
+}
+
 // Though most of their interfaces' vertices lie on rims, where nobody knows which side is which:
 // with the steps kept 7773 cells of 10,368 were left.
 TEST(SimplifierRegions, AreSmoothedWhereTheyAreSmall) {
