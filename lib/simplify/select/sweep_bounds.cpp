@@ -155,14 +155,15 @@ double SweepBounds<S>::wanted(double bound, const Goal& goal) const {
 
 template <class S>
 double SweepBounds<S>::next(double bound, double wanted) const {
-  const double guarded = std::max(errorIn(kFree) * unit_, kGuardedStep * bound);
+  const double guarded = std::max(errorIn(kFree, 1) * unit_, kGuardedStep * bound);
   const double next = std::min(wanted, guarded), most = limit() * unit_;
   if (next <= most) return next;
   return most > kLeastStep * bound ? most : bound;
 }
 
 // What the squared errors of a field count at most, given and found (field_weights.h): what is
-// allowed in percent of its range counts as much.
+// allowed in percent of its range counts as much. note: steps are guarded without it: of several
+// fields they would be larger.
 template <class S>
 double SweepBounds<S>::heaviest() const {
   const std::vector<double>& found = core_.balance.fields;
@@ -175,17 +176,18 @@ double SweepBounds<S>::heaviest() const {
 }
 
 template <class S>
-double SweepBounds<S>::errorIn(const Reach& reach) const {
+double SweepBounds<S>::errorIn(const Reach& reach, double weight) const {
   const auto vertices =
       static_cast<double>(core_.reached) - static_cast<double>(core_.tally.collapses);
   const double square = reach.times * reach.times;
-  return std::max(heaviest() * errorOf(core_, reach.percent), square * core_.tally.error) /
+  return std::max(weight * errorOf(core_, reach.percent), square * core_.tally.error) /
          std::max(vertices, 1.0);
 }
 
 template <class S>
 double SweepBounds<S>::limit() const {
-  return reach_ ? partAllowed() * errorIn(*reach_) : std::numeric_limits<double>::infinity();
+  return reach_ ? partAllowed() * errorIn(*reach_, heaviest())
+                : std::numeric_limits<double>::infinity();
 }
 
 template <class S>

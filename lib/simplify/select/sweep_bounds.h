@@ -52,7 +52,7 @@ class SweepBounds {
 
   bool isNear(const Goal& goal) const;
   double heaviest() const;
-  double errorIn(const Reach& reach) const;
+  double errorIn(const Reach& reach, double weight) const;
   double partAllowed() const;
   const Reach* widest(const Goal& goal, const Refused& refused) const;
   double boundToTake(double cells) const;
