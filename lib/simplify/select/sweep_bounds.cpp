@@ -162,10 +162,11 @@ double SweepBounds<S>::next(double bound, double wanted) const {
 }
 
 // What the squared errors of a field count at most, given and found (field_weights.h): what is
-// allowed in percent of its range counts as much. note: steps are guarded without it: of several
-// fields they would be larger.
+// allowed in percent of its range counts as much. note: not beside regions, whose body would pay
+// for a few cells more, nor where steps are guarded: of several fields they would be larger.
 template <class S>
 double SweepBounds<S>::heaviest() const {
+  if (core_.interfaces) return 1;
   const std::vector<double>& found = core_.balance.fields;
   double most = 0;
   for (size_t i = 0; i < core_.plan.weights.size(); ++i) {
