@@ -14,7 +14,8 @@ static void readInto(tetstream_comparison& c, tetstream_reader& original,
   ReaderUse ours(original), theirs(simplified);
   const std::string& temp_dir = c.options.temp_dir;
   Input& first = ours.input(false, temp_dir);
-  c.found = compareInputs(first, theirs.input(false, temp_dir), c.options, progress);
+  c.found = compareInputs(first, theirs.input(false, temp_dir), c.options,
+                          theirs.told(ours.told(progress)));
   ours.done();
   theirs.done();
   c.seconds = std::chrono::duration<double>(Clock::now() - start).count();

@@ -15,7 +15,7 @@ static void noteUnused(tetstream_reader& reader, int64_t vertices) {
 static LayoutReport convertInto(Output& output, tetstream_reader& reader, const RunOptions& options,
                                 const ProgressFunction& progress) {
   ReaderUse use(reader);
-  const ProgressFunction watched = output.watchedBy(progress);
+  const ProgressFunction watched = output.watchedBy(use.told(progress));
   output.start(options.temp_dir);
   Input& input = use.input(output.mustRound(use.schema()), options.temp_dir);
   LayoutReport report = readNamed(input, [&] { return convert(input, output, options, watched); });
@@ -100,7 +100,7 @@ tetstream_status tetstream_inspect(tetstream_reader* reader, const tetstream_opt
     const bool indexed = (r.known->info().flags & TETSTREAM_STREAM_INDEXED) != 0;
     Input& input = use.input(false, run.temp_dir);
     const Inspection found =
-        readNamed(input, [&] { return inspect(input, run, progressOf(progress, user)); });
+        readNamed(input, [&] { return inspect(input, run, use.told(progressOf(progress, user))); });
     noteUnused(r, found.unused_vertices);
     r.inspected = std::make_unique<const PublicSchema>(found.schema, indexed);
     for (size_t f = 0; f < found.not_finite.size(); ++f)

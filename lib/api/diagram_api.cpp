@@ -23,8 +23,8 @@ static void readInto(tetstream_diagram& d, tetstream_reader& reader, bool with_s
   const Busy busy(d);
   ReaderUse use(reader);
   Input& input = use.input(false, d.options.temp_dir);
-  d.diagram =
-      readNamed(input, [&] { return readDiagram(input, d.size, with_sweep, d.options, progress); });
+  d.diagram = readNamed(
+      input, [&] { return readDiagram(input, d.size, with_sweep, d.options, use.told(progress)); });
   for (const DiagramColumn& column : d.diagram.layout->front()) {
     d.widths.push_back(column.width);
     d.lowest.push_back(column.lowest);

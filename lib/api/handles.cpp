@@ -57,7 +57,20 @@ Input& ReaderUse::input(bool rounded, const std::string& temp_dir) {
   return rounded_;
 }
 
+ProgressFunction ReaderUse::told(const ProgressFunction& progress) {
+  if (!progress || !reader_.input.waiting) return progress;
+  waiting_ = reader_.input.waiting;
+  const auto last = std::make_shared<Progress>();
+  last->phase = "open";
+  waiting_->doMeanwhile([progress, last] { progress(*last); });
+  return [progress, last](const Progress& now) {
+    *last = now;
+    progress(now);
+  };
+}
+
 ReaderUse::~ReaderUse() {
+  if (waiting_) waiting_->doMeanwhile({});
   closeInput(reader_);
   reader_.busy = false;
   reader_.state = done_ ? State::kFinished : State::kBroken;

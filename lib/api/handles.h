@@ -100,12 +100,15 @@ class ReaderUse {
   // What to read; an indexed mesh that comes in the caller's batches is collected first, in
   // temporary files. With `rounded`, its floats are float32.
   Input& input(bool rounded, const std::string& temp_dir);
+  // That is also called, with what it was told last, while somebody at the other end is waited for.
+  ProgressFunction told(const ProgressFunction& progress);
   const Schema& schema() const { return reader_.input.schema(); }
   void done() { done_ = true; }
 
  private:
   tetstream_reader& reader_;
   Input collected_, rounded_;
+  std::shared_ptr<Waiting> waiting_;  // where progress is told meanwhile
   bool done_ = false;
 };
 

@@ -40,10 +40,10 @@ static Status inStream(tetstream_simplifier& s, Body&& body) {
   }
 }
 
-static void startRun(tetstream_simplifier& s) {
-  const ProgressFunction progress = s.output->watchedBy(progressOf(s.progress, s.progress_user));
+static void startRun(tetstream_simplifier& s, const ProgressFunction& progress) {
+  const ProgressFunction watched = s.output->watchedBy(progress);
   s.output->start(s.options.temp_dir, s.map != nullptr);
-  s.run = std::make_unique<SimplifyRun>(s.options, *s.output, progress);
+  s.run = std::make_unique<SimplifyRun>(s.options, *s.output, watched);
   s.run->trace({s.map.get(), s.log.get()});
   s.output->onStop([&s] { dropRun(s); });
 }
@@ -58,7 +58,7 @@ static Status endRun(tetstream_simplifier& s) {
 
 static Status pull(tetstream_simplifier& s, tetstream_reader& reader) {
   ReaderUse use(reader);
-  startRun(s);
+  startRun(s, use.told(progressOf(s.progress, s.progress_user)));
   // The run goes before what it reads from, also after a failure.
   struct Scope {
     tetstream_simplifier& s;
@@ -127,7 +127,7 @@ tetstream_status tetstream_simplifier_begin(tetstream_simplifier* simplifier,
     const Schema schema = schemaOf(stream);
     s.output->needReady();
     return inStream(s, [&] {
-      startRun(s);
+      startRun(s, progressOf(s.progress, s.progress_user));
       s.batches.emplace(schema);
       if (s.output->mustRound(schema)) s.rounding.emplace(schema);
       s.run->begin(s.rounding ? s.rounding->schema() : schema,

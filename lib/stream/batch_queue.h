@@ -1,7 +1,8 @@
 // stream: batches on their way to or from a thread that goes on with them. Depends on batch_ring.h,
-// tasks.h, unlocked.h.
+// tasks.h, unlocked.h, waiting.h.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include "tasks.h"
 #include "unlocked.h"
 #include "wait_briefly.h"
+#include "waiting.h"
 
 namespace tetstream {
 
@@ -50,6 +52,17 @@ class BatchQueue : public Work {
         waitBriefly(changed_, lock, [&] { return !is_busy_ || condition(); });
       else
         goOn(lock);
+  }
+  // The same, with somebody at the other end.
+  template <class Condition>
+  void goOnUntil(Condition condition, Lock& lock, const Waiting& waiting) {
+    constexpr auto kPart = std::chrono::milliseconds(Waiting::kMilliseconds);
+    while (!condition())
+      if (!is_busy_)
+        goOn(lock);
+      else if (!changed_.wait_for(lock, kPart, [&] { return !is_busy_ || condition(); }))
+        if (std::exception_ptr error = doUnlocked(lock, [&] { waiting.meanwhile(); }))
+          std::rethrow_exception(error);
   }
 
   std::mutex mutex_;

@@ -12,11 +12,13 @@ class ReadAhead::Queue final : public BatchQueue {
   explicit Queue(Source& in) : BatchQueue(in.schema(), kBatchesAhead), in_(in) {}
 
   // Returns whether there was one. What the source threw comes in place of the next batch.
-  bool next(BatchView& batch) {
+  // `waiting` may be null.
+  bool next(BatchView& batch, const Waiting* waiting) {
     Lock lock(mutex_);
     if (handed_out_) ring_.dropFirst();
     handed_out_ = false;
-    goOnUntil([this] { return !ring_.empty() || is_over_; }, lock);
+    const auto hasCome = [this] { return !ring_.empty() || is_over_; };
+    waiting ? goOnUntil(hasCome, lock, *waiting) : goOnUntil(hasCome, lock);
     if (ring_.empty()) {
       if (error_) std::rethrow_exception(error_);
       return false;
@@ -64,7 +66,7 @@ ReadAhead::~ReadAhead() {
 }
 
 bool ReadAhead::next(BatchView& batch) {
-  if (!queue_->next(batch)) return false;
+  if (!queue_->next(batch, waiting_.get())) return false;
   if (++asked_ > kBatchesOfOneThread) queue_->ask(tasks_);
   return true;
 }

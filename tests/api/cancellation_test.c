@@ -1,6 +1,8 @@
 /* A thread that is cancelled inside a call ends when the call has returned, whatever the call does
- * meanwhile: it reads, writes, calls back, waits for its threads, destroys what has them. */
+ * meanwhile: it reads, writes, calls back, waits for its threads, destroys what has them. A call
+ * that waits for its input can be stopped. */
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -88,8 +90,64 @@ static void a_call_leaves_the_thread_as_it_was(void) {
   }
 }
 
+/* Nothing was told since the last batch, and yet it is called. */
+static int32_t stop_after_some(void* user, const tetstream_progress* progress) {
+  CHECK(progress->phase != NULL && progress->phase[0] != 0);
+  return ++*(int*)user > 20;
+}
+
+/* The first `bytes` of a file, by a pipe that stays open; returns its other end. */
+static int begin_of(const char* path, size_t bytes, int* in) {
+  int ends[2];
+  char* begin = malloc(bytes);
+  FILE* file = fopen(path, "rb");
+  CHECK_EQUAL(pipe(ends), 0);
+  CHECK(file && begin && fread(begin, 1, bytes, file) == bytes);
+  CHECK_EQUAL(write(ends[1], begin, bytes), (int64_t)bytes);
+  if (file) fclose(file);
+  free(begin);
+  *in = ends[0];
+  return ends[1];
+}
+
+/* Also where other threads read, and the caller's waits for them. */
+static void a_run_can_be_stopped_while_its_input_stalls(void) {
+  char path[64], in_path[32];
+  tetstream_reader* reader = NULL;
+  tetstream_writer* writer = NULL;
+  snprintf(path, sizeof path, "/tmp/tetstream_stall_%ld.tets", (long)getpid());
+  CHECK_EQUAL(tetstream_reader_generate("fluid", 20000, 1, &reader), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_writer_create_file(path, NULL, &writer), TETSTREAM_OK);
+  CHECK_EQUAL(tetstream_convert(reader, writer, NULL, NULL, NULL), TETSTREAM_OK);
+  tetstream_writer_destroy(writer);
+  tetstream_reader_destroy(reader);
+  for (int32_t threads = 1; threads <= 3; threads += 2) {
+    tetstream_options* options = NULL;
+    tetstream_simplifier* simplifier = NULL;
+    int in = -1, called = 0, out = begin_of(path, 5000, &in);
+    snprintf(in_path, sizeof in_path, "/dev/fd/%d", in);
+    CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_options_set_int64(options, TETSTREAM_OPTION_THREADS, threads),
+                TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_reader_open_file(in_path, "tets", &reader), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_writer_create_memory("tets", &writer), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_create(options, writer, &simplifier), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_set_progress(simplifier, stop_after_some, &called),
+                TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_simplifier_run(simplifier, reader), TETSTREAM_CANCELLED);
+    tetstream_simplifier_destroy(simplifier);
+    tetstream_writer_destroy(writer);
+    tetstream_reader_destroy(reader);
+    tetstream_options_destroy(options);
+    close(in);
+    close(out);
+  }
+  CHECK_EQUAL(unlink(path), 0);
+}
+
 int main(void) {
   RUN_CASE(a_cancelled_thread_ends_after_its_call);
   RUN_CASE(a_call_leaves_the_thread_as_it_was);
+  RUN_CASE(a_run_can_be_stopped_while_its_input_stalls);
   return check_end();
 }

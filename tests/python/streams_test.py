@@ -387,6 +387,27 @@ class Interrupt(unittest.TestCase):
             progress=progress))
         self.assertLess(sum(len(batch.cells) for batch in put), 1e6)
 
+    def test_ends_the_waiting_for_an_input_that_stalls(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "whole.tets")
+            tetstream.convert(Reader.generate("fluid", 20000), path)
+            with open(path, "rb") as file:
+                begin = file.read(5000)
+            for threads in 1, 3:
+                end, other = os.pipe()
+                os.write(other, begin)
+                threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
+                given_up = threading.Timer(20, os.close, (other,))
+                given_up.start()
+                with self.assertRaises(KeyboardInterrupt):
+                    tetstream.simplify_file(Reader.file(f"/dev/fd/{end}", "tets"),
+                                            os.path.join(folder, "out.tets"), ratio=0.1,
+                                            threads=threads)
+                given_up.cancel()
+                self.assertEqual(os.listdir(folder), ["whole.tets"])
+                os.close(end)
+                os.close(other)
+
     def test_ends_an_inspection(self):
         self.interrupted(
             lambda progress: tetstream.info(Reader.generate("fluid", 1e9), progress=progress))

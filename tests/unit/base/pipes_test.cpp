@@ -95,6 +95,26 @@ TEST(Waiting, CanBeEndedByAnotherThread) {
   for (const int fd : fds) ::close(fd);
 }
 
+// What it throws ends the waiting. Another thread that waits leaves it alone.
+TEST(Waiting, LeavesTimeForSomethingElse) {
+  int fds[2];
+  ASSERT_EQ(::pipe(fds), 0);
+  const auto pipe = openDescriptor(fds[0], "pipe");
+  int times = 0;
+  pipe->waiting()->doMeanwhile([&] {
+    if (++times == 3) fail(Status::kCancelled, "enough");
+  });
+  char byte = 0;
+  EXPECT_EQ(thrownBy([&] { pipe->read(&byte, 1); }).second, "enough");
+  EXPECT_EQ(times, 3);
+  std::thread reader([&] { EXPECT_EQ(pipe->read(&byte, 1), 1u); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(3 * Waiting::kMilliseconds));
+  EXPECT_EQ(::write(fds[1], "a", 1), 1);
+  reader.join();
+  EXPECT_EQ(times, 3);
+  for (const int fd : fds) ::close(fd);
+}
+
 // Others may have made them so; a read that would not wait is none that failed.
 TEST(Waiting, IsDoneForDescriptorsThatDoNot) {
   int fds[2];

@@ -185,6 +185,23 @@ TEST(ReadAhead, IsLeftWithoutWaitingForTheOtherEnd) {
   }
 }
 
+// Whichever thread waits for the other end.
+TEST(ReadAhead, LeavesTimeForSomethingElse) {
+  const TestMesh mesh = richMesh();
+  for (size_t batches : {1, 6}) {
+    StuckSource in(mesh, batches);
+    int times = 0;
+    in.waiting()->doMeanwhile([&] {
+      if (++times == 3) fail(Status::kCancelled, "enough");
+    });
+    ReadAhead ahead(in, in.waiting());
+    BatchView batch;
+    for (size_t i = 0; i < batches; ++i) EXPECT_TRUE(ahead.next(batch));
+    EXPECT_THROW(ahead.next(batch), Error);
+    EXPECT_EQ(times, 3);
+  }
+}
+
 TEST(ReadAhead, HoldsFewLargeBatches) {
   TestMesh mesh = fullGrid(20, 20, 20, 0);  // 48000 cells: 1.5 MB in one batch
   Cut cut;
