@@ -138,15 +138,15 @@ TEST(FieldWeights, MakeTheSmoothFieldLoseLess) {
 TEST(FieldWeights, PutNoTargetOutOfReach) {
   constexpr double kWave = 4 * 3.14159265358979;
   const int n = 20;
-  TestMesh mesh = cubes(n, n, n, [n](int i, int j, int k) {
+  TestMesh mesh = cubes(n, n, n, [](int i, int j, int k) {
     const double x = kWave * (i + 0.5) / n, y = kWave * (j + 0.5) / n, z = kWave * (k + 0.5) / n;
     return std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) + std::sin(z) * std::cos(x) > 0.3;
   });
-  addPositionField(mesh, {"u", 1, k64}, [n](double x, double y, double z) {
+  addPositionField(mesh, {"u", 1, k64}, [](double x, double y, double z) {
     return std::sin(5 * x / n) * std::cos(4 * y / n) + z / n * (z / n);
   });
   addPositionField(mesh, {"v", 1, k64},
-                   [n](double x, double y, double) { return y / n + 0.1 * x / n * x / n; });
+                   [](double x, double y, double) { return y / n + 0.1 * x / n * x / n; });
   const Result result = simplified(mesh, toRatio(0.02));
   EXPECT_NE(result.report.balance.find("count for more: v"), std::string::npos)
       << result.report.balance;

@@ -301,10 +301,10 @@ TEST(SimplifierRegions, DoNotCostTheBodyForNothing) {
 TEST(SimplifierRegions, DoNotCostTheBodyForTheLastCells) {
   const int n = 14;
   TestMesh mesh = fullGrid(n, n, n);
-  addPositionField(mesh, {"u", 1, k64}, [n](double x, double y, double z) {
+  addPositionField(mesh, {"u", 1, k64}, [](double x, double y, double z) {
     return std::sin(5 * x / n) * std::cos(4 * y / n) + z / n * (z / n);
   });
-  mesh.addIntegerCellData("shell", [&mesh, n](size_t c) {
+  mesh.addIntegerCellData("shell", [&mesh](size_t c) {
     double square = 0;
     for (const double x : centreOf(mesh, c)) square += (x / n - 0.5) * (x / n - 0.5);
     int64_t shell = 0;
