@@ -3,6 +3,7 @@
 
 #include "status.h"
 #include "vtu_mesh_testing.h"
+#include "xdmf_testing.h"
 
 namespace tetstream {
 namespace {
