@@ -226,8 +226,8 @@ typedef struct tetstream_progress {
                               first call on. Since 0.1 */
 } tetstream_progress;
 
-/* Called at least once per window, and often enough for a bar; non-zero cancels the run, which
- * fails with TETSTREAM_CANCELLED. */
+/* Called at least once per window, often enough for a bar, and while an input that is a pipe has
+ * nothing to give; non-zero cancels the run, which fails with TETSTREAM_CANCELLED. */
 typedef int32_t (*tetstream_progress_callback)(void *user, const tetstream_progress *progress);
 
 /* A piece of work of the library's. */
@@ -464,7 +464,8 @@ TETSTREAM_API tetstream_status tetstream_reader_get_info(tetstream_reader *reade
                                                          tetstream_stream_info *info);
 /* What the reader left out or assumed; after tetstream_inspect also which fields have values that
  * are not finite, and after that or tetstream_convert how many vertices are in no cell: sentences,
- * note `index`, or NULL if there are fewer. Lives as long as the reader. Since 0.1. */
+ * note `index`, or NULL if there are fewer; of more than 999 the last says so. Lives as long as the
+ * reader. Since 0.1. */
 TETSTREAM_API const char *tetstream_reader_note(const tetstream_reader *reader, int32_t index);
 /* The sentence for the last failure with this handle, "" if there was none. Lives until the next
  * call with the handle. Since 0.1. */

@@ -100,7 +100,8 @@ class ReaderUse {
   // What to read; an indexed mesh that comes in the caller's batches is collected first, in
   // temporary files. With `rounded`, its floats are float32.
   Input& input(bool rounded, const std::string& temp_dir);
-  // That is also called, with what it was told last, while somebody at the other end is waited for.
+  // For the run that reads: `progress`, which is called once more and again, with what it was told
+  // last, while somebody at the other end is waited for.
   ProgressFunction told(const ProgressFunction& progress);
   const Schema& schema() const { return reader_.input.schema(); }
   void done() { done_ = true; }

@@ -168,3 +168,39 @@ rm -f ./*.sol ./*.solb
 only_files back.sva back-mesh.msh back-meshb.msh direct.sva direct.vtu lie.msh mesh.tets one.ele one.node \
   one.su2 piped.msh prism.mesh short.sva split.msh split.tets way.mesh way.meshb way.msh \
   $(for kind in $kinds; do echo "cut.sva.$kind"; done)
+
+# What is there a thousand times and more costs neither time nor memory for each.
+expect 0 convert mesh.tets few.msh --encoding text --msh-version 2.2 --quiet
+{ cat few.msh; for ((i = 0; i < 1200; ++i)); do printf '$S%d\n$EndS%d\n' $i $i; done; } >sections.msh
+expect 0 info sections.msh
+contains "$err" "the section \$S998 is left out"
+contains "$err" "further notes are left out"
+[[ $err != *S999* ]] || fail "more notes than there should be"
+{
+  cat few.msh
+  for ((i = 0; i < 16385; ++i)); do
+    printf '$NodeData\n1\n"n%d"\n1\n0\n3\n0\n1\n0\n$EndNodeData\n' $i
+  done
+} >arrays.msh
+expect_error 6 "there are more than 16384 arrays" info arrays.msh
+
+# The largest integer, which .msh rounds to a double beyond it.
+cat >largest.vtk <<'END_OF_FILE'
+# vtk DataFile Version 3.0
+one cell
+ASCII
+DATASET UNSTRUCTURED_GRID
+POINTS 4 double
+0 0 0 1 0 0 0 1 0 0 0 1
+CELLS 1 5
+4 0 1 2 3
+CELL_TYPES 1
+10
+CELL_DATA 1
+SCALARS number long 1
+LOOKUP_TABLE default
+9223372036854775807
+END_OF_FILE
+expect 0 convert largest.vtk largest.msh --quiet
+expect 0 convert largest.msh largest.sva --quiet
+grep -q 9223372036854775807 largest.sva || fail "the largest integer is another one"

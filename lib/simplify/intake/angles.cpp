@@ -20,8 +20,8 @@ constexpr double kSolverFloor = 10, kShareBelow = 0.01;
 // floors. Where shapes come first the floor is what was asked for.
 constexpr double kShareNear = 0.05, kNearFloor = 3;
 // Where the input has more than this share of cells below one of these, making the share larger has
-// its price. Other meshes are spared the time, unless effort is asked for or walls are thin, until
-// few cells are left: then the first counts.
+// its price. Other meshes are spared the time, unless effort is asked for, shapes come first or
+// walls are thin, until few cells are left: then the first counts.
 constexpr double kDear[] = {10, 1.01};
 constexpr double kShareToSpare = 0.002;
 // Where more than this share is below the first of them, flips that bring some above leave as many

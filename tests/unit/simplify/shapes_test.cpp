@@ -161,13 +161,18 @@ SimplifyOptions forSolvers(double ratio, int64_t window = 0) {
   return options;
 }
 
-// A tenth of the cells below the solver's floor makes that lower, but not what flips are for: with
-// flips up to the floor alone a fifth to a quarter as many were left.
-TEST(Shapes, AreFlippedForASolverWhereSomeAreThin) {
-  const int n = slowRun() ? 8 : 12;
-  TestMesh mesh = fullGrid(n, n, 2 * n, 0.25);
+// n x n x 2n cubes of a quarter of their height, shaken.
+TestMesh lowCubes(int n, double jitter) {
+  TestMesh mesh = fullGrid(n, n, 2 * n, jitter);
   for (size_t v = 0; v < mesh.vertexCount(); ++v)
     mesh.setPosition(v, 2, 0.25 * mesh.position(v, 2));
+  return mesh;
+}
+
+// A tenth of the cells below 10 degrees makes the solver's floor lower, but not what flips are for:
+// with flips up to the floor alone a fifth to a quarter as many were left.
+TEST(Shapes, AreFlippedForASolverWhereSomeAreThin) {
+  TestMesh mesh = lowCubes(slowRun() ? 8 : 12, 0.25);
   addPositionField(mesh, {"f", 1, k64}, [](double x, double y, double z) {
     return std::sin(0.5 * x) * std::cos(0.4 * y) + std::sin(0.7 * z);
   });
@@ -184,10 +189,7 @@ TEST(Shapes, AreFlippedForASolverWhereSomeAreThin) {
 // Along layers the field wants flat cells. With a floor near 10 degrees, and flips that change the
 // fields by ten mean squared errors, this had two to three times the default's error.
 TEST(Shapes, OfASolverCostLittleWhereFieldsHaveLayers) {
-  const int n = slowRun() ? 12 : 16;
-  TestMesh mesh = fullGrid(n, n, 2 * n, 0.2);
-  for (size_t v = 0; v < mesh.vertexCount(); ++v)
-    mesh.setPosition(v, 2, 0.25 * mesh.position(v, 2));
+  TestMesh mesh = lowCubes(slowRun() ? 12 : 16, 0.2);
   addPositionField(mesh, {"f", 1, k64}, [](double x, double y, double z) {
     return std::exp(-2 * x) + std::exp(-2 * y) + std::exp(-2 * z);
   });
