@@ -59,6 +59,20 @@ void BalanceSample<S>::keepUnique() {
   others_.erase(std::unique(others_.begin(), others_.end()), others_.end());
 }
 
+// From v to the other two of a face, in normalised units.
+template <class S>
+void BalanceSample<S>::edgesOf(uint32_t v, const Face& face, double edges[2][3]) const {
+  const auto scale = static_cast<double>(core_.scale[0]);
+  double x[3];
+  positionOf(core_.window, v, x);
+  positionOf(core_.window, face.a, edges[0]);
+  positionOf(core_.window, face.b, edges[1]);
+  for (size_t i = 0; i < 3; ++i) {
+    edges[0][i] = (edges[0][i] - x[i]) * scale;
+    edges[1][i] = (edges[1][i] - x[i]) * scale;
+  }
+}
+
 template <class S>
 void BalanceSample<S>::addInside(uint32_t v, const Star& star) {
   others_.clear();
@@ -68,6 +82,31 @@ void BalanceSample<S>::addInside(uint32_t v, const Star& star) {
   for (uint32_t other : others_) field_costs_.push_back(fieldErrorTowards(v, other));
   const double usual = usualCost(field_costs_.data(), field_costs_.size());
   costs_.inside.sample.push_back({{usual, 0}});
+}
+
+// Cosine between the normals on both sides of a crease; of all ways' errors, what the two along a
+// straight one have.
+constexpr double kCrease = 0.766, kStraight = 1e-3;
+
+// The other ends of the edges at v along which the sheet is creased.
+template <class S>
+const std::vector<uint32_t>& BalanceSample<S>::creaseAt(uint32_t v,
+                                                        const std::vector<Face>& faces) {
+  normals_.clear();
+  double edges[2][3];
+  for (const Face& face : faces) {
+    edgesOf(v, face, edges);
+    cross(edges[0], edges[1], normals_.emplace_back().data());
+  }
+  const auto isCrease = [this](size_t i, size_t k) {
+    const double *m = normals_[i].data(), *n = normals_[k].data();
+    return dot(m, n) < kCrease * std::sqrt(dot(m, m) * dot(n, n));
+  };
+  others_.clear();
+  for (size_t i = 0; i < faces.size(); ++i)
+    for (size_t k = 0; k < faces.size(); ++k)
+      if (faces[i].b == faces[k].a && isCrease(i, k)) others_.push_back(faces[i].b);
+  return others_;
 }
 
 // All vertices of the boundary are looked at from each of these: from every fourth.
@@ -91,31 +130,37 @@ void BalanceSample<S>::addOnSheet(uint32_t v, const std::vector<Face>& faces, co
     addFaceShape(core_, x, kind, q);
   }
   keepUnique();
-  Ways ways;
-  for (uint32_t other : others_)
-    ways.push_back(
-        {knownCost(fieldErrorTowards(v, other)), knownCost(errorTowards(sheet_.data(), v, other))});
+  const auto wayTo = [&](uint32_t other) -> Removal {
+    return {knownCost(fieldErrorTowards(v, other)),
+            knownCost(errorTowards(sheet_.data(), v, other))};
+  };
+  Ways ways, along;
+  double all = 0, straight = 0;
+  for (uint32_t other : others_) {
+    ways.push_back(wayTo(other));
+    all += ways.back().sheet;
+  }
+  for (uint32_t other : creaseAt(v, faces)) {
+    along.push_back(wayTo(other));
+    straight += along.back().sheet;
+  }
+  if (along.size() != 2 || straight > kStraight * all) along = ways;
   RemovalCosts::Group& group = kind == SheetFace::kOuter ? costs_.outer : costs_.interfaces;
   group.sample.push_back(std::move(ways));
+  group.along_creases.push_back(std::move(along));
   if (kind == SheetFace::kOuter && group.sample.size() % kPerSight == 1) addSight(v, faces, star);
 }
 
 template <class S>
 typename BalanceSample<S>::Bend BalanceSample<S>::bendAt(uint32_t v,
                                                          const std::vector<Face>& faces) {
-  const auto scale = static_cast<double>(core_.scale[0]);
   Bend bend;
-  double x[3], sum[3] = {0, 0, 0}, around[3] = {0, 0, 0};
-  positionOf(core_.window, v, x);
+  double sum[3] = {0, 0, 0}, around[3] = {0, 0, 0};
   others_.clear();
   for (const Face& face : faces) {
-    double a[3], b[3], normal[3];
-    positionOf(core_.window, face.a, a);
-    positionOf(core_.window, face.b, b);
-    for (size_t i = 0; i < 3; ++i) {
-      a[i] = (a[i] - x[i]) * scale;
-      b[i] = (b[i] - x[i]) * scale;
-    }
+    double edges[2][3], normal[3];
+    edgesOf(v, face, edges);
+    const double *a = edges[0], *b = edges[1];
     cross(a, b, normal);
     for (size_t i = 0; i < 3; ++i) {
       sum[i] += normal[i];

@@ -2,6 +2,8 @@
 // Depends on balance.h, sheet_quadrics.h.
 #pragma once
 
+#include <array>
+
 #include "balance.h"
 #include "sheet_quadrics.h"
 
@@ -58,6 +60,8 @@ class BalanceSample {
   double fieldErrorTowards(uint32_t v, uint32_t other);
   double errorTowards(const S* quadric, uint32_t v, uint32_t other);
   void keepUnique();
+  void edgesOf(uint32_t v, const Face& face, double edges[2][3]) const;
+  const std::vector<uint32_t>& creaseAt(uint32_t v, const std::vector<Face>& faces);
   uint64_t placeKey(uint32_t v) const;
 
   // Of the faces at a vertex of a sheet, in normalised units.
@@ -89,6 +93,7 @@ class BalanceSample {
   std::vector<S> sheet_, nowhere_, difference_;
   const std::vector<S> nothing_;
   std::vector<uint32_t> others_;
+  std::vector<std::array<double, 3>> normals_;
   std::vector<double> field_costs_;
   std::vector<Pair> pairs_;
   std::vector<Sight> sights_;

@@ -70,6 +70,8 @@ struct RemovalCosts {
   struct Group {
     std::vector<Ways> sample;
     double vertices = 0;  // that it stands for
+    // The same, but on a straight crease only along it; or none.
+    std::vector<Ways> along_creases = {};
   };
   Group inside, outer, interfaces;
   // Of neighbours on the interface between two regions: how far each lies off the mean of those
