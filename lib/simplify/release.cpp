@@ -199,7 +199,7 @@ void Release<S>::write(const Staying& most) {
   const Topology& mesh = core_.window.mesh;
   countUses();
   if (core_.tracer && mustGo(most)) core_.tracer->bringHome(core_.window.scratch());
-  if (core_.error_sample) core_.error_sample->startLeaving();
+  if (core_.error_sample) core_.error_sample->startLeaving(most.cells == 0);
   if (core_.options.release == ReleaseOrder::kError) writeDearest(most);
   for (uint32_t c = 0; c < mesh.cellEnd() && mustGo(most); ++c)
     if (mesh.isLive(c) && mayGo(c)) writeCell(c);

@@ -104,7 +104,10 @@ class WindowedEngine final : public Simplifier::Engine {
     core_.balance = pilot.balance;
     core_.weighs_fields = !(options_.error > 0);  // which is in units of their ranges
     if (is_asked_for) return;
-    core_.balance_ratio = options_.balance_ratio > 0 ? options_.balance_ratio : core_.target_ratio;
+    // A bound on the error may end the run long before few cells are left.
+    const double least = options_.error > 0 ? kUsualRatio : 0;
+    core_.balance_ratio = options_.balance_ratio > 0 ? options_.balance_ratio
+                                                     : std::max(core_.target_ratio, least);
   }
 
   void take(const BatchView& batch) {

@@ -180,10 +180,7 @@ bool SweepSelector<S>::leavesErrorAfterAll(int64_t cells_before) {
   const bool is_left = core_.error_sample->limitErrorAfterPass();
   const bool goes_on =
       is_left && core_.tally.error_reached && core_.window.liveCells() < cells_before;
-  if (goes_on) {
-    core_.tally.error_reached = false;
-    was_stopped_ = true;
-  }
+  if (goes_on) core_.tally.error_reached = false;
   return goes_on;
 }
 
@@ -392,7 +389,11 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
   do {
     core_.most_error = bounds_.limit();
     core_.most_percent = bounds_.mostPercent();
-    tryByAllMeans(tick);
+    int64_t before;
+    do {
+      before = core_.window.liveCells();
+      tryByAllMeans(tick);
+    } while (leavesErrorAfterAll(before));
     core_.most_error = std::numeric_limits<double>::infinity();
     if (mustStop() || !bounds_.widen(goal_, refused_)) return;
     core_.tally.rejected_large = 0;  // for the limit that was

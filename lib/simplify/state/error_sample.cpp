@@ -7,6 +7,7 @@
 
 #include "barycentric.h"
 #include "mix.h"
+#include "outside_points.h"
 #include "vector3.h"
 
 namespace tetstream {
@@ -157,20 +158,6 @@ void ErrorSample<S>::placeIn(uint32_t cell, uint64_t number, double weight) {
     points_[count_ * dimension() + i] = static_cast<S>(value);
   }
   weights_[count_++] = static_cast<float>(weight);
-}
-
-// Points that lie in no cell any more, since the boundary has moved, will not be measured.
-template <class S>
-void ErrorSample<S>::keepFound() {
-  if (count_ == 0) return;
-  sort();
-  const auto notFound = [](float weight) { return -weight; };
-  std::transform(weights_.data(), weights_.data() + count_, weights_.data(), notFound);
-  for (uint32_t c = 0; c < core_.window.mesh.cellEnd(); ++c)
-    if (core_.window.mesh.isLive(c))
-      visit(c, [&](size_t i, const double*) { weights_[i] = std::fabs(weights_[i]); });
-  for (size_t i = 0; i < count_; ++i) weights_[i] = std::max(weights_[i], 0.0f);
-  compact();
 }
 
 // Every other point stays, for two.
@@ -343,33 +330,76 @@ void ErrorSample<S>::addCell(Sum& sum, uint32_t cell, Seen seen) const {
   toldAt(cell, told);
   sum.told_of_all += volumeOf(corners) / 4 * (told[0] + told[1] + told[2] + told[3]);
   visit(cell, [&](size_t i, const double* w) {
-    const double volume = std::fabs(static_cast<double>(weights_[i]));
-    const double error = volume * squaredError(i, cell, w);
-    const double by_quadrics =
-        volume * (w[0] * told[0] + w[1] * told[1] + w[2] * told[2] + w[3] * told[3]);
-    sum.weight += volume;
-    sum.error += error;
-    sum.square += square(error);
-    sum.told += by_quadrics;
-    sum.told_square += square(by_quadrics);
+    addPoint(sum, i, cell, w, told);
     seen(i);
   });
 }
 
 template <class S>
-void ErrorSample<S>::startLeaving() {
+void ErrorSample<S>::addPoint(Sum& sum, size_t i, uint32_t cell, const double w[4],
+                              const double told[4]) const {
+  const double volume = std::fabs(static_cast<double>(weights_[i]));
+  const double error = volume * squaredError(i, cell, w);
+  const double by_quadrics =
+      volume * (w[0] * told[0] + w[1] * told[1] + w[2] * told[2] + w[3] * told[3]);
+  sum.weight += volume;
+  sum.error += error;
+  sum.square += square(error);
+  sum.told += by_quadrics;
+  sum.told_square += square(by_quadrics);
+}
+
+template <class S>
+template <class Visit>
+void ErrorSample<S>::forLive(Visit visitCell) const {
+  const Topology& mesh = core_.window.mesh;
+  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
+    if (mesh.isLive(c)) visitCell(c);
+}
+
+// Of points that lie in no cell any more, since the boundary has moved: their weights are not below
+// 0, as those of the others are.
+template <class S>
+void ErrorSample<S>::addOutside(Sum& sum) {
+  OutsidePoints<S> outside(core_);
+  for (size_t i = 0; i < count_; ++i) {
+    if (!(weights_[i] > 0)) continue;
+    double place[3];
+    scaled(point(i), place);
+    outside.add(static_cast<uint32_t>(i), place);
+  }
+  outside.forNearest([&](const typename OutsidePoints<S>::Found& found) {
+    double told[4];
+    toldAt(found.cell, told);
+    addPoint(sum, found.point, found.cell, found.weights, told);
+  });
+}
+
+// note: what is outside when cells leave is measured then, for what is nearest may leave; all cells
+// at once, if they do.
+template <class S>
+void ErrorSample<S>::startLeaving(bool all) {
+  const auto markFound = [this](size_t i) { weights_[i] = -std::fabs(weights_[i]); };
   sort();
+  forLive([&](uint32_t c) {
+    if (all)
+      addCell(sum_, c, markFound);
+    else
+      visit(c, [&](size_t i, const double*) { markFound(i); });
+  });
+  addOutside(sum_);
+  for (size_t i = 0; i < count_; ++i) weights_[i] = all ? 0 : std::max(-weights_[i], 0.0f);
+  is_measured_ = all;
 }
 
 template <class S>
 void ErrorSample<S>::leave(uint32_t cell) {
-  addCell(sum_, cell, [&](size_t i) { weights_[i] = 0; });
+  if (!is_measured_) addCell(sum_, cell, [&](size_t i) { weights_[i] = 0; });
 }
 
 template <class S>
 void ErrorSample<S>::endLeaving() {
   compact();
-  if (count_ > room_ - room_ / 4) keepFound();
 }
 
 template <class S>
@@ -411,9 +441,11 @@ template <class S>
 double ErrorSample<S>::percentNow() {
   Sum sum = sum_;
   sort();
-  const Topology& mesh = core_.window.mesh;
-  for (uint32_t c = 0; c < mesh.cellEnd(); ++c)
-    if (mesh.isLive(c)) addCell(sum, c, [](size_t) {});
+  forLive([&](uint32_t c) {
+    addCell(sum, c, [this](size_t i) { weights_[i] = -std::fabs(weights_[i]); });
+  });
+  addOutside(sum);
+  for (size_t i = 0; i < count_; ++i) weights_[i] = std::fabs(weights_[i]);
   return percentOf(sum);
 }
 

@@ -6,9 +6,10 @@
 // leaves the window. A cell is as likely to have one as its share of the volume and that of the
 // number of cells are in the mean, so that neither large cells nor a finely meshed part is missed,
 // and each point stands for as much volume as that makes. Where they have missed what makes errors,
-// as small parts of a graded mesh, or what lies outside now, shows in what quadrics tell there: of
+// as small parts of a graded mesh, shows in what quadrics tell there: of
 // that their points find less than the cells have. The rest counts as quadrics tell it (a
-// difference estimator).
+// difference estimator). What lies outside counts where a cell is nearest: of slender bodies, whose
+// ends draw in, that may be most of the error.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,8 @@ class ErrorSample {
 
   // Cells [first, end) of the window are new, and their scales are known.
   void take(uint32_t first, uint32_t end);
-  // Cells leave, between the two.
-  void startLeaving();
+  // Cells leave, between the two: all of them, or some.
+  void startLeaving(bool all);
   void leave(uint32_t cell);
   void endLeaving();
   // Squared errors count so many times as much in the units of now.
@@ -57,7 +58,9 @@ class ErrorSample {
   void placeByTurns(uint32_t cell, uint64_t number, double volume);
   void placeIn(uint32_t cell, uint64_t number, double weight);
   void scale(double corners[4][3]) const;
-  void keepFound();
+  template <class Visit>
+  void forLive(Visit visit) const;
+  void addOutside(Sum& sum);
   void thinOut();
   void compact();
   void sort();
@@ -72,6 +75,7 @@ class ErrorSample {
   void toldAt(uint32_t cell, double told[4]) const;
   template <class Seen>
   void addCell(Sum& sum, uint32_t cell, Seen seen) const;
+  void addPoint(Sum& sum, size_t i, uint32_t cell, const double w[4], const double told[4]) const;
 
   Core<S>& core_;
   Array<S> points_;        // of each, in the user's units: the place, and the fields there
@@ -87,8 +91,9 @@ class ErrorSample {
   double stride_ = 0, due_ = 0;      // shares between points, and since the last one
   double low_[3], bins_by_unit_[3];  // of bins
   size_t bins_[3];
-  Sum sum_;          // of what has left
-  double made_ = 0;  // by what quadrics tell, when the limit was set
+  Sum sum_;                   // of what has left
+  bool is_measured_ = false;  // all that is live and leaves now
+  double made_ = 0;           // by what quadrics tell, when the limit was set
 };
 
 }  // namespace tetstream

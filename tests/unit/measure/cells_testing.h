@@ -1,4 +1,4 @@
-// Shared by the tests of measuring: cells by their corners, rows of them, numbers at random.
+// Shared by the tests of measuring: cells by their corners, rows of them.
 #pragma once
 
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "random.h"
+#include "random_simplex.h"
 #include "row_number.h"
 #include "simplex_rows.h"
 #include "vector3.h"
@@ -28,20 +28,6 @@ inline Cell moved(Cell cell, double x, double y, double z, double scale = 1) {
     cell[i + 2] = scale * cell[i + 2] + z;
   }
   return cell;
-}
-
-// From 0 to 1.
-inline double uniform(Random& random) {
-  return shareOf(random.next());
-}
-
-// The corners of a cell or triangle whose sides are about so long, within the unit cube and as far
-// beside it.
-inline std::vector<double> randomSimplex(Random& random, size_t corners, double size) {
-  const double low[3] = {uniform(random), uniform(random), uniform(random)};
-  std::vector<double> simplex;
-  for (size_t i = 0; i < 3 * corners; ++i) simplex.push_back(low[i % 3] + size * uniform(random));
-  return simplex;
 }
 
 // Values at a place.

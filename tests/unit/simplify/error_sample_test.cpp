@@ -88,6 +88,31 @@ TEST(ErrorSample, TellsMoreThanQuadricsWhereItIsMore) {
   EXPECT_GE(result.report.estimated_error, 0.9 * error);
 }
 
+// A wire of one cell across in fifteen turns, along which the field has its waves.
+TestMesh wound() {
+  const int n = 1000;
+  TestMesh mesh = mapped(fullGrid(1, 1, n), [](const Place& p) {
+    const double angle = 30 * std::acos(-1) * p[2] / n, radius = 5 + 0.5 * p[0];
+    return Place{radius * std::cos(angle), radius * std::sin(angle), angle / 3 + 0.5 * p[1]};
+  });
+  addPositionField(mesh, {"f", 1, ScalarType::kFloat64},
+                   [](double, double, double z) { return std::sin(1.5 * z); });
+  return mesh;
+}
+
+// Its ends draw in, and of a thin body much lies outside: that counts, as what is nearest has it,
+// neither for nothing nor for all that quadrics tell.
+TEST(ErrorSample, TellsOfWhatLiesOutside) {
+  const TestMesh mesh = wound();
+  for (const int64_t window : {0, 1000})
+    for (const double ratio : {0.2, 0.1, window > 0 ? 0.08 : 0.03}) {
+      const Result result = simplified(mesh, toRatio(ratio, window));
+      const double error = errorOverVolume(mesh, result.out.mesh);
+      EXPECT_GE(result.report.estimated_error, 0.8 * error) << window << " " << ratio;
+      EXPECT_LE(result.report.estimated_error, 3 * error) << window << " " << ratio;
+    }
+}
+
 // Of cells like the first ones, the last are too large to be counted.
 TEST(ErrorSample, LeavesOutLengthsBeyondAllUnits) {
   std::vector<double> positions;

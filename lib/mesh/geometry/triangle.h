@@ -1,4 +1,4 @@
-// measure/search: one triangle: its area, and its point nearest to another one: arithmetic only.
+// mesh/geometry: one triangle: its area, and its point nearest to another one: arithmetic only.
 // Depends on nothing.
 #pragma once
 

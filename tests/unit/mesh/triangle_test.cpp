@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 
-#include "cells_testing.h"
+#include "random_simplex.h"
+#include "vector3.h"
 
 namespace tetstream::test {
 namespace {
