@@ -104,10 +104,9 @@ class WindowedEngine final : public Simplifier::Engine {
     core_.balance = pilot.balance;
     core_.weighs_fields = !(options_.error > 0);  // which is in units of their ranges
     if (is_asked_for) return;
-    // A bound on the error may end the run long before few cells are left.
-    const double least = options_.error > 0 ? kUsualRatio : 0;
-    core_.balance_ratio = options_.balance_ratio > 0 ? options_.balance_ratio
-                                                     : std::max(core_.target_ratio, least);
+    const double least = options_.error > 0 ? kUsualRatio : 0;  // that may end the run long before
+    const double wanted = std::max(core_.target_ratio, least);
+    core_.balance_ratio = options_.balance_ratio > 0 ? options_.balance_ratio : wanted;
   }
 
   void take(const BatchView& batch) {
@@ -157,10 +156,10 @@ class WindowedEngine final : public Simplifier::Engine {
   }
 
   // Of vertices that came before their cells; where there are no cells yet, all may.
-  int64_t waitingBytes() const {
-    auto waiting = static_cast<int64_t>(intake_.waiting());
-    if (intake_.cellsRead() == 0) waiting = std::max(waiting, plan_.schema.vertex_count);
-    return waiting * static_cast<int64_t>(Core<S>::bytesPerVertex(plan_, options_));
+  double waitingBytes() const {
+    auto waiting = static_cast<double>(intake_.waiting());
+    if (intake_.cellsRead() == 0) waiting = std::max<double>(waiting, plan_.schema.vertex_count);
+    return waiting * static_cast<double>(Core<S>::bytesPerVertex(plan_, options_));
   }
 
   std::unique_ptr<Selector> makeSelector() {
@@ -310,8 +309,11 @@ class WindowedEngine final : public Simplifier::Engine {
     if (stuck) wanted = std::max(wanted, live + live / 2);
     if (wanted > capacity_) {
       wanted = std::min(std::max(wanted, capacity_ + capacity_ / 4), affordable(stuck));
-      if (wanted <= capacity_ && capacity_ - live < std::max<int64_t>(capacity_ / 64, 1))
-        size_.failForFront(capacity_, std::max(plan_.schema.front_cells, front_cells_));
+      if (wanted <= capacity_ && capacity_ - live < std::max<int64_t>(capacity_ / 64, 1)) {
+        account_.failedOtherwise();  // what was refused before has been put up with
+        size_.failForFront(capacity_, std::max(plan_.schema.front_cells, front_cells_),
+                           waitingBytes());
+      }
     }
     holdCells(std::max(wanted, capacity_));
   }

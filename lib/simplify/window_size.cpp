@@ -26,7 +26,9 @@ constexpr int64_t kWidestFront = 1 << 23;
 // windows of little more than a front, as of a ball of 1e5 cells in 1.2 MB, would miss targets.
 constexpr int64_t kFixedBytes = 400 << 10;
 constexpr int64_t kSpareBytes = 256 << 10;  // of a budget that is told to users
-constexpr int64_t kMapBytes = 16;           // a rank of the span: the next power of two of 8 bytes
+constexpr int64_t kLargestTold = int64_t{1} << 50;
+constexpr int64_t kUnknownCells = 4096;  // of a window, where nobody knows the front
+constexpr int64_t kMapBytes = 16;        // a rank of the span: the next power of two of 8 bytes
 constexpr int64_t kLeastCells = 64;
 constexpr int64_t kRoomyHalfFronts = 5;  // of a window that is not mostly front
 
@@ -128,35 +130,41 @@ int64_t WindowSize::heldBack(int64_t cells) const {
   return kFixedBytes + options_.memory_bytes / 4 + (foreseen(cells) - cells) * cell_bytes_;
 }
 
-// What a window leaves of a larger budget is a sixth, unless it holds all cells.
-int64_t WindowSize::budgetFor(int64_t front, int64_t waiting) const {
+// What a window leaves of a larger budget is a sixth, unless it holds all cells. 0: no budget that
+// anybody has does.
+int64_t WindowSize::budgetFor(int64_t front, double waiting) const {
   SimplifyOptions larger = options_;
   const WindowSize size(schema_, larger, cell_bytes_, patch_vertex_bytes_);
   const int64_t asked = options_.window_cells > 0 ? first() : 0;
-  const int64_t cells = std::max(kRoomyHalfFronts * std::min(front, kWidestFront) / 2, asked);
+  if (asked > kMostCells || waiting > static_cast<double>(kLargestTold)) return 0;
+  const int64_t roomy = front > 0 ? kRoomyHalfFronts * std::min(front, kWidestFront) / 2
+                                  : std::min(kUnknownCells, least());
+  const int64_t cells = std::max(roomy, asked);
   const auto isTooSmall = [&] {
     const bool holds_all = schema_.cell_count >= 0 && size.fitting() >= schema_.cell_count;
-    return size.fitting() < cells || (larger.memory_bytes / 6 < waiting && !holds_all);
+    return size.fitting() < cells ||
+           (static_cast<double>(larger.memory_bytes) < 6 * waiting && !holds_all);
   };
   do larger.memory_bytes += larger.memory_bytes / 8 + 1;
-  while (isTooSmall());
-  return larger.memory_bytes + kSpareBytes;
+  while (isTooSmall() && larger.memory_bytes < kLargestTold);
+  return larger.memory_bytes < kLargestTold ? larger.memory_bytes + kSpareBytes : 0;
 }
 
-void WindowSize::fail(const char* why, int64_t front, int64_t waiting) const {
+void WindowSize::fail(const char* why, int64_t front, double waiting) const {
   const auto enough = static_cast<long long>(budgetFor(front, waiting));
+  if (enough == 0) tetstream::fail(Status::kNoMemory, "%s", why);
   if (front <= 0) tetstream::fail(Status::kNoMemory, "%s; %lld should do", why, enough);
   tetstream::fail(Status::kNoMemory, "%s; for a front of %lld cells %lld should do", why,
                   static_cast<long long>(front), enough);
 }
 
-void WindowSize::failForFront(int64_t window, int64_t front) const {
+void WindowSize::failForFront(int64_t window, int64_t front, double waiting) const {
   const std::string why = textOf("the front of the stream does not fit a window of %lld cells",
                                  static_cast<long long>(window));
   if (options_.memory_bytes == 0) tetstream::fail(Status::kNoMemory, "%s", why.c_str());
   const std::string most = textOf("%s, and the memory budget of %lld bytes allows no more",
                                   why.c_str(), static_cast<long long>(options_.memory_bytes));
-  fail(most.c_str(), front, 0);
+  fail(most.c_str(), front, waiting);
 }
 
 }  // namespace tetstream

@@ -50,13 +50,13 @@ class WindowSize {
   int64_t heldBack(int64_t cells) const;
   // Throws kNoMemory: why this budget does not do, and a larger one for a front of so many cells,
   // unless it is not known (0 or less), for vertices that wait for their cells, in bytes, and for a
-  // window that was asked for.
-  [[noreturn]] void fail(const char* why, int64_t front, int64_t waiting) const;
+  // window that was asked for; if there is one.
+  [[noreturn]] void fail(const char* why, int64_t front, double waiting) const;
   // The same of a window of so many cells, which the front fills and which may not grow.
-  [[noreturn]] void failForFront(int64_t window, int64_t front) const;
+  [[noreturn]] void failForFront(int64_t window, int64_t front, double waiting) const;
 
  private:
-  int64_t budgetFor(int64_t front, int64_t waiting) const;
+  int64_t budgetFor(int64_t front, double waiting) const;
   int64_t knownFront() const;
   bool gainsWhole() const;
   int64_t least() const;
