@@ -50,9 +50,13 @@ void addArgument(CLI::App* command, const char* name, std::string& word, const c
   command->add_option(name, word, text)->required()->option_text(" ");
 }
 
+// note: an empty one is a variable of a script that was not set, not what may be left out.
 CLI::Option* addWord(CLI::App* command, const char* name, std::string& word, const char* value,
                      const char* text) {
-  return command->add_option(name, word, text)->option_text(value);
+  const auto problem = [](const std::string& given) {
+    return std::string(given.empty() ? "it is empty" : "");
+  };
+  return command->add_option(name, word, text)->option_text(value)->check(problem);
 }
 
 // The words of the command line, as CLI11 is told about them.
@@ -342,7 +346,7 @@ void Parser::addDiagram(CLI::App* command) {
 }
 
 void Parser::addTitle(CLI::App* command, const char* text) {
-  addWord(command, "--title", arguments_.title, "TEXT", text);
+  command->add_option("--title", arguments_.title, text)->option_text("TEXT");
 }
 
 void Parser::addFields(CLI::App* command, const char* text, const char* value) {

@@ -18,7 +18,7 @@ class Waiting {
   bool forBytes(int fd) const;
 
   // What the thread that says so does, twenty times a second, while it waits: for bytes, or for
-  // another one that does. Before anybody waits, and when nobody does any more; or nothing.
+  // another one that does; or nothing. Not while it does that.
   void doMeanwhile(std::function<void()> work) {
     thread_ = std::this_thread::get_id();
     meanwhile_ = std::move(work);
@@ -31,7 +31,7 @@ class Waiting {
 
  private:
   std::atomic<bool> is_over_ = false;
-  std::thread::id thread_;
+  std::atomic<std::thread::id> thread_{};  // others look at it while they wait
   std::function<void()> meanwhile_;
 };
 

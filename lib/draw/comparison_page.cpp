@@ -121,10 +121,13 @@ class ComparisonPage {
   Scale values_, errors_;
 };
 
+constexpr double kLeastPlace = 1e-12;  // of the diagonal: less is 0
+
 void ComparisonPage::drawHead(const std::string& title) {
   drawTitle(canvas_, {kMargin, 0, kWidth - 2 * kMargin, 0}, 36, title);
   const CutPlane& plane = cut_.plane;
-  std::string words = textOf("Cut at %s = %.5g", kAxes[plane.axis], plane.at);
+  const bool is_none = std::fabs(plane.at) < kLeastPlace * comparison_.diagonal();
+  std::string words = textOf("Cut at %s = %.5g", kAxes[plane.axis], is_none ? 0 : plane.at);
   if (field_) words += ", coloured by " + field_->name;
   words += textOf("; %s to the right, %s upwards.", kAxes[plane.across], kAxes[plane.up]);
   if (!comparison_.isWhole())

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <thread>
+#include <vector>
+
+#include "waiting.h"
 
 namespace tetstream {
 
@@ -25,6 +28,7 @@ struct ByteWatch::State {
   std::atomic<uint64_t> done{0};
   uint64_t total = 0;
   bool is_total_known = true;
+  std::vector<std::shared_ptr<Waiting>> waited;  // during which it tells, too
 
   size_t count(size_t bytes) {
     done.fetch_add(bytes, std::memory_order_relaxed);
@@ -88,7 +92,9 @@ ByteWatch::ByteWatch(Tell tell) {
 }
 
 ByteWatch::~ByteWatch() {
-  if (state_) state_->tell = nullptr;
+  if (!state_) return;
+  state_->tell = nullptr;
+  for (const auto& waiting : state_->waited) waiting->doMeanwhile({});
 }
 
 std::unique_ptr<ByteSource> ByteWatch::watched(std::unique_ptr<ByteSource> bytes) const {
@@ -97,6 +103,10 @@ std::unique_ptr<ByteSource> ByteWatch::watched(std::unique_ptr<ByteSource> bytes
     state_->total += bytes->size();
   else
     state_->is_total_known = false;
+  if (std::shared_ptr<Waiting> waiting = bytes->waiting()) {
+    waiting->doMeanwhile([state = state_.get()] { state->count(0); });
+    state_->waited.push_back(std::move(waiting));
+  }
   return std::make_unique<WatchedSource>(
       std::move(bytes), [state = state_](size_t size) { return state->count(size); });
 }

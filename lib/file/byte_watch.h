@@ -20,7 +20,7 @@ class TellingPause {
 };
 
 // `tell` is called by reads of the thread that made the watch, until that ends, some times a
-// second; what it throws leaves the read.
+// second, also while they wait for bytes of a pipe; what it throws leaves the read.
 class ByteWatch {
  public:
   // `fraction` of the bytes of all that is watched so far; -1 where a size is not known.

@@ -280,6 +280,7 @@ void Comparison::measureFields(const Tasks* tasks, const Done& done) {
   difference.measureOutside(simplified_->boundary(),
                             [&](double share) { done(kShare + (1 - kShare) * share); });
   volumes_ = difference.volumes();
+  volumes_.outside = std::max(volumes_.outside, 0.0);  // of differences that rounding leaves
   const double volume = volumes_.covered + volumes_.outside;
   for (size_t f = 0; f < found.size(); ++f) {
     const FieldSums &in = difference.inside(f), &out = difference.outside(f);

@@ -145,9 +145,31 @@ static void a_run_can_be_stopped_while_its_input_stalls(void) {
   CHECK_EQUAL(unlink(path), 0);
 }
 
+/* Of a header, and of a file that is put aside first, as it is not read in its order. */
+static void opening_can_be_stopped_while_its_input_stalls(void) {
+  const char* const formats[2] = {"tets", "vtu"};
+  for (size_t i = 0; i < 2; ++i) {
+    int ends[2], called = 0;
+    tetstream_options* options = NULL;
+    tetstream_reader* reader = NULL;
+    CHECK_EQUAL(pipe(ends), 0);
+    CHECK_EQUAL(write(ends[1], "<VTK", i * 4), (int64_t)i * 4);
+    CHECK_EQUAL(tetstream_options_create(&options), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_options_set_progress(options, stop_after_some, &called), TETSTREAM_OK);
+    CHECK_EQUAL(tetstream_reader_open_fd_with(ends[0], formats[i], options, &reader),
+                TETSTREAM_CANCELLED);
+    CHECK(called > 20);
+    tetstream_reader_destroy(reader);
+    tetstream_options_destroy(options);
+    close(ends[0]);
+    close(ends[1]);
+  }
+}
+
 int main(void) {
   RUN_CASE(a_cancelled_thread_ends_after_its_call);
   RUN_CASE(a_call_leaves_the_thread_as_it_was);
   RUN_CASE(a_run_can_be_stopped_while_its_input_stalls);
+  RUN_CASE(opening_can_be_stopped_while_its_input_stalls);
   return check_end();
 }

@@ -124,13 +124,23 @@ kill -INT "$pid"
 ended 7
 exec 3>&-
 
-# A named pipe is read by the library alone: there the first signal waits for data, one that
-# comes later does not.
-# Memory of a process that ends like that is not given back, which memcheck would count.
-if [[ -n ${TETSTREAM_LAUNCHER:-} ]]; then exit 0; fi
+# While it waits for the header of what comes through a named pipe.
 exec 3<>pipe
 start simplify pipe out.tets --format-in tets --ratio 0.1
 until_true has_temporary out.tets
+until_true waits_in_read
+sleep 0.5
+kill -INT "$pid"
+ended 7
+exec 3>&-
+only_files pipe
+
+# A named pipe is written by the library alone: there the first signal waits until somebody takes
+# what is there, one that comes later does not.
+# Memory of a process that ends like that is not given back, which memcheck would count.
+if [[ -n ${TETSTREAM_LAUNCHER:-} ]]; then exit 0; fi
+exec 3<>pipe
+start generate fluid --cells 1e9 pipe --format tets
 until_true waits_in_read
 sleep 0.5
 kill -INT "$pid"
@@ -140,4 +150,4 @@ kill -0 "$pid" || fail "a signal that came with another one ended it at once"
 kill -INT "$pid"
 ended 7
 exec 3>&-
-[[ ! -e out.tets ]] || fail "a partial file under the final name"
+only_files pipe

@@ -45,7 +45,7 @@ class NoSuchFile(InputOutput, FileNotFoundError):
     """The file to read is not there. ``filename`` and ``errno`` are as Python has them."""
 
     def __str__(self):
-        return self.strerror
+        return super().__str__() if self.strerror is None else self.strerror
 
 
 class Unsupported(Error, ValueError):
