@@ -12,7 +12,7 @@ import sys
 NAMES = {
     "algorithm": """adjacent_find all_of any_of binary_search clamp copy copy_if copy_n count count_if equal fill fill_n find
         find_if find_if_not is_permutation lower_bound make_heap max max_element min min_element minmax
-        minmax_element move_backward none_of nth_element partition_point pop_heap push_heap remove
+        minmax_element move_backward none_of nth_element partition partition_point pop_heap push_heap remove
         remove_if replace replace_if reverse search sort stable_partition stable_sort transform unique upper_bound""",
     "array": "array",
     "atomic": "atomic atomic_ref memory_order_relaxed",
