@@ -177,6 +177,7 @@ class Files(unittest.TestCase):
                              (errno.ENOENT, str(missing), -5))
         copied = pickle.loads(pickle.dumps(caught.exception))
         self.assertEqual((str(copied), copied.filename), (str(caught.exception), str(missing)))
+        self.assertEqual(str(tetstream.NoSuchFile("not there")), "not there")  # of a caller's own
         with self.assertRaises(tetstream.InputOutput) as caught:
             tetstream.Reader.file(self.folder, "tets")
         self.assertNotIsInstance(caught.exception, FileNotFoundError)
