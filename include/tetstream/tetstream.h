@@ -259,9 +259,9 @@ typedef struct tetstream_pool_callbacks {
 TETSTREAM_API tetstream_status tetstream_options_set_pool(tetstream_options *options,
                                                           const tetstream_pool_callbacks *pool);
 /* Opening a reader with these options calls `progress`, where it takes long: text formats of indexed
- * meshes are read whole then. The phase is "open"; there are no counts, and the fraction is that of
- * the file's bytes. On the thread that opens; non-zero ends the opening with TETSTREAM_CANCELLED.
- * NULL: none again. `user` must stay as long as readers are opened. Since 0.1. */
+ * meshes are read whole then, and a pipe may be silent. The phase is "open", without counts, and the
+ * fraction that of the file's bytes. On the thread that opens; non-zero ends it with
+ * TETSTREAM_CANCELLED. NULL: none again. `user` must stay as long as readers are opened. Since 0.1. */
 TETSTREAM_API tetstream_status tetstream_options_set_progress(tetstream_options *options,
                                                               tetstream_progress_callback progress,
                                                               void *user);

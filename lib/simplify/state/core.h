@@ -308,6 +308,15 @@ struct Core {
 // Nearer is what is measured (error_sample.h).
 constexpr double kErrorShare = 0.8;
 
+// The corners of a cell in the window's units of length, in which no power of theirs is out of
+// reach.
+template <class S>
+void cornersInUnits(const Core<S>& core, uint32_t cell, double corners[4][3]) {
+  cornersIn(core.window, cell, corners);
+  for (int k = 0; k < 4; ++k)
+    for (int i = 0; i < 3; ++i) corners[k][i] *= static_cast<double>(core.scale[0]);
+}
+
 // The RMS error in percent of the range that an error over a volume stands for, and back.
 template <class S>
 double percentOf(const Core<S>& core, double error) {

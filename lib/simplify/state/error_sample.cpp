@@ -109,13 +109,6 @@ ErrorSample<S>::ErrorSample(Core<S>& core, Account& account, size_t cells)
   places_.resize(3 * room_);
 }
 
-// In the window's units of length, in which no power of theirs is out of reach.
-template <class S>
-void ErrorSample<S>::scale(double corners[4][3]) const {
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 3; ++i) corners[k][i] *= static_cast<double>(core_.scale[0]);
-}
-
 template <class S>
 void ErrorSample<S>::take(uint32_t first, uint32_t end) {
   const auto step = static_cast<uint32_t>(stepFor(core_.stream_cells));
@@ -125,8 +118,7 @@ void ErrorSample<S>::take(uint32_t first, uint32_t end) {
     const uint64_t number = ++blocks_;
     const auto cell = static_cast<uint32_t>(c + mix(number) % step);
     if (cell >= end || !core_.window.mesh.isLive(cell)) continue;
-    cornersIn(core_.window, cell, corners);
-    scale(corners);
+    cornersInUnits(core_, cell, corners);
     placeByTurns(cell, number, step * volumeOf(corners));
   }
 }
@@ -241,7 +233,7 @@ void ErrorSample<S>::sort() {
   }
 }
 
-// visitOne(point, weights) for each that is not gone and lies in the cell.
+// visitOne(point, weights) for each that is not gone, nor was found before, and lies in the cell.
 template <class S>
 template <class Visit>
 void ErrorSample<S>::visit(uint32_t cell, Visit visitOne) const {
@@ -269,11 +261,10 @@ void ErrorSample<S>::visit(uint32_t cell, Visit visitOne) const {
       for (uint32_t k = begin_[row + first[2]]; k < end; ++k) {
         const S* const place = places_.data() + 3 * size_t{k};
         const uint32_t p = order_[k];
-        if (!isInBox(place) || weights_[p] == 0) continue;
+        if (!isInBox(place) || !(weights_[p] > 0)) continue;
         if (!std::exchange(is_set, true)) {
           double corners[4][3];
-          cornersIn(core_.window, cell, corners);
-          scale(corners);
+          cornersInUnits(core_, cell, corners);
           frame.set(corners[0]);
         }
         double x[3], w[4];
@@ -325,8 +316,7 @@ template <class S>
 template <class Seen>
 void ErrorSample<S>::addCell(Sum& sum, uint32_t cell, Seen seen) const {
   double corners[4][3], told[4];
-  cornersIn(core_.window, cell, corners);
-  scale(corners);
+  cornersInUnits(core_, cell, corners);
   toldAt(cell, told);
   sum.told_of_all += volumeOf(corners) / 4 * (told[0] + told[1] + told[2] + told[3]);
   visit(cell, [&](size_t i, const double* w) {
@@ -338,7 +328,7 @@ void ErrorSample<S>::addCell(Sum& sum, uint32_t cell, Seen seen) const {
 template <class S>
 void ErrorSample<S>::addPoint(Sum& sum, size_t i, uint32_t cell, const double w[4],
                               const double told[4]) const {
-  const double volume = std::fabs(static_cast<double>(weights_[i]));
+  const auto volume = static_cast<double>(weights_[i]);
   const double error = volume * squaredError(i, cell, w);
   const double by_quadrics =
       volume * (w[0] * told[0] + w[1] * told[1] + w[2] * told[2] + w[3] * told[3]);
@@ -357,8 +347,7 @@ void ErrorSample<S>::forLive(Visit visitCell) const {
     if (mesh.isLive(c)) visitCell(c);
 }
 
-// Of points that lie in no cell any more, since the boundary has moved: their weights are not below
-// 0, as those of the others are.
+// Of points that lie in no cell any more, since the boundary has moved: all that were not found.
 template <class S>
 void ErrorSample<S>::addOutside(Sum& sum) {
   OutsidePoints<S> outside(core_);
@@ -379,7 +368,7 @@ void ErrorSample<S>::addOutside(Sum& sum) {
 // at once, if they do.
 template <class S>
 void ErrorSample<S>::startLeaving(bool all) {
-  const auto markFound = [this](size_t i) { weights_[i] = -std::fabs(weights_[i]); };
+  const auto markFound = [this](size_t i) { weights_[i] = -weights_[i]; };
   sort();
   forLive([&](uint32_t c) {
     if (all)
@@ -441,9 +430,7 @@ template <class S>
 double ErrorSample<S>::percentNow() {
   Sum sum = sum_;
   sort();
-  forLive([&](uint32_t c) {
-    addCell(sum, c, [this](size_t i) { weights_[i] = -std::fabs(weights_[i]); });
-  });
+  forLive([&](uint32_t c) { addCell(sum, c, [this](size_t i) { weights_[i] = -weights_[i]; }); });
   addOutside(sum);
   for (size_t i = 0; i < count_; ++i) weights_[i] = std::fabs(weights_[i]);
   return percentOf(sum);

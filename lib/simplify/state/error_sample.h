@@ -6,10 +6,10 @@
 // leaves the window. A cell is as likely to have one as its share of the volume and that of the
 // number of cells are in the mean, so that neither large cells nor a finely meshed part is missed,
 // and each point stands for as much volume as that makes. Where they have missed what makes errors,
-// as small parts of a graded mesh, shows in what quadrics tell there: of
-// that their points find less than the cells have. The rest counts as quadrics tell it (a
-// difference estimator). What lies outside counts where a cell is nearest: of slender bodies, whose
-// ends draw in, that may be most of the error.
+// as small parts of a graded mesh, shows in what quadrics tell there: of that their points find
+// less than the cells have. The rest counts as quadrics tell it (a difference estimator). What lies
+// outside counts where a cell is nearest: of slender bodies, whose ends draw in, that may be most
+// of the error.
 #pragma once
 
 #include <cstdint>
@@ -57,7 +57,6 @@ class ErrorSample {
   size_t dimension() const { return static_cast<size_t>(core_.plan.dimension); }
   void placeByTurns(uint32_t cell, uint64_t number, double volume);
   void placeIn(uint32_t cell, uint64_t number, double weight);
-  void scale(double corners[4][3]) const;
   template <class Visit>
   void forLive(Visit visit) const;
   void addOutside(Sum& sum);
@@ -79,7 +78,7 @@ class ErrorSample {
 
   Core<S>& core_;
   Array<S> points_;        // of each, in the user's units: the place, and the fields there
-  Array<float> weights_;   // the volume that each stands for; 0: gone
+  Array<float> weights_;   // the volume that each stands for; 0: gone; below 0: found
   Array<uint32_t> begin_;  // of bins: where their points begin among those in order
   Array<uint32_t> order_;
   Array<S> places_;  // of points in order

@@ -65,18 +65,11 @@ void OutsidePoints<S>::sortAlongLongest(double looked_at) {
   });
 }
 
-template <class S>
-void OutsidePoints<S>::cornersOf(uint32_t cell, double corners[4][3]) const {
-  cornersIn(core_.window, cell, corners);
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 3; ++i) corners[k][i] *= static_cast<double>(core_.scale[0]);
-}
-
 // Points no farther than that from the cell's box.
 template <class S>
 void OutsidePoints<S>::lookFrom(uint32_t cell, double beyond) {
   double corners[4][3], low[3], high[3];
-  cornersOf(cell, corners);
+  cornersInUnits(core_, cell, corners);
   boxOf(corners, low, high);
   const auto toBox = [&](const Point& point) {
     double square = 0;
@@ -108,7 +101,7 @@ double OutsidePoints<S>::meanExtent() const {
   for (uint32_t c = 0; c < mesh.cellEnd(); ++c) {
     if (!mesh.isLive(c)) continue;
     double corners[4][3], low[3], high[3];
-    cornersOf(c, corners);
+    cornersInUnits(core_, c, corners);
     boxOf(corners, low, high);
     const double longest = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
     if (longest > 0) sum += std::log(longest);
@@ -132,7 +125,7 @@ void OutsidePoints<S>::search() {
 template <class S>
 typename OutsidePoints<S>::Found OutsidePoints<S>::foundAt(const Point& point) const {
   double corners[4][3];
-  cornersOf(point.cell, corners);
+  cornersInUnits(core_, point.cell, corners);
   Found found = {point.point, point.cell, {}};
   nearestOnFaces(corners, point.place, found.weights);
   return found;

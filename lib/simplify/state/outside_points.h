@@ -40,7 +40,6 @@ class OutsidePoints {
   void search();
   double meanExtent() const;
   void sortAlongLongest(double looked_at);
-  void cornersOf(uint32_t cell, double corners[4][3]) const;
   void lookFrom(uint32_t cell, double beyond);
   Found foundAt(const Point& point) const;
 

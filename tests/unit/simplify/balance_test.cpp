@@ -230,25 +230,6 @@ TEST(Balance, LowersTheBoundaryAndInterfacesTogether) {
   EXPECT_EQ(chosen(costs, 0.1).interfaces, 1);
 }
 
-// A slab whose faces go up and down by a part of a cube from one vertex to the next, or do not,
-// with a field that hardly bends.
-TestMesh slab(int n, double roughness) {
-  const TestMesh grid = fullGrid(n, n, 4);
-  std::vector<double> positions;
-  for (size_t v = 0; v < grid.vertexCount(); ++v) {
-    double x[3];
-    for (int i = 0; i < 3; ++i) x[i] = grid.position(v, i);
-    const bool on_face = x[2] < 0.5 || x[2] > 3.5;
-    x[2] += on_face ? roughness * std::sin(7 * x[0] + 11 * x[1] + 3 * x[0] * x[1]) : 0;
-    positions.insert(positions.end(), x, x + 3);
-  }
-  TestMesh mesh = makeMesh(k64, positions, grid.cells);
-  addPositionField(mesh, {"f", 1, k64}, [n](double x, double y, double z) {
-    return std::sin(3 * x / n) + std::cos(2 * y / n) + 0.2 * std::sin(z / 2);
-  });
-  return mesh;
-}
-
 SimplifyOptions unbalanced(SimplifyOptions options) {
   options.balance = BalanceUse::kNever;
   return options;
@@ -257,7 +238,7 @@ SimplifyOptions unbalanced(SimplifyOptions options) {
 // Half of the error of the field for as many cells; of a stream less is gained, since some windows
 // go by before enough is known.
 TEST(SimplifierBalance, FollowsASmoothFieldInARoughBody) {
-  const TestMesh mesh = slab(slowRun() ? 12 : 24, 0.2);
+  const TestMesh mesh = roughSlab(slowRun() ? 12 : 24, 0.2);
   const double gain = slowRun() ? 0.85 : 0.6;
   for (int64_t window : {0, 1500}) {
     if (slowRun() && window > 0) continue;  // too few vertices in any window
@@ -313,13 +294,13 @@ void expectBytesOfUnbalanced(const TestMesh& mesh, const SimplifyOptions& option
 }
 
 TEST(SimplifierBalance, IsNotForPlaneBoundaries) {
-  expectBytesOfUnbalanced(slab(12, 0), toRatio(0.2));
+  expectBytesOfUnbalanced(roughSlab(12, 0), toRatio(0.2));
 }
 
 // One slab on another, which it touches all over, and a field that jumps between them.
 TEST(SimplifierBalance, IsNotForBodiesInContact) {
   const int n = 12;
-  const TestMesh low = slab(n, 0.2);
+  const TestMesh low = roughSlab(n, 0.2);
   const size_t points = low.vertexCount();
   std::vector<double> positions;
   std::vector<int64_t> cells = low.cells;
@@ -336,16 +317,16 @@ TEST(SimplifierBalance, IsNotForBodiesInContact) {
 TEST(SimplifierBalance, LeavesAWeightThatIsAskedFor) {
   SimplifyOptions options = toRatio(0.2);
   options.boundary_weight = 100;
-  expectBytesOfUnbalanced(slab(12, 0.2), options);
+  expectBytesOfUnbalanced(roughSlab(12, 0.2), options);
 }
 
 TEST(SimplifierBalance, IsNotForThePaper) {
-  expectBytesOfUnbalanced(slab(6, 0.2), toRatio(0.2, 0, Mode::kPaper));
+  expectBytesOfUnbalanced(roughSlab(6, 0.2), toRatio(0.2, 0, Mode::kPaper));
 }
 
 // Nothing is gained for them, and rounding would choose.
 TEST(SimplifierBalance, IsNotForFieldsWithoutError) {
-  TestMesh mesh = slab(12, 0.2);
+  TestMesh mesh = roughSlab(12, 0.2);
   mesh.fields.clear();
   mesh.schema.fields.clear();
   addPositionField(mesh, {"constant", 1, k64}, [](double, double, double) { return 3.0; });
@@ -359,7 +340,7 @@ TEST(SimplifierBalance, KnowsNothingOfVerticesWithoutCells) {
   TestMesh none = makeMesh(k64, {0, 0, 0}, {});
   addPositionField(none, {"f", 1, k64}, [](double, double, double) { return 1.0; });
   EXPECT_EQ(simplified(none, toRatio(0.5)).report.balance, "");
-  const TestMesh mesh = slab(12, 0.2);
+  const TestMesh mesh = roughSlab(12, 0.2);
   std::vector<double> positions;
   for (size_t v = 0; v < mesh.vertexCount(); ++v)
     for (int i = 0; i < 3; ++i) positions.push_back(mesh.position(v, i));
@@ -381,7 +362,7 @@ TEST(SimplifierBalance, KnowsNothingOfVerticesWithoutCells) {
 
 // What was chosen depends on what was read, not on how it came.
 TEST(SimplifierBalance, IsTheSameForAnyBatches) {
-  const TestMesh mesh = slab(12, 0.2);
+  const TestMesh mesh = roughSlab(12, 0.2);
   const Result whole = simplified(mesh, toRatio(0.2, 800));
   Cut cut;
   cut.batch_cells = 7;

@@ -60,7 +60,7 @@ TEST(BalancedCreases, LeaveInterfacesAllOfTheBalance) {
   EXPECT_GE(balance.interfaces, 1.0 / 1024);
 }
 
-// A strut of four cells with a field that is smooth along it, as it is and turned about an axis.
+// A strut of four cells with a field that is smooth along it.
 TEST(BalancedCreases, KeepPlaneSidesOfStruts) {
   const int n = slowRun() ? 40 : 80;
   TestMesh strut = cubes(n, 4, 4, [](int, int, int) { return true; });

@@ -42,24 +42,6 @@ TestMesh withConstant(TestMesh mesh) {
   return mesh;
 }
 
-// With two faces that go up and down from one vertex to the next.
-TestMesh roughSlab() {
-  const int n = slowRun() ? 12 : 20;
-  const TestMesh grid = fullGrid(n, n, 6);
-  std::vector<double> positions;
-  for (size_t v = 0; v < grid.vertexCount(); ++v) {
-    double x[3];
-    for (int i = 0; i < 3; ++i) x[i] = grid.position(v, i);
-    if (x[2] < 0.5 || x[2] > 5.5) x[2] += 0.2 * std::sin(7 * x[0] + 11 * x[1] + 3 * x[0] * x[1]);
-    positions.insert(positions.end(), x, x + 3);
-  }
-  TestMesh mesh = makeMesh(k64, positions, grid.cells);
-  addPositionField(mesh, {"f", 1, k64}, [n](double x, double y, double z) {
-    return std::sin(3 * x / n) + std::cos(2 * y / n) + 0.2 * std::sin(z / 2);
-  });
-  return mesh;
-}
-
 int64_t fourFrontsOfBox() {
   return int64_t{24} * boxSide() * boxSide();
 }
@@ -400,7 +382,7 @@ TEST(SimplifierTargets, AFarBoundOnTheErrorLeavesTheErrorOfTheRatio) {
 
 // What the boundary counts is chosen for what is left where the error ends the run, not for so few.
 TEST(SimplifierTargets, AFarRatioLeavesTheCellsOfTheError) {
-  const TestMesh mesh = roughSlab();
+  const TestMesh mesh = roughSlab(slowRun() ? 12 : 20, 0.2, 6);
   const Result alone = simplified(mesh, toError(1));
   SimplifyOptions both = toError(1);
   both.ratio = 0.005;

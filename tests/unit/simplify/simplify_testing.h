@@ -95,6 +95,25 @@ inline void expectReached(const Result& result) {
             report.target_cells - std::max<int64_t>(report.target_cells / 500, 10));
 }
 
+// A slab whose faces go up and down by a part of a cube from one vertex to the next, or do not,
+// with a field that hardly bends; so many cubes thick.
+inline TestMesh roughSlab(int n, double roughness, int thick = 4) {
+  const TestMesh grid = fullGrid(n, n, thick);
+  std::vector<double> positions;
+  for (size_t v = 0; v < grid.vertexCount(); ++v) {
+    double x[3];
+    for (int i = 0; i < 3; ++i) x[i] = grid.position(v, i);
+    const bool on_face = x[2] < 0.5 || x[2] > thick - 0.5;
+    x[2] += on_face ? roughness * std::sin(7 * x[0] + 11 * x[1] + 3 * x[0] * x[1]) : 0;
+    positions.insert(positions.end(), x, x + 3);
+  }
+  TestMesh mesh = makeMesh(k64, positions, grid.cells);
+  addPositionField(mesh, {"f", 1, k64}, [n](double x, double y, double z) {
+    return std::sin(3 * x / n) + std::cos(2 * y / n) + 0.2 * std::sin(z / 2);
+  });
+  return mesh;
+}
+
 // Of the cells with this label in the first array of cell data.
 inline double regionVolume(const TestMesh& mesh, int64_t label) {
   double volume = 0;
