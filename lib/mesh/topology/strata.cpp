@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "vertex_pair.h"
-
 namespace tetstream {
 
 // By the lower and the higher kind of two ends: what the edge has to lie in.
@@ -48,7 +46,6 @@ void StrataCondition::listSheets(const Star& star, const Star& ring, const uint8
       }
   std::sort(edges_.begin(), edges_.end(),
             [](const Edge& a, const Edge& b) { return a.ends < b.ends; });
-  faces.clear();
   for (size_t i = 0, j; i < edges_.size(); i = j) {
     for (j = i + 1; j < edges_.size() && edges_[j].ends == edges_[i].ends;) ++j;
     if (j - i == 1 || labels.differ(edges_[i].cell, edges_[i + 1].cell) ||
@@ -74,11 +71,18 @@ bool StrataCondition::linksAgree(uint32_t v) {
   return true;
 }
 
-bool StrataCondition::holds(End u, End v, const Stars& stars, const uint8_t* flags,
-                            const Embedded& embedded, const Labelled& labelled) {
+void StrataCondition::list(End u, End v, const Stars& stars, const uint8_t* flags,
+                           const Embedded& embedded, const Labelled& labelled) {
+  faces_u_.clear();
+  faces_v_.clear();
+  if (u.stratum != Stratum::kInside)
+    listSheets(stars.u, stars.ring, flags, embedded.labels, labelled.u, faces_u_);
+  if (v.stratum != Stratum::kInside)
+    listSheets(stars.v, stars.ring_from_v, flags, embedded.labels, labelled.v, faces_v_);
+}
+
+bool StrataCondition::holds(End u, End v, const Embedded& embedded) {
   if (u.stratum == Stratum::kInside || v.stratum == Stratum::kInside) return true;
-  listSheets(stars.u, stars.ring, flags, embedded.labels, labelled.u, faces_u_);
-  listSheets(stars.v, stars.ring_from_v, flags, embedded.labels, labelled.v, faces_v_);
   if (!linksAgree(v.vertex)) return false;
   if (u.stratum != Stratum::kCurve || v.stratum != Stratum::kCurve) return true;
   if (!embedded.alongCurve(u.vertex, v.vertex)) return false;

@@ -7,6 +7,7 @@
 
 #include "embedded.h"
 #include "topology.h"
+#include "vertex_pair.h"
 
 namespace tetstream {
 
@@ -74,10 +75,18 @@ class StrataCondition {
   // What (1) and the cells that hold both ends tell, before their stars are known: most edges
   // between two sheets fail here. `in_labelled`: uv is an edge of a labelled face.
   static bool mayHold(End u, End v, const Star& ring, const Embedded& embedded, bool in_labelled);
-  // (2) and (1). `flags` of all vertices of the stars: those of kOnSheet are set at least for the
-  // faces of sheets round u and v.
-  bool holds(End u, End v, const Stars& stars, const uint8_t* flags, const Embedded& embedded,
-             const Labelled& labelled);
+  // The faces of X2 round both ends. `flags` of all vertices of the stars: those of kOnSheet are
+  // set at least for the faces of sheets round u and v.
+  void list(End u, End v, const Stars& stars, const uint8_t* flags, const Embedded& embedded,
+            const Labelled& labelled);
+  // visit(x, a, b) for each of them, with the end x that it is round.
+  template <class Visit>
+  void forFaces(End u, End v, Visit visit) const {
+    for (uint64_t face : faces_u_) visit(u.vertex, lowOf(face), highOf(face));
+    for (uint64_t face : faces_v_) visit(v.vertex, lowOf(face), highOf(face));
+  }
+  // (2) and (1), of the ends whose faces were listed.
+  bool holds(End u, End v, const Embedded& embedded);
 
  private:
   struct Edge {  // of a link, and a cell there

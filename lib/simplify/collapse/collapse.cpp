@@ -151,14 +151,15 @@ auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Strata& strata) -> Ad
   const CellLabels& labels = strata.embedded.labels;
   if (core_.exact_curves && (u_on_it || v_on_it) && place_.putOnCurve(u_on_it, v_on_it))
     return intoCurve(labels);
-  const bool has_volumes = labels.count > 0 || keepsBody(u, v);
-  if (!core_.inner_sheets)
-    return {has_volumes ? place_.keepVolumes(stars_, labels, nullptr) : S(0)};
-  const bool moved = u_on_it && v_on_it && keepCurveArea(u, v, strata.embedded);
-  const bool is_cut =
-      !(labelled_.u.empty() && labelled_.v.empty()) && sides_.find(stars_, labels, labelled_) > 1;
-  if (is_cut || has_volumes)
-    return {place_.keepVolumes(stars_, labels, is_cut ? &sides_ : nullptr)};
+  bool moved = core_.keeps_body && place_.putOnPlanes(planesRound(strata));
+  const SheetSides* sides = nullptr;
+  if (core_.inner_sheets) {
+    moved |= u_on_it && v_on_it && keepCurveArea(u, v, strata.embedded);
+    const bool is_labelled = !(labelled_.u.empty() && labelled_.v.empty());
+    if (is_labelled && sides_.find(stars_, labels, labelled_) > 1) sides = &sides_;
+  }
+  if (sides || labels.count > 0 || keepsBody(u, v))
+    return {place_.keepVolumes(stars_, labels, sides)};
   return {moved ? place_.error() : S(0)};
 }
 
@@ -172,27 +173,43 @@ bool Collapser<Mesh>::mayKeepStrata(const Strata& strata, uint32_t other, const 
 
 // Of the stars as gathered.
 template <class Mesh>
-void Collapser<Mesh>::listLabelled(uint32_t u, uint32_t v) {
-  labelled_.u.clear();
-  labelled_.v.clear();
+void Collapser<Mesh>::listSheets(uint32_t u, uint32_t v, const Strata& strata) {
+  if (mesh_.isBoundary(u) || mesh_.isBoundary(v)) crossing_.list(u, v, stars_);
+  if (!strata.any()) return;
   const uint8_t* const flags = mesh_.allFlags();
-  if (flags[u] & kInterface) edge_faces_.list(stars_.u, stars_.ring, labelled_.u);
-  if (flags[v] & kInterface) edge_faces_.list(stars_.v, stars_.ring_from_v, labelled_.v);
+  if (core_.inner_sheets) {
+    labelled_.u.clear();
+    labelled_.v.clear();
+    if (flags[u] & kInterface) edge_faces_.list(stars_.u, stars_.ring, labelled_.u);
+    if (flags[v] & kInterface) edge_faces_.list(stars_.v, stars_.ring_from_v, labelled_.v);
+  }
+  strata_.list(strata.u, strata.v, stars_, flags, strata.embedded, labelled_);
+}
+
+// Of the sheets as listed.
+template <class Mesh>
+AxisPlanes<typename Mesh::Scalar> Collapser<Mesh>::planesRound(const Strata& strata) const {
+  AxisPlanes<S> planes(place_.roundingOfPlanes());
+  if (!strata.any())
+    crossing_.addTo(planes);
+  else
+    strata_.forFaces(strata.u, strata.v, [&](uint32_t x, uint32_t a, uint32_t b) {
+      planes.add(mesh_.values(x), mesh_.values(a), mesh_.values(b));
+    });
+  return planes;
 }
 
 // Of the stars as gathered.
 template <class Mesh>
 bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Strata& strata) {
   if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_)) return false;
-  return !strata.any() ||
-         strata_.holds(strata.u, strata.v, stars_, mesh_.allFlags(), strata.embedded, labelled_);
+  return !strata.any() || strata_.holds(strata.u, strata.v, strata.embedded);
 }
 
 // To the place that sheets and curves want, if that may be had.
 template <class Mesh>
 Outcome Collapser<Mesh>::moveOnSheets(uint32_t u, uint32_t v, const Strata& strata, S* error,
                                       float most_price) {
-  if (core_.inner_sheets) listLabelled(u, v);
   const Adjusted moved = adjust(u, v, strata);
   if (!std::isfinite(moved.error)) return Outcome::kVolume;
   if (!place_.isFinite()) return Outcome::kNotFinite;
@@ -239,6 +256,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (!a.positive) return refuseFor(u, v, farther[a.turned]);
   gather(!u_first);
   const bool on_sheet = (mesh_.allFlags()[u] | mesh_.allFlags()[v]) & kOnSheet;
+  if (on_sheet) listSheets(u, v, strata);
   if (on_sheet && (strata.any() || keepsBody(u, v))) {
     if (const Outcome o = moveOnSheets(u, v, strata, error, most_price); o != Outcome::kDone)
       return o;
@@ -252,7 +270,7 @@ Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_ce
   if (const Outcome o = thins(u, v, most_price, both); o != Outcome::kDone) return o;
   if (!keepsTopology(u, v, strata)) return Outcome::kTopology;
   if ((mesh_.isBoundary(u) || mesh_.isBoundary(v)) &&
-      crossing_.find(u, v, stars_, place_.values().data(), static_cast<double>(core_.scale[0])))
+      crossing_.find(place_.values().data(), static_cast<double>(core_.scale[0])))
     return Outcome::kCrossing;
   leaves_thin_ = both.thin > 0;
   return Outcome::kDone;

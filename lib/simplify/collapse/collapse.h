@@ -74,7 +74,8 @@ class Collapser {
   StrataCondition::End strataEnd(uint32_t v, const Embedded& embedded) const;
   Strata strataOf(uint32_t u, uint32_t v) const;
   bool mayKeepStrata(const Strata& strata, uint32_t other, const Star& ring) const;
-  void listLabelled(uint32_t u, uint32_t v);
+  void listSheets(uint32_t u, uint32_t v, const Strata& strata);
+  AxisPlanes<S> planesRound(const Strata& strata) const;
   bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, float most_price);
   // The error at a place that was changed, 0 where it was not, and how many times that counts in

@@ -26,8 +26,9 @@ static double cosine(const PlacedFace& a, const PlacedFace& b) {
 
 // The faces of the boundary round a centre, which sees them from inside: edges of its link that one
 // cell has. Where the star is not whole they may be faces inside, which nothing may cross either.
+// Returns whether they are all.
 template <class Mesh>
-void BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const Star* more,
+bool BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const Star* more,
                                        Faces& faces) {
   link_.start();
   const uint8_t* const flags = mesh_.allFlags();
@@ -43,25 +44,47 @@ void BoundaryCrossing<Mesh>::listFaces(uint32_t centre, const Star& star, const 
       if ((n[2] | n[0]) != kNoNumber) link_.add(n[2], n[0]);
     }
   }
-  if (!link_.isWhole()) return;
-  link_.forSingle([&](uint32_t from, uint32_t to) {
-    PlacedFace& face = faces.emplace_back(centre, from, to);
+  if (!link_.isWhole()) return false;
+  link_.forSingle([&](uint32_t from, uint32_t to) { faces.emplace_back(centre, from, to); });
+  return true;
+}
+
+// Their corners, relative to the new place.
+template <class Mesh>
+void BoundaryCrossing<Mesh>::put(Faces& faces) const {
+  for (PlacedFace& face : faces)
     for (int k = 0; k < 3; ++k) {
       const S* const at = mesh_.values(face.corner[k]);
       for (int x = 0; x < 3; ++x)
         face.at[k][x] = scale_ * (static_cast<double>(at[x]) - origin_[x]);
     }
-  });
 }
 
-// The faces that go, each once. Returns how far in front of them the new place lies, at most, of a
-// face's least height.
+// The faces that go, each once.
 template <class Mesh>
-double BoundaryCrossing<Mesh>::listGone(uint32_t u, uint32_t v, const Stars& stars) {
+void BoundaryCrossing<Mesh>::list(uint32_t u, uint32_t v, const Stars& stars) {
+  u_ = u;
+  v_ = v;
   gone_.clear();
-  if (mesh_.isBoundary(v)) listFaces(v, stars.v, &stars.ring_from_v, gone_);
+  is_large_ = stars.u.size() > kMostCells || stars.v.size() > kMostCells;
+  is_whole_ = !mesh_.isBoundary(v) || listFaces(v, stars.v, &stars.ring_from_v, gone_);
   std::erase_if(gone_, [u](const PlacedFace& face) { return face.has(u); });
-  if (mesh_.isBoundary(u)) listFaces(u, stars.u, &stars.ring, gone_);
+  if (mesh_.isBoundary(u)) is_whole_ &= listFaces(u, stars.u, &stars.ring, gone_);
+}
+
+template <class Mesh>
+void BoundaryCrossing<Mesh>::addTo(AxisPlanes<S>& planes) const {
+  if (!is_whole_) return;
+  for (const PlacedFace& face : gone_)
+    planes.add(mesh_.values(face.corner[0]), mesh_.values(face.corner[1]),
+               mesh_.values(face.corner[2]));
+}
+
+// Of the faces that go. Returns how far in front of them the new place lies, at most, of a face's
+// least height.
+template <class Mesh>
+double BoundaryCrossing<Mesh>::putGone() {
+  put(gone_);
   double most = 0;
   for (PlacedFace& face : gone_) {
     face.setNormal();
@@ -74,11 +97,11 @@ double BoundaryCrossing<Mesh>::listGone(uint32_t u, uint32_t v, const Stars& sta
 // All but the ends of the faces that go: where the new place is that of one end, its own faces stay
 // as they are, and those of the other reach beyond them.
 template <class Mesh>
-void BoundaryCrossing<Mesh>::listRim(uint32_t u, uint32_t v) {
+void BoundaryCrossing<Mesh>::listRim() {
   rim_.clear();
   for (const PlacedFace& face : gone_)
     for (uint32_t x : face.corner)
-      if (x != u && x != v) rim_.push_back(x);
+      if (x != u_ && x != v_) rim_.push_back(x);
   std::sort(rim_.begin(), rim_.end());
   rim_.erase(std::unique(rim_.begin(), rim_.end()), rim_.end());
 }
@@ -97,13 +120,13 @@ bool BoundaryCrossing<Mesh>::knowsBeside() const {
 // The faces round the merged vertex, as u: those that go but for the ones of both ends. Returns
 // whether one of them turns by much.
 template <class Mesh>
-bool BoundaryCrossing<Mesh>::listMade(uint32_t u, uint32_t v) {
+bool BoundaryCrossing<Mesh>::listMade() {
   made_.clear();
   bool turns = false;
   for (const PlacedFace& face : gone_) {
-    if (face.has(u) && face.has(v)) continue;
+    if (face.has(u_) && face.has(v_)) continue;
     PlacedFace& made = made_.emplace_back(face);
-    made.corner[0] = u;
+    made.corner[0] = u_;
     std::fill_n(made.at[0], 3, 0.0);
     made.setNormal();
     turns |= !(cosine(made, face) > kTurnsMuch);
@@ -113,7 +136,7 @@ bool BoundaryCrossing<Mesh>::listMade(uint32_t u, uint32_t v) {
 
 // Those round the rim that stay, each once.
 template <class Mesh>
-void BoundaryCrossing<Mesh>::listBeside(uint32_t u, uint32_t v) {
+void BoundaryCrossing<Mesh>::listBeside() {
   beside_.clear();
   seen_.clear();
   for (uint32_t w : rim_) {
@@ -124,12 +147,13 @@ void BoundaryCrossing<Mesh>::listBeside(uint32_t u, uint32_t v) {
       const auto was_seen = [&](uint32_t x) {
         return std::binary_search(seen_.begin(), seen_.end(), x);
       };
-      return face.has(u) || face.has(v) || was_seen(face.corner[1]) || was_seen(face.corner[2]);
+      return face.has(u_) || face.has(v_) || was_seen(face.corner[1]) || was_seen(face.corner[2]);
     };
     const auto first = beside_.begin() + static_cast<std::ptrdiff_t>(before);
     beside_.erase(std::remove_if(first, beside_.end(), is_known), beside_.end());
     seen_.push_back(w);
   }
+  put(beside_);
   for (PlacedFace& face : beside_) face.setPlane();
 }
 
@@ -161,17 +185,16 @@ size_t BoundaryCrossing<Mesh>::folds(const Faces& faces) const {
 }
 
 template <class Mesh>
-bool BoundaryCrossing<Mesh>::find(uint32_t u, uint32_t v, const Stars& stars, const S* place,
-                                  double scale) {
-  if (stars.u.size() > kMostCells || stars.v.size() > kMostCells) return false;
+bool BoundaryCrossing<Mesh>::find(const S* place, double scale) {
+  if (is_large_) return false;
   scale_ = scale;
   for (int i = 0; i < 3; ++i) origin_[i] = static_cast<double>(place[i]);
-  const double in_front = listGone(u, v, stars);
-  const bool turns = listMade(u, v), is_in_front = in_front > kInFront;
+  const double in_front = putGone();
+  const bool turns = listMade(), is_in_front = in_front > kInFront;
   if ((!turns && !is_in_front) || made_.size() > kMostFaces) return false;
-  listRim(u, v);
+  listRim();
   if (in_front > kFarInFront && !knowsBeside()) return true;
-  listBeside(u, v);
+  listBeside();
   if (turns && folds(made_) > folds(gone_)) return true;
   if (!is_in_front) return false;
   for (Faces* faces : {&gone_, &made_})

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "axis_planes.h"
 #include "crossing_faces.h"
 #include "link_edges.h"
 #include "patch.h"
@@ -27,23 +28,30 @@ class BoundaryCrossing {
   BoundaryCrossing(Mesh& mesh, Account& account)
       : mesh_(mesh), star_(account, 32), link_(account) {}
 
-  // Whether more pairs of faces would cross than do, or lie on each other, of an edge with its
-  // stars, whole, whose ends are merged at `place`. `scale` brings edges near 1.
-  bool find(uint32_t u, uint32_t v, const Stars& stars, const S* place, double scale);
+  // An edge with its stars, whole: what follows is about the faces round its ends.
+  void list(uint32_t u, uint32_t v, const Stars& stars);
+  // Adds those, unless there are too many to know all.
+  void addTo(AxisPlanes<S>& planes) const;
+  // Whether more pairs of faces would cross than do, or lie on each other, with the ends merged at
+  // `place`. `scale` brings edges near 1.
+  bool find(const S* place, double scale);
 
  private:
   using Faces = std::vector<PlacedFace>;
 
-  void listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
-  double listGone(uint32_t u, uint32_t v, const Stars& stars);
-  bool listMade(uint32_t u, uint32_t v);
-  void listRim(uint32_t u, uint32_t v);
+  bool listFaces(uint32_t centre, const Star& star, const Star* more, Faces& faces);
+  void put(Faces& faces) const;
+  double putGone();
+  bool listMade();
+  void listRim();
   bool knowsBeside() const;
-  void listBeside(uint32_t u, uint32_t v);
+  void listBeside();
   size_t crossings(const Faces& faces) const;
   size_t folds(const Faces& faces) const;
 
   Mesh& mesh_;
+  uint32_t u_ = 0, v_ = 0;
+  bool is_large_ = false, is_whole_ = false;
   Star star_;
   double origin_[3] = {}, scale_ = 1;  // of the coordinates of faces: the merged vertex's place
   LinkEdges link_;

@@ -12,12 +12,19 @@ namespace tetstream {
 
 // Of an edge's length: nearer to it than this is on it.
 constexpr double kOnEdge = 1e-3;
+// And to a plane across an axis: where there is nothing else, and beside other faces. The steps of
+// voxels may be smoothed away, so that this is less. On ten real meshes and fields errors are the
+// same with 0.01 to 0.3, in the mean.
+constexpr double kNearPlane = 0.5, kNearPlanes = 0.1;
+// What is one plane but for rounding.
+constexpr double kSamePlane = 1e-5;
 
 template <class Mesh>
 bool MergedPlace<Mesh>::set(uint32_t u, uint32_t v, const S* z) {
   u_ = u;
   v_ = v;
   std::copy_n(z, z_.size(), z_.data());
+  leavePlanes();
   std::copy_n(mesh_.values(u) + core_.plan.dimension, core_.plan.values - core_.plan.dimension,
               values_.data() + core_.plan.dimension);
   return update();
@@ -35,6 +42,7 @@ bool MergedPlace<Mesh>::update() {
   for (size_t i = 0; i < core_.scale.size(); ++i) {
     const S middle = a[i] + S(0.5) * (b[i] - a[i]);
     S& x = values_[i] = middle + z_[i] * core_.inverse_scale[i];
+    if (i < 3 && stays_[i]) x = plane_[i];
     if (to_float && i < 3) x = static_cast<S>(static_cast<float>(x));
     if (!(x < core_.least[i] || x > core_.most[i]) || std::isinf(x)) continue;
     x = std::clamp(x, std::min({core_.least[i], a[i], b[i]}),
@@ -149,7 +157,11 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
   S cost[6];
   core_.kernels.spaceForm(mesh_.quadric(u_), mesh_.quadric(v_), core_.plan.dimension, cost);
   std::copy_n(cost, 6, form);
-  const bool is_near = volumes_.step(form, step);
+  bool is_near = volumes_.step(form, stays_, step);
+  if (staysAnywhere() && !(is_near && volumes_.areKept(step))) {
+    leavePlanes();
+    is_near = volumes_.step(form, stays_, step);
+  }
   const bool has_regions = labels.count > 0;
   if ((!is_near && (has_regions || !sides)) || (has_regions && givesUpRegion(labels, step)))
     return std::numeric_limits<S>::infinity();
@@ -157,6 +169,42 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
   for (size_t i = 0; i < 3; ++i) scaled[i] = static_cast<S>(step[i]) * core_.scale[i];
   moveBy(scaled);
   return error();
+}
+
+template <class Mesh>
+double MergedPlace<Mesh>::squaredLength() const {
+  double square = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const auto d =
+        static_cast<double>((mesh_.values(v_)[i] - mesh_.values(u_)[i]) * core_.scale[i]);
+    square += d * d;
+  }
+  return square;
+}
+
+template <class Mesh>
+auto MergedPlace<Mesh>::roundingOfPlanes() const -> S {
+  return static_cast<S>(kSamePlane * std::sqrt(squaredLength())) * core_.inverse_scale[0];
+}
+
+template <class Mesh>
+bool MergedPlace<Mesh>::putOnPlanes(const AxisPlanes<S>& planes) {
+  const double square = squaredLength();
+  S step[3] = {0, 0, 0};
+  bool moves = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<size_t>(axis);
+    const S off = (planes.at(axis) - values_[i]) * core_.scale[i];
+    const double most = planes.hasAll(axis) ? kNearPlane : kNearPlanes;
+    const auto far = static_cast<double>(off);
+    stays_[i] = planes.has(axis) && far * far <= most * most * square;
+    if (!stays_[i]) continue;
+    plane_[i] = planes.at(axis);
+    step[i] = off;
+    moves |= values_[i] != plane_[i];
+  }
+  if (moves) moveBy(step);
+  return moves;
 }
 
 // A value that is not finite has no part in a mean: there the nearest corner's is taken, so that

@@ -2,8 +2,10 @@
 // Depends on core.h, mesh, region_volumes.h, curve_area.h.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
+#include "axis_planes.h"
 #include "core.h"
 #include "patch.h"
 #include "region_volumes.h"
@@ -45,11 +47,20 @@ class MergedPlace {
   // or the body; returns the error there. Where that is too far: infinity, but for sides.
   S keepVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
 
+  // How far the coordinates of what lies in one plane may be apart.
+  S roundingOfPlanes() const;
+  // Onto the planes round the two vertices, where these are near: to a coordinate that is one
+  // there, which it then keeps, unless volumes cannot be. Returns whether it moved.
+  bool putOnPlanes(const AxisPlanes<S>& planes);
+
   // Carried fields take the value that the old cells have there.
   void interpolateCarried(const Stars& stars);
 
  private:
   bool update();
+  double squaredLength() const;  // of the edge, normalised
+  void leavePlanes() { std::fill_n(stays_, 3, false); }
+  bool staysAnywhere() const { return stays_[0] || stays_[1] || stays_[2]; }
   void moveBy(const S step[3]);
   void measureVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
 
@@ -61,6 +72,8 @@ class MergedPlace {
   RegionVolumes volumes_;
   std::vector<S> values_;
   std::vector<S> z_;  // the place, normalised and relative to the edge's midpoint
+  bool stays_[3] = {false, false, false};  // along each axis in a plane,
+  S plane_[3] = {0, 0, 0};                 // there
 };
 
 }  // namespace tetstream

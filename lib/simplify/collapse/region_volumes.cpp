@@ -130,6 +130,13 @@ bool RegionVolumes::anyChanges() const {
                      [least](const Change& change) { return std::fabs(change.volume) > least; });
 }
 
+bool RegionVolumes::areKept(const double step[3]) const {
+  const double least = leastChange();
+  return std::all_of(changes_.begin(), changes_.end(), [least, step](const Change& change) {
+    return std::fabs(change.volume + dot(change.gradient, step)) <= least;
+  });
+}
+
 // In units of the edge: gradients whose square is less are rounding, as at the tip of a crack,
 // whose two faces cancel.
 constexpr double kNoGradient = 1e-20;
@@ -148,11 +155,13 @@ struct StepEquations {
     }
   }
   double trace() const { return m[0][0] + m[1][1] + m[2][2]; }
-  // With `same` for every direction and `share` of the form besides.
-  void cost(double same, double share, const double form[6]) {
+  // With `same` for every direction and `share` of the form besides, but along axes on which the
+  // place stays: there the step is none.
+  void cost(double same, double share, const double form[6], const bool stays[3]) {
     for (int i = 0; i < 3; ++i) {
       m[i][i] += same;
-      for (int j = 0; j <= i; ++j) {
+      for (int j = 0; j <= i && !stays[i]; ++j) {
+        if (stays[j]) continue;
         const double part = share * form[i * (i + 1) / 2 + j];
         m[i][j] += part;
         if (j < i) m[j][i] += part;
@@ -175,22 +184,22 @@ struct StepEquations {
 }  // namespace
 
 // In units of the edge, its largest component.
-bool RegionVolumes::step(const double form[6], double out[3]) const {
+bool RegionVolumes::step(const double form[6], const bool stays[3], double out[3]) const {
   StepEquations least;
   std::fill_n(out, 3, 0.0);
   const double unit = std::max({std::fabs(edge_[0]), std::fabs(edge_[1]), std::fabs(edge_[2])});
   if (!(unit > 0)) return true;
   for (const Change& c : changes_) {
     double g[3];
-    for (int i = 0; i < 3; ++i) g[i] = c.gradient[i] / unit / unit;
+    for (int i = 0; i < 3; ++i) g[i] = stays[i] ? 0 : c.gradient[i] / unit / unit;
     if (dot(g, g) > kNoGradient) least.add(g, c.volume / unit / unit / unit);
   }
   StepEquations cheapest = least;
   const double regular = kRegular * least.trace(), trace = form[0] + form[2] + form[5];
-  least.cost(regular, 0, form);
+  least.cost(regular, 0, form, stays);
   double length = least.solve(out), other[3];
   if (trace > 0 && std::isfinite(trace)) {
-    cheapest.cost(kSame * regular, regular / trace, form);
+    cheapest.cost(kSame * regular, regular / trace, form, stays);
     const double square = cheapest.solve(other);
     if (square <= kLonger * kLonger * length) {
       std::copy_n(other, 3, out);

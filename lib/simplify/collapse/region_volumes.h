@@ -44,11 +44,13 @@ class RegionVolumes {
       return there > least && there > 6 * share * volumeOf(change.row);
     });
   }
-  // From x to where the volumes are as they were; `form` tells what a step costs, as its lower
-  // triangle by rows. False if that is farther than the edge is long:
-  // a region that has but small faces at the vertex, such as one cell, would become a spike. Its
+  // From x to where the volumes are as they were, along the axes that it may go; `form` tells what
+  // a step costs, as its lower triangle by rows. False if that is farther than the edge is long: a
+  // region that has but small faces at the vertex, such as one cell, would become a spike. Its
   // error is no help against it, as small faces weigh little.
-  bool step(const double form[6], double out[3]) const;
+  bool step(const double form[6], const bool stays[3], double out[3]) const;
+  // Whether they are, a step from x, but for what is not worth a word.
+  bool areKept(const double step[3]) const;
 
  private:
   template <class S, class ChangeOf>
