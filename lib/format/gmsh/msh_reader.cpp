@@ -14,6 +14,8 @@ namespace tetstream {
 
 namespace {
 
+constexpr int kAnyDimension = -1;  // of a name
+
 class MshReader {
  public:
   MshReader(std::unique_ptr<ByteSource> bytes, const ReadOptions& options)
@@ -36,6 +38,10 @@ class MshReader {
  private:
   // Version, 0 for text or 1 for binary, the size of a float; if binary, an integer 1.
   void readFormat() {
+    while (file_.peekWord() == "$Comments") {
+      file_.word();
+      readComments();
+    }
     file_.expect("$MeshFormat");
     const double version = file_.real("the version of the format");
     const int64_t binary = file_.integer("the kind of the file", 0, 1);
@@ -143,13 +149,21 @@ class MshReader {
     if (mesh_.version_4 && mesh_.numbers.binary()) file_.line();
   }
 
+  // One a line: dimension, number, name; in format 2.0 without the dimension. What follows the name
+  // is for other programs.
   void readNames() {
     const int64_t count = file_.integer("the number of names", 0, INT64_MAX);
     file_.checkClaim(static_cast<uint64_t>(count), 6, "names");
     for (int64_t i = 0; i < count; ++i) {
-      const auto dimension = static_cast<int>(file_.integer("the dimension of a group", 0, 3));
-      const int64_t tag = file_.integer("the number of a group");
+      const int64_t first = file_.integer("the dimension or number of a group");
+      const bool has_dimension = file_.peekWord().substr(0, 1) != "\"";
+      const int64_t tag = has_dimension ? file_.integer("the number of a group") : first;
+      if (has_dimension && (first < 0 || first > 3))
+        file_.failBad(
+            textOf("the dimension of a group is %lld, not 0 to 3", static_cast<long long>(first)));
+      const int dimension = has_dimension ? static_cast<int>(first) : kAnyDimension;
       mesh_.names.emplace(std::pair(dimension, tag), file_.text("the name of a group"));
+      file_.line();
     }
   }
 
@@ -169,14 +183,17 @@ class MshReader {
       mesh_.intake->leaveOut("physical groups of entities that are in another one");
     std::vector<LabelName> names;
     uint64_t left_out = 0;
+    const std::string& physical = mesh_.hints.physical;
     for (const auto& [key, name] : mesh_.names) {
-      const bool of_cells = key.first == 3 && !mesh_.hints.physical.empty();
-      const bool of_faces = key.first == 2 && mesh_.face_labels == MshMesh::FaceLabels::kGroups;
-      if (of_cells || of_faces)
-        names.push_back(
-            {of_cells ? mesh_.hints.physical : "", mesh_.labelOf(key.first, key.second), name});
-      else
-        ++left_out;
+      const auto [dimension, tag] = key;
+      const auto is = [dimension = dimension](int d) {
+        return dimension == d || dimension == kAnyDimension;
+      };
+      const bool of_cells = is(3) && !physical.empty();
+      const bool of_faces = is(2) && mesh_.face_labels == MshMesh::FaceLabels::kGroups;
+      if (of_cells) names.push_back({physical, mesh_.labelOf(3, tag), name});
+      if (of_faces) names.push_back({"", mesh_.labelOf(2, tag), name});
+      left_out += !of_cells && !of_faces;
     }
     if (left_out > 0)
       mesh_.intake->leaveOut("names of physical groups that label no cells or faces", left_out);

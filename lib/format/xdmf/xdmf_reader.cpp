@@ -40,7 +40,7 @@ class Xdmf {
 
   void read() {
     const std::vector<int> leaves = chooseLeaves();
-    if (leaves.empty()) failFile(Status::kBadData, "there is no grid with cells");
+    if (leaves.empty()) failWithoutCells();
     mesh_.join = leaves.size() > 1;
     std::vector<MeshPiece> pieces;
     pieces.reserve(leaves.size());
@@ -178,11 +178,29 @@ class Xdmf {
 
   // ------------------------------------------------------------------------------------- pieces
 
+  [[noreturn]] void failWithoutCells() const {
+    for (int i = 0; i < gridCount(); ++i)
+      if (!at(i).other_file.empty()) failWithoutParts(i);
+    const bool has_others = std::any_of(grids_.begin(), grids_.end(), [](const XdmfGrid& grid) {
+      return grid.topology.has_value();
+    });
+    failFile(Status::kBadData, has_others
+                                   ? "there are grids, but none with cells of three dimensions"
+                                   : "there is no grid with cells");
+  }
+  [[noreturn]] void failWithoutParts(int grid) const {
+    const std::string& file = at(grid).other_file;
+    if (file.empty()) failFile(Status::kBadData, nameOf(grid) + " has no topology or no geometry");
+    failFile(Status::kUnsupported, nameOf(grid) + " includes \"" + cutName(file) +
+                                       "\": topology, geometry and attributes in other XML files "
+                                       "are not read");
+  }
+
   MeshPiece readPiece(int grid) {
     const XdmfTopology* topology = topologyOf(grid);
     const XdmfGeometry* geometry = geometryOf(grid);
     if (!topology || topology->items.empty() || !geometry || geometry->items.empty())
-      failFile(Status::kBadData, nameOf(grid) + " has no topology or no geometry");
+      failWithoutParts(grid);
     if (vtkTypeOfXdmf(topology->type) < 0)
       failFile(Status::kUnsupported, nameOf(grid) + " has a topology of the type \"" +
                                          cutName(topology->type) + "\", which is not read");
@@ -196,6 +214,8 @@ class Xdmf {
 
   void noteLeftOut(int grid) {
     if (at(grid).has_sets) mesh_.addNote("sets of nodes, faces or cells are left out");
+    if (!at(grid).other_file.empty())
+      mesh_.addNote("what a grid includes from other XML files is left out");
     for (const std::string& pointer : at(grid).includes)
       if (pointer.find("Attribute") != std::string::npos || pointer.ends_with("/*)"))
         mesh_.addNote("attributes that a grid includes from another one are left out");

@@ -34,7 +34,9 @@ constexpr size_t kMaxWord = 64, kMaxDirections = 32, kMaxReference = 1024;
 
 class XdmfTree final : XmlFeed {
  public:
-  explicit XdmfTree(ByteSource& bytes) : XmlFeed(bytes, Doctype::kOfPlainEntities) {}
+  explicit XdmfTree(ByteSource& bytes)
+      : XmlFeed(bytes, Doctype::kOfPlainEntities),
+        name_(bytes.name().substr(bytes.name().rfind('/') + 1)) {}
 
   XdmfFile run() {
     feed();
@@ -150,10 +152,17 @@ class XdmfTree final : XmlFeed {
       }
     }
     const char* local = std::strrchr(name, ':');
-    if (std::strcmp(local ? local + 1 : name, "include") == 0)
-      grid.includes.push_back(wordOf(attributes, "xpointer", ""));
+    if (std::strcmp(local ? local + 1 : name, "include") == 0) addInclude(attributes, grid);
     grid.has_sets = grid.has_sets || std::strcmp(name, "Set") == 0;
     return kOther;
+  }
+
+  void addInclude(Attributes attributes, XdmfGrid& grid) const {
+    const std::string file = wordOf(attributes, "href", "");
+    if (file.empty() || file == name_)
+      grid.includes.push_back(wordOf(attributes, "xpointer", ""));
+    else if (grid.other_file.empty())
+      grid.other_file = file;
   }
 
   // Of a word whose numbers are 0, 1, 2 ... unless cells have other points than those of their
@@ -246,6 +255,7 @@ class XdmfTree final : XmlFeed {
     }
   }
 
+  const std::string name_;  // of the file, without its folder
   std::vector<XdmfGrid> grids_;
   std::vector<Open> open_;
   int grid_ = -1;  // that is open

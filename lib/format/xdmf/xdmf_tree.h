@@ -56,6 +56,7 @@ struct XdmfGrid {
   std::optional<XdmfGeometry> geometry;
   std::vector<XdmfAttribute> attributes;
   std::vector<std::string> includes;  // xpointers to what the grid takes from others
+  std::string other_file;             // the first that it takes a part from
   bool has_sets = false;              // of nodes, faces or cells
   std::vector<XdmfItem> times;        // of the grids in it, in a list
   bool has_even_times = false;        // the list is the first one, the step and their number

@@ -1,6 +1,8 @@
 // Sections of Gmsh's files that are there in other forms, or again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gmsh_format.h"
 #include "indexed_testing.h"
 
@@ -50,6 +52,37 @@ TEST(MshSections, OfAnotherMeshAreErrors) {
   const std::string two = "$Elements\n2\n1 4 2 7 1 1 2 3 4\n2 4 2 7 1 1 2 3 4\n$EndElements\n";
   EXPECT_NE(problemOf(openMsh, kHead2 + kNodes2 + kElements2 + kNodes2 + two)
                 .find("a second section of elements, of 2: the first has 1"),
+            std::string::npos);
+}
+
+TEST(MshSections, OfCommentsMayStandBeforeAll) {
+  const std::string comment = "$Comments\nmade by hand\n$EndComments\n";
+  for (const std::string& head : {kHead2, comment + kHead2, comment + comment + kHead2}) {
+    Input input = openText(openMsh, head + kNodes2 + kElements2);
+    EXPECT_EQ(readAll(input).positions, kPlaces);
+  }
+  EXPECT_NE(problemOf(openMsh, comment + kNodes2).find("where $MeshFormat should be"),
+            std::string::npos);
+}
+
+// Format 2.0 has no dimensions there; what follows a name is for other programs.
+TEST(MshSections, OfNamesAreReadInEachForm) {
+  const std::string nodes_and_cells = kNodes2 +
+                                      "$Elements\n2\n1 4 2 7 1 1 2 3 4\n"
+                                      "2 2 2 9 1 1 2 3\n$EndElements\n";
+  const auto namesOf = [&](const std::string& head, const std::string& rows) {
+    const std::string names = "$PhysicalNames\n2\n" + rows + "$EndPhysicalNames\n";
+    return openText(openMsh, head + names + nodes_and_cells).schema().label_names;
+  };
+  const std::vector<LabelName> both = {{"", 9, "wall"}, {"gmsh:physical", 7, "steel bar"}};
+  EXPECT_EQ(namesOf(kHead2, "3 7 \"steel bar\"\n2 9 \"wall\"\n"), both);
+  EXPECT_EQ(namesOf(kHead2, "3 7 \"steel bar\" solid 1\n2 9 \"wall\" lower_dimensional\n"), both);
+  const std::vector<LabelName> any =
+      namesOf("$MeshFormat\n2 0 8\n$EndMeshFormat\n", "7 \"steel bar\"\n900 \"wall\"\n");
+  for (const LabelName& name : {LabelName{"", 900, "wall"}, {"gmsh:physical", 7, "steel bar"}})
+    EXPECT_EQ(std::count(any.begin(), any.end(), name), 1) << name.name;
+  EXPECT_NE(problemOf(openMsh, kHead2 + "$PhysicalNames\n1\n4 1 \"a\"\n$EndPhysicalNames\n")
+                .find("the dimension of a group is 4, not 0 to 3"),
             std::string::npos);
 }
 

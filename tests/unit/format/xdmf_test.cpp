@@ -248,6 +248,19 @@ TEST(Xdmf, RefusesCellsWithOtherPointsThanThoseOfTheirNumbers) {
       has(failureAs("xdmf", with("Order=\"0 2 1 3\"")), "the Order of a Topology is not followed"));
 }
 
+// As Chaste writes them: each part a whole file.
+TEST(Xdmf, NamesTheFileThatAGridTakesPartsFrom) {
+  const std::string cells = "<xi:include href=\"cells_0.xml\"/>";
+  for (const std::string& parts : {cells, kXdmfPoints + cells, cells + kXdmfPoints}) {
+    const std::string problem = failureAs("xdmf", file(uniform("m", parts)));
+    EXPECT_TRUE(has(problem, "grid \"m\" includes \"cells_0.xml\"")) << problem;
+    EXPECT_TRUE(has(problem, "UNSUPPORTED")) << problem;
+  }
+  const VtuMesh mesh = readAs("xdmf", file(uniform("m", kXdmfCells + kXdmfPoints + cells)));
+  EXPECT_EQ(mesh.cells, kTwoCells);
+  EXPECT_TRUE(hasNote(mesh, "what a grid includes from other XML files is left out"));
+}
+
 TEST(Xdmf, SaysWhatIsWrong) {
   const auto failure = [](const std::string& content) {
     return failureAs("xdmf", file(uniform("m", content)));
@@ -259,6 +272,8 @@ TEST(Xdmf, SaysWhatIsWrong) {
   EXPECT_TRUE(has(failureAs("xdmf", file("")), "there is no grid with cells"));
   EXPECT_TRUE(has(failure(kXdmfPoints), "there is no grid with cells"));
   EXPECT_TRUE(has(failure(kXdmfCells), "has no topology or no geometry"));
+  EXPECT_TRUE(has(failure(replaced(kXdmfCells, "Tetrahedron", "Triangle") + kXdmfPoints),
+                  "there are grids, but none with cells of three dimensions"));
   EXPECT_TRUE(has(failure(kXdmfCells + replaced(kXdmfPoints, "XYZ", "XY")),
                   "\"XY\" has no third coordinate"));
   EXPECT_TRUE(has(failure(kXdmfCells + replaced(kXdmfPoints, "5 3", "5 4")), "three coordinates"));
