@@ -41,6 +41,24 @@ static std::string rejectionText(const tetstream_report& r) {
 // neither.
 constexpr double kLargeError = 20;
 
+// An error above so many times the one that was asked for is no chance of the points at which it is
+// estimated.
+constexpr double kAboveAsked = 1.1;
+
+static std::string cautionRow(const tetstream_report& r, double asked_error) {
+  if (asked_error > 0 && r.estimated_error > kAboveAsked * asked_error)
+    return row("caution",
+               textOf("the error is above the %.3g %% that it may have: %s", asked_error,
+                      r.locked_cells > 0
+                          ? "where cells of the input lie on others the values of both count"
+                          : "the last collapses made more than all before, a smaller limit ends "
+                            "before them"));
+  if (r.estimated_error > kLargeError)
+    return row("caution",
+               "the error is large: `tetstream compare` tells where, more cells make it less");
+  return "";
+}
+
 // Percent: less than that is within what a boundary of fewer faces may mean.
 constexpr double kVolumeChange = 0.1;
 
@@ -56,7 +74,7 @@ static std::string errorText(double percent) {
   return textOf("%.3g %% of the range (RMS, estimated)", percent);
 }
 
-std::string reportText(const tetstream_report& r) {
+std::string reportText(const tetstream_report& r, double asked_error) {
   std::string ratio;
   if (r.cells_in > 0)
     ratio =
@@ -78,9 +96,7 @@ std::string reportText(const tetstream_report& r) {
     text += row("passed on", countText(r.locked_cells) + " cells, flat or folded in the input");
   if (r.unused_vertices > 0)
     text += row("left out", countText(r.unused_vertices) + " vertices that are in no cell");
-  if (r.estimated_error > kLargeError)
-    text += row("caution",
-                "the error is large: `tetstream compare` tells where, more cells make it less");
+  text += cautionRow(r, asked_error);
   if (r.reached && *r.reached) text += row("reached", r.reached);
   if (r.limited_by && *r.limited_by) text += row("limited by", oneLine(r.limited_by));
   return text;

@@ -8,7 +8,8 @@
 
 namespace tetstream::cli {
 
-std::string reportText(const tetstream_report& report);
+// `asked_error`: the limit on it, in percent; 0: none.
+std::string reportText(const tetstream_report& report, double asked_error);
 std::string layoutText(const tetstream_layout_report& report);
 // One object with every member of the struct by its name, and the notes.
 std::string layoutJson(const tetstream_layout_report& report,

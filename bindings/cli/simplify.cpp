@@ -42,11 +42,12 @@ static void needPlaces(const Arguments& arguments) {
                                                        a->path.c_str())};
 }
 
-static void printClosing(const Arguments& arguments, const tetstream_report& report,
-                         tetstream_status status, const std::vector<std::string>& notes) {
+static void printClosing(const Arguments& arguments, double asked_error,
+                         const tetstream_report& report, tetstream_status status,
+                         const std::vector<std::string>& notes) {
   if (arguments.quiet && arguments.report.empty()) return;
-  printReport(arguments,
-              arguments.report == "json" ? reportJson(report, status, notes) : reportText(report));
+  printReport(arguments, arguments.report == "json" ? reportJson(report, status, notes)
+                                                    : reportText(report, asked_error));
 }
 
 static void printMissed(const tetstream_report& report) {
@@ -81,7 +82,7 @@ ExitCode simplify(const Arguments& arguments) {
   tetstream_report report = {};
   report.struct_size = sizeof report;
   check(tetstream_simplifier_get_report(handle, &report), handle);
-  printClosing(arguments, report, status, notes);
+  printClosing(arguments, getDouble(options.get(), TETSTREAM_OPTION_ERROR), report, status, notes);
   if (status == TETSTREAM_TARGET_MISSED) printMissed(report);
   return exitCodeOf(status);
 }
