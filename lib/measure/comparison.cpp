@@ -85,16 +85,16 @@ void Comparison::findLeftOut() {
     }
 }
 
-// Integer arrays of one component; of "auto" all that both have are followed, and the first one
-// that labels regions is told.
+// Arrays of one component, of integers or wished for; of "auto" all that both have are followed,
+// and the first one that labels regions is told.
 void Comparison::matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]) {
   const std::string& wish = plan_.regions;
   if (wish == "none") return;
-  const auto labels = [](const Schema& schema, const std::string& name) {
+  const auto labels = [&wish](const Schema& schema, const std::string& name) {
     const int at = findColumn(schema.cell_data, name);
     if (at < 0) return -1;
     const Column& column = schema.cell_data[static_cast<size_t>(at)];
-    return isFloat(column.type) || column.components != 1 ? -1 : at;
+    return (wish == "auto" && isFloat(column.type)) || column.components != 1 ? -1 : at;
   };
   for (const Column& column : original.cell_data) {
     if (wish == "auto" ? namesPartition(column.name) : column.name != wish) continue;
@@ -106,7 +106,8 @@ void Comparison::matchRegions(const Schema& original, const Schema& simplified, 
     plans[1].cell_arrays.push_back(static_cast<size_t>(theirs));
   }
   if (wish != "auto" && region_arrays_.empty())
-    fail(Status::kBadArgument, "\"%s\" is no integer cell array of both meshes", wish.c_str());
+    fail(Status::kBadArgument, "\"%s\" is no cell array of both meshes with one component",
+         wish.c_str());
 }
 
 Comparison::Comparison(const Schema& original, const Schema& simplified, const ComparePlan& plan)

@@ -144,3 +144,21 @@ expect_error 1 "the cut at x = 1e+09 meets no cell: the original lies in -1:1" c
 [[ $(head -c 5 a.svg) == "<?xml" && $(tail -n 1 a.svg) == "</svg>" ]] || fail "a.svg is no SVG"
 [[ $(head -c 4 a.png | tr -d '\0') == $'\x89PNG' ]] || fail "a.png is no PNG"
 only_files in.tets out.vtu cut.tets a.svg a.png
+
+# Labels in floats are regions where they are named, of a simplification and of its comparison.
+printf '%s\n' '# vtk DataFile Version 3.0' halves ASCII 'DATASET UNSTRUCTURED_GRID' 'POINTS 5 float' \
+  '0 0 0 1 0 0 0 1 0 0 0 1 1 1 1' 'CELLS 2 10' '4 0 1 2 3' '4 1 2 3 4' 'CELL_TYPES 2' 10 10 \
+  'CELL_DATA 2' 'SCALARS part float 1' 'LOOKUP_TABLE default' 4 7 'SCALARS heat float 1' \
+  'LOOKUP_TABLE default' 4 7.5 >halves.vtk
+expect 0 simplify halves.vtk halves.tets --ratio 1 --regions part
+contains "$out" $'\nregions       by part'
+expect 0 compare halves.vtk halves.tets --regions part
+contains "$out" "regions, by part: 2, 0 lost"
+contains "$out" "volume of 7"
+expect 0 compare halves.vtk halves.tets
+contains "$out" "regions: none"
+for command in "simplify halves.vtk no.tets --ratio 1" "compare halves.vtk halves.tets"; do
+  expect 2 $command --regions heat
+  contains "$err" 'cell 1 has 7.5 in "heat"'
+done
+[[ ! -e no.tets ]] || fail "what could not be made is there"

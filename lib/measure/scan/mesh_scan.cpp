@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "float_labels.h"
 #include "orient.h"
 #include "status.h"
 #include "triangle.h"
@@ -200,9 +201,14 @@ void MeshScan::takeCells(const BatchView& batch) {
   for (size_t i = 0; i < labels_.size(); ++i) {
     const size_t column = plan_.cell_arrays[i];
     labels_[i].resize(batch.cell_count);
-    if (batch.cell_count > 0)
-      convertScalars(batch.cell_data[column], schema_.cell_data[column].type, labels_[i].data(),
-                     ScalarType::kInt64, batch.cell_count);
+    const Column& array = schema_.cell_data[column];
+    if (batch.cell_count == 0) continue;
+    if (isFloat(array.type))
+      readFloatLabels(array, batch.cell_data[column], 0, batch.cell_count, cells_seen_,
+                      labels_[i].data());
+    else
+      convertScalars(batch.cell_data[column], array.type, labels_[i].data(), ScalarType::kInt64,
+                     batch.cell_count);
   }
   for (size_t c = 0; c < batch.cell_count; ++c) {
     const int64_t* corners = batch.cells + 4 * c;

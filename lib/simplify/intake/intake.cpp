@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "float_labels.h"
 #include "status.h"
 
 namespace tetstream {
@@ -240,8 +241,11 @@ void Intake<S>::takeCellData(size_t row, uint32_t cell) {
     const Column& c = plan.schema.cell_data[i];
     const int offset = plan.cell_data[i].offset;
     if (plan.cell_data[i].treatment == Treatment::kPicked) {
-      readIntegers(batch_.cell_data[i], c.type, row, c.components,
-                   core_.window.cellPicks(cell) + offset);
+      int64_t* const picks = core_.window.cellPicks(cell) + offset;
+      if (isFloat(c.type))
+        readFloatLabels(c, batch_.cell_data[i], row, 1, cells_read_ - row, picks);
+      else
+        readIntegers(batch_.cell_data[i], c.type, row, c.components, picks);
       continue;
     }
     readFloats(batch_.cell_data[i], c.type, row, c.components,

@@ -18,11 +18,7 @@ Regions<S>::Regions(Core<S>& core) : core_(core) {
     fail(Status::kBadArgument, "there is no cell array \"%s\" to take as regions", wish.c_str());
   for (size_t i = 0; i < columns.size(); ++i) {
     if (wish != "auto" && columns[i].name != wish) continue;
-    if (isFloat(columns[i].type)) {
-      if (wish == "auto") continue;
-      fail(Status::kBadArgument, "cell array \"%s\" holds no integers: it labels no regions",
-           wish.c_str());
-    }
+    if (wish == "auto" && isFloat(columns[i].type)) continue;
     if (wish == "auto" && namesPartition(columns[i].name)) {
       partitions_ += (partitions_.empty() ? "" : ", ") + columns[i].name;
       continue;

@@ -10,7 +10,7 @@ namespace tetstream {
 // name: that array; "auto": every integer array, but for those whose labels have few cells each,
 // which are ids, those that differ from cell to cell (scattered.h), and those that tell by their
 // names how a mesh was divided for a run.
-// Says in the report what was taken. Throws kBadArgument for a name that is no integer cell array.
+// Says in the report what was taken. Throws kBadArgument for a name that is no cell array.
 template <class S>
 class Regions {
  public:

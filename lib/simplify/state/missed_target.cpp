@@ -23,7 +23,8 @@ static std::string regionArrays(const Core<S>& core) {
   std::string names;
   for (size_t i = 0; i < core.plan.cell_data.size(); ++i)
     for (const int pick : core.region_picks)
-      if (!isFloat(core.plan.schema.cell_data[i].type) && core.plan.cell_data[i].offset == pick)
+      if (core.plan.cell_data[i].treatment == Treatment::kPicked &&
+          core.plan.cell_data[i].offset == pick)
         names += (names.empty() ? "" : ", ") + core.plan.schema.cell_data[i].name;
   return names;
 }

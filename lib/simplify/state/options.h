@@ -68,6 +68,11 @@ struct SimplifyOptions {
   bool tries_again = true;  // mode queue: edges that were refused, once the window has changed
   // Where nothing else is legal: every edge, also at its ends and its midpoint, and thin cells.
   bool last_resort = true;
+
+  // Whether the cell array is the one that was named.
+  bool takesAsRegions(const std::string& array) const {
+    return regions != "auto" && regions != "none" && array == regions;
+  }
 };
 
 struct Report {

@@ -117,8 +117,9 @@ Plan makePlan(const Schema& schema, const SimplifyOptions& options) {
          "%s",
          options.error, namesOf(schema.fields).c_str());
   for (const Column& c : schema.cell_data) {
-    int& end = isFloat(c.type) ? plan.cell_means : plan.cell_picks;
-    plan.cell_data.push_back({isFloat(c.type) ? Treatment::kCarried : Treatment::kPicked, end});
+    const bool is_picked = !isFloat(c.type) || options.takesAsRegions(c.name);
+    int& end = is_picked ? plan.cell_picks : plan.cell_means;
+    plan.cell_data.push_back({is_picked ? Treatment::kPicked : Treatment::kCarried, end});
     end += c.components;
   }
   return plan;

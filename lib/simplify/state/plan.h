@@ -12,7 +12,7 @@ namespace tetstream {
 enum class Treatment {
   kMeasured,  // part of the quadric metric
   kCarried,   // interpolated along
-  kPicked,    // integers: one of the merged values
+  kPicked,    // integers, and labels of regions: one of the merged values
 };
 
 struct ColumnPlan {

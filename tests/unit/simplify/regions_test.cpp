@@ -442,11 +442,32 @@ TEST(SimplifierRegions, CanBeTurnedOff) {
 
 TEST(SimplifierRegions, AreRefusedWhereThereAreNone) {
   TestMesh mesh = twoMaterials(2);
-  mesh.addCellData({"heat", 1, ScalarType::kFloat32}, [](size_t, int) { return 1.0; });
-  for (const char* wrong : {"materiel", "heat"}) {
-    const auto [status, text] = thrownBy([&] { withRegions(mesh, wrong, 0); });
-    EXPECT_EQ(status, Status::kBadArgument);
-    EXPECT_NE(text.find(wrong), std::string::npos) << text;
+  mesh.addCellData({"heat", 1, k32}, [](size_t c, int) { return c == 7 ? 1.5 : 1.0; });
+  const auto refusal = [&](const char* name) {
+    return thrownBy([&] { withRegions(mesh, name, 0); });
+  };
+  EXPECT_EQ(refusal("materiel").first, Status::kBadArgument);
+  EXPECT_NE(refusal("materiel").second.find("materiel"), std::string::npos);
+  EXPECT_EQ(refusal("heat").first, Status::kBadData);
+  EXPECT_NE(refusal("heat").second.find("cell 7 has 1.5 in \"heat\""), std::string::npos)
+      << refusal("heat").second;
+}
+
+// Some programs write all numbers as floats. Who names such an array has its values picked.
+TEST(SimplifierRegions, MayBeIntegersInFloats) {
+  const TestMesh integers = twoMaterials(5);
+  const Result expected = withRegions(integers, "material", 0);
+  for (const ScalarType type : {k32, k64}) {
+    TestMesh mesh = integers;
+    mesh.addCellData({"floats", 1, type}, [&](size_t c, int) { return mesh.cellValue(0, c); });
+    const Result result = withRegions(mesh, "floats", 0);
+    expectSound(mesh, result);
+    EXPECT_EQ(result.report.regions, "by floats");
+    const TestMesh& out = result.out.mesh;
+    EXPECT_EQ(out.cells, expected.out.mesh.cells);
+    for (size_t c = 0; c < out.cellCount(); ++c)
+      EXPECT_EQ(out.cellValue(2, c), expected.out.mesh.cellValue(0, c));
+    EXPECT_EQ(withRegions(mesh, "auto", 0).report.regions.find("floats"), std::string::npos);
   }
 }
 
