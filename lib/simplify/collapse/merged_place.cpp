@@ -158,7 +158,7 @@ auto MergedPlace<Mesh>::keepVolumes(const Stars& stars, const CellLabels& labels
   core_.kernels.spaceForm(mesh_.quadric(u_), mesh_.quadric(v_), core_.plan.dimension, cost);
   std::copy_n(cost, 6, form);
   bool is_near = volumes_.step(form, stays_, step);
-  if (staysAnywhere() && !(is_near && volumes_.areKept(step))) {
+  if (staysAnywhere() && !(is_near && volumes_.areKeptInPlanes(step))) {
     leavePlanes();
     is_near = volumes_.step(form, stays_, step);
   }

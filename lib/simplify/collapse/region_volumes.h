@@ -49,8 +49,8 @@ class RegionVolumes {
   // region that has but small faces at the vertex, such as one cell, would become a spike. Its
   // error is no help against it, as small faces weigh little.
   bool step(const double form[6], const bool stays[3], double out[3]) const;
-  // Whether they are, a step from x, but for what is not worth a word.
-  bool areKept(const double step[3]) const;
+  // Whether they are, a step from x, but for what is not worth leaving a plane for.
+  bool areKeptInPlanes(const double step[3]) const;
 
  private:
   template <class S, class ChangeOf>

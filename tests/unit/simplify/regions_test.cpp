@@ -290,10 +290,21 @@ TEST(SimplifierRegions, DoNotCostTheBodyWhereTheyKeepTheTargetAway) {
   expectBodyKept(blocks(12, 3), 12, 0.02, 0.75, 10, 1500, "a fifth", "material");
 }
 
-// Nor are the few edges that are legal collapsed at any error where the target is out of reach:
-// that brought 74 cells of 1588, and cost two cubes of a corner and 1.7 times the error.
+// Nor are the few edges that are legal collapsed at any error where the target is out of reach: of
+// five meshes that brought 26 to 59 cells of 2280, in the mean, for three times as much of the
+// corners and 1.2 times the error.
 TEST(SimplifierRegions, DoNotCostTheBodyForNothing) {
-  expectBodyKept(grains(12, 18), 12, 0.1, 0.5, 1.2, 1650, "a tenth", "grain");
+  double lost = 0, error = 0;
+  for (int count = 29; count < 34; ++count) {
+    if (slowRun() && count > 29) continue;
+    const Result result = simplified(grains(12, count), toRatio(0.1));
+    EXPECT_NE(result.report.limited_by.find("a tenth of the range"), std::string::npos);
+    EXPECT_LT(result.report.cells_out, 2450);
+    lost += cornersLost(result.out.mesh, 12);
+    error += result.report.estimated_error;
+  }
+  EXPECT_LT(lost, 5 * 0.8);
+  EXPECT_LT(error, 5 * 0.88);
 }
 
 // Spheres in each other, of cells that have their centres in them, to a number of cells that is
