@@ -22,9 +22,10 @@ MappedCells::MappedCells(const RowChunk& chunk, Account& account)
   for (size_t i = 0; i < chunk.count(); ++i) has_map_[i] = maps_[i].set(chunk.row(i));
 }
 
-FieldDifference::Leaf::Leaf(FieldDifference& whole, SimplexRows& cells)
+FieldDifference::Leaf::Leaf(FieldDifference& whole, SimplexRows& cells, uint64_t others)
     : whole_(whole),
       shape_(cells.shape()),
+      others_(static_cast<double>(others)),
       count_(static_cast<size_t>(cells.count())),
       doubles_(shape_.doubles()),
       copy_(whole.budget_.account),
@@ -90,7 +91,19 @@ void FieldDifference::Leaf::integrate(const MappedCells& others) {
   inPieces(
       whole_.budget_.tasks, count_, kRowsOfPart,
       [&](size_t p, size_t begin, size_t end) { integrateCells(parts_[p], begin, end, others); },
-      [&](size_t parts) { addParts(parts); });
+      [&](size_t parts) {
+        addParts(parts);
+        tellOf(parts * kRowsOfPart, count_, others);
+      });
+}
+
+// Of as many rows, or points, so many were held against some of the others.
+void FieldDifference::Leaf::tellOf(size_t rows, size_t of, const MappedCells& others) {
+  const double share = static_cast<double>(others.count()) / std::max(others_, 1.0) *
+                       std::min(static_cast<double>(rows) / static_cast<double>(of), 1.0);
+  const double cells = std::floor(std::min(share, 1.0) * static_cast<double>(count_));
+  told_ += cells;
+  whole_.tell(cells);
 }
 
 // What is smaller than the largest error so far is not looked for.
@@ -114,18 +127,17 @@ void FieldDifference::Leaf::integrateCells(Part& part, size_t begin, size_t end,
 void FieldDifference::Leaf::addParts(size_t count) {
   for (size_t p = 0; p < count; ++p)
     for (size_t f = 0; f < parts_[p].sums.size(); ++f) whole_.inside_[f].add(parts_[p].sums[f]);
-  whole_.tell(0);
 }
 
-// Work on rows that depend on nothing but themselves.
-template <class Work>
-void FieldDifference::Leaf::inParts(size_t count, Work work) {
+// Work on rows that depend on nothing but themselves; tell(rows) when so many more are done.
+template <class Work, class Tell>
+void FieldDifference::Leaf::inParts(size_t count, Work work, Tell tell) {
   inPieces(
       whole_.budget_.tasks, count, kRowsOfPart,
       [&](size_t, size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) work(i);
       },
-      [&](size_t) { whole_.tell(0); });
+      [&](size_t parts) { tell(parts * kRowsOfPart); });
 }
 
 // The difference is linear on the whole cell: its value at corner i is the cell's own less the
@@ -192,11 +204,13 @@ void FieldDifference::Leaf::sumVolumes() {
       uncovered_[uncovered_count_++] = {static_cast<uint32_t>(i), 0};
     }
   }
-  whole_.tell(static_cast<double>(count_));
+  tellRest();
 }
 
 void FieldDifference::Leaf::markCovered(const MappedCells& others) {
-  inParts(uncovered_count_, [&](size_t n) { lookAt(uncovered_[n], others); });
+  inParts(
+      uncovered_count_, [&](size_t n) { lookAt(uncovered_[n], others); },
+      [&](size_t) { whole_.tell(0); });
 }
 
 // Which of its places are in one of the cells.
@@ -281,7 +295,9 @@ void FieldDifference::Leaf::spreadSamples() {
 }
 
 void FieldDifference::Leaf::locateSamples(const MappedCells& others) {
-  inParts(sample_count_, [&](size_t n) { locate(n, others); });
+  inParts(
+      sample_count_, [&](size_t n) { locate(n, others); },
+      [&](size_t rows) { tellOf(rows, sample_count_, others); });
 }
 
 void FieldDifference::Leaf::locate(size_t n, const MappedCells& others) {
@@ -326,7 +342,7 @@ void FieldDifference::Leaf::takeSamples() {
       if (field.range > 0) sums.histogram.add(std::sqrt(square) / field.range, each);
     }
   }
-  whole_.tell(static_cast<double>(count_));
+  tellRest();
 }
 
 }  // namespace tetstream

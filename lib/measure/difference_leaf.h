@@ -23,6 +23,7 @@ class MappedCells {
   void forEachNear(const double* corners, Visit&& visit) const {
     chunk_.forEachNear(corners, [&](uint32_t i) { visitMapped(i, visit); });
   }
+  size_t count() const { return chunk_.count(); }
   // Whether very many cells have the place as a corner: they may not be near a cell that has it.
   bool isHub(const double place[3]) const { return chunk_.hubs().find(place) != Hubs::kNone; }
 
@@ -39,7 +40,7 @@ class MappedCells {
 
 class FieldDifference::Leaf {
  public:
-  Leaf(FieldDifference& whole, SimplexRows& cells);
+  Leaf(FieldDifference& whole, SimplexRows& cells, uint64_t others);
 
   // Exactly: with each chunk of simplified cells; then, for what they leave over, once more.
   void integrate(const MappedCells& others);
@@ -84,14 +85,18 @@ class FieldDifference::Leaf {
   void integratePair(Part& part, size_t cell, const double* other, const double planes[4][4]);
   void searchMaximum(Part& part, size_t cell, size_t field, const double* differences) const;
   void addParts(size_t count);
+  void tellOf(size_t rows, size_t of, const MappedCells& others);
+  void tellRest() { whole_.tell(static_cast<double>(count_) - told_); }
   void lookAt(Uncovered& cell, const MappedCells& others) const;
   void locate(size_t sample, const MappedCells& others);
-  template <class Work>
-  void inParts(size_t count, Work work);
+  template <class Work, class Tell>
+  void inParts(size_t count, Work work, Tell tell);
   bool keepPlaces(const Uncovered& cell, double volume);
 
   FieldDifference& whole_;
   RowShape shape_;
+  double others_;    // simplified cells in all
+  double told_ = 0;  // of the cells: how many are done
   size_t count_, doubles_;
   Array<double> copy_;  // of the cells, unless they are in core anyway
   const double* rows_;

@@ -161,7 +161,7 @@ void FieldDifference::split(SimplexRows& original, SimplexRows& simplified, int 
 
 void FieldDifference::measureLeaf(SimplexRows& original, SimplexRows& simplified) {
   if (original.count() == 0) return;
-  Leaf leaf(*this, original);
+  Leaf leaf(*this, original, simplified.count());
   const size_t bytes = budget_.bytes / 4, more = sizeof(CellMap) + 1;
   const bool at_once = simplified.count() <= RowChunk::rowsFor(simplified, bytes, more);
   const auto each_chunk = [&](auto&& visit) {

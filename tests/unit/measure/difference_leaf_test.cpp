@@ -60,6 +60,18 @@ TEST(DifferenceLeaf, LooksAtNothingOutsideThatIsCovered) {
   }
 }
 
+// Of a mesh held whole, too, which once was told of at its end alone.
+TEST(DifferenceLeaf, TellsOfItsProgress) {
+  const Valued original = {cubeOf(19), linear(0, 1)}, simplified = {cubeOf(1), linear(0, 1)};
+  ASSERT_GT(original.cells.size(), 2u * 16384);
+  for (const int64_t samples : {int64_t{0}, int64_t{50000}}) {
+    Measuring how;
+    how.sampling.samples = samples;
+    how.sampling.volume = 1;
+    EXPECT_GE(Measured(original, simplified, {}, how).steps(), 3) << samples;
+  }
+}
+
 // Too thin for the places that are spread in the cell: three corners are outside.
 TEST(DifferenceLeaf, CountsAThinVolumeOutsideAtItsCorners) {
   constexpr double kThin = 1e-5, kInner = 1 - kThin;

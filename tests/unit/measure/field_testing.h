@@ -67,13 +67,16 @@ class Measured {
     double shared = 0;
     const auto take = [&](double share) {
       EXPECT_GE(share, shared);
+      steps_ += share > shared;
       shared = share;
     };
     difference_.measure(*rows(original, 4), *rows(simplified, 4), take);
     EXPECT_EQ(shared, original.cells.empty() ? 0 : 1);
+    measured_steps_ = steps_;
     shared = 0;
     difference_.measureOutside(*rows(surface, 3), take);
   }
+  int steps() const { return measured_steps_; }  // of what was told of the progress inside
   const VolumeSums& volumes() const { return difference_.volumes(); }
   const FieldSums& inside(size_t field = 0) const { return difference_.inside(field); }
   const FieldSums& outside(size_t field = 0) const { return difference_.outside(field); }
@@ -81,6 +84,7 @@ class Measured {
  private:
   Account account_;
   FieldDifference difference_;
+  int steps_ = 0, measured_steps_ = 0;
 };
 
 inline void expectVolumes(const Measured& m, const VolumeSums& expected) {
