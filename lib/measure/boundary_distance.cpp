@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "id_hash.h"
+#include "last_met.h"
 #include "random.h"
 #include "row_number.h"
 #include "triangle.h"
@@ -21,9 +21,9 @@ static void addSample(const double* corners, Random& random, NearestPoints& plac
   places.add(place, &is_sample);
 }
 
-static void addPlaces(SimplexRows& from, const SurfaceSampling& s, Account& account,
+static void addPlaces(SimplexRows& from, const SurfaceSampling& s, const DistanceBudget& budget,
                       NearestPoints& places) {
-  IdHash taken(account);  // vertices, which many faces share
+  LastMet vertices(budget.account, budget.bytes);  // which many faces share
   for (uint64_t i = 0; i < from.count(); ++i) {
     const double* corners = from.row(i);
     double centre[3];
@@ -34,9 +34,7 @@ static void addPlaces(SimplexRows& from, const SurfaceSampling& s, Account& acco
     const double wanted = static_cast<double>(s.samples) * share + shareOf(random.next());
     for (int64_t n = 0; n < static_cast<int64_t>(wanted); ++n) addSample(corners, random, places);
     for (int j = 0; j < 3; ++j) {
-      const uint64_t number = numberOf(corners + 3 * j, 3, 0);
-      if (taken.find(number) != kNoSlot) continue;
-      taken.add(number, 0);
+      if (vertices.meet(numberOf(corners + 3 * j, 3, 0))) continue;
       const double is_vertex = 0;
       places.add(corners + 3 * j, &is_vertex);
     }
@@ -48,7 +46,7 @@ DistanceFigures boundaryDistance(SimplexRows& from, SimplexRows& to,
                                  const std::function<void(double)>& share) {
   DistanceFigures figures;
   NearestPoints places(1, 0, budget.temp_dir);
-  addPlaces(from, sampling, budget.account, places);
+  addPlaces(from, sampling, budget, places);
   if (places.count() == 0) return figures;
   const bool is_far = to.count() == 0;
   figures.largest = figures.rms = figures.mean =

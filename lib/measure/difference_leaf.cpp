@@ -4,7 +4,7 @@
 #include <bit>
 #include <cmath>
 
-#include "id_hash.h"
+#include "last_met.h"
 #include "random.h"
 #include "row_number.h"
 #include "vector3.h"
@@ -256,7 +256,7 @@ bool FieldDifference::Leaf::keepPlaces(const Uncovered& u, double volume) {
 }
 
 void FieldDifference::Leaf::keepOutside() {
-  IdHash taken(whole_.budget_.account);  // corners, which many cells share
+  LastMet corners(whole_.budget_.account, whole_.budget_.bytes);  // which many cells share
   for (size_t n = 0; n < uncovered_count_; ++n) {
     const Uncovered& u = uncovered_[n];
     const double volume = volumeOf(u.cell) * (1 - covered_[u.cell]);
@@ -264,9 +264,7 @@ void FieldDifference::Leaf::keepOutside() {
     for (int t = 0; t < kCorners; ++t) {
       if (u.seen >> t & 1) continue;
       const double* place = cell(u.cell) + 3 * t;
-      const uint64_t number = numberOf(place, 3, 0);
-      if (taken.find(number) != kNoSlot) continue;
-      taken.add(number, 0);
+      if (corners.meet(numberOf(place, 3, 0))) continue;
       whole_.addOutside(place, 0, shape_.value(cell(u.cell), static_cast<size_t>(t)));
     }
   }

@@ -162,3 +162,28 @@ for command in "simplify halves.vtk no.tets --ratio 1" "compare halves.vtk halve
   contains "$err" 'cell 1 has 7.5 in "heat"'
 done
 [[ ! -e no.tets ]] || fail "what could not be made is there"
+
+# A plate whose vertices all lie on the boundary: memory does not grow with them.
+n=120
+is_slow && n=40
+awk -v n=$n 'function at(x, y, z) { return (x * (n + 1) + y) * 2 + z }
+  BEGIN {
+    count = 2 * (n + 1) * (n + 1)
+    print "# vtk DataFile Version 3.0\nplate\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS " count " float"
+    for (x = 0; x <= n; ++x) for (y = 0; y <= n; ++y) for (z = 0; z < 2; ++z) print x, y, z / 2
+    print "CELLS " 6 * n * n " " 30 * n * n
+    split("421 412 142 124 241 214", axes, " ")
+    for (x = 0; x < n; ++x) for (y = 0; y < n; ++y) for (k = 1; k <= 6; ++k) {
+      line = "4 " at(x, y, 0)
+      for (bits = j = 0; j < 3; ++j) {
+        bits += substr(axes[k], j + 1, 1)
+        line = line " " at(x + (bits >= 4), y + (int(bits / 2) % 2), bits % 2)
+      }
+      print line
+    }
+    print "CELL_TYPES " 6 * n * n
+    for (c = 0; c < 6 * n * n; ++c) print 10
+  }' >plate.vtk
+expect 0 compare plate.vtk plate.vtk --boundary-samples 1000 --memory $((n * 17000)) --quiet --report json
+(($(member "$out" peak_bytes) < n * 17000)) || fail "--memory is passed: $out"
+[[ $(member "$out" distance) =~ ^[0-9.]+e-|^0 ]] || fail "a plate is off itself: $out"

@@ -11,8 +11,9 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kStarts = 48;  // looked at; a search each
-constexpr size_t kTries = 4;    // of them followed to the end; seven searches each
+constexpr size_t kStarts = 48;        // looked at; a search each
+constexpr size_t kTries = 4;          // of them followed to the end; seven searches each
+constexpr uint32_t kQuick = 1 << 16;  // vertices, that are searched in no time
 constexpr uint32_t kFar = std::numeric_limits<uint32_t>::max();
 
 // Searches of single components, to find good starts.
@@ -31,8 +32,10 @@ class Search {
   }
   uint32_t components() const { return static_cast<uint32_t>(start_.size() - 1); }
 
-  // Starts far from each other, those with the narrowest levels first, kTries at most.
-  void rank(uint32_t component, uint32_t* starts) {
+  // Starts far from each other, those with the narrowest levels first, kTries at most. Calls tell
+  // for each of those that are looked at, of a component that takes its time.
+  void rank(uint32_t component, const std::function<void()>& tell, uint32_t* starts) {
+    const bool is_large = start_[component + 1] - start_[component] > kQuick;
     std::array<std::pair<uint32_t, uint32_t>, kStarts> rated;
     forget(component);
     spread(member_[start_[component]]);
@@ -43,6 +46,7 @@ class Search {
       start = farthest(component);
       width = levelWidth(start);
       spread(start);
+      if (is_large) tell();
     }
     std::stable_sort(rated.begin(), rated.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -112,7 +116,7 @@ void findStarts(const VertexGraph& graph, const Array<uint8_t>& boundary, Accoun
   starts.resize(kTries * size_t{search.components()});
   for (uint32_t c = 0; c < search.components(); ++c) {
     tell();
-    search.rank(c, starts.data() + kTries * c);
+    search.rank(c, tell, starts.data() + kTries * c);
   }
 }
 
