@@ -171,26 +171,32 @@ bool Collapser<Mesh>::mayKeepStrata(const Strata& strata, uint32_t other, const 
   return StrataCondition::mayHold(strata.u, strata.v, ring, strata.embedded, in_labelled);
 }
 
-// Of the stars as gathered.
+// Of the stars as gathered: the faces of the boundary, and those of all sheets where there are
+// others.
 template <class Mesh>
 void Collapser<Mesh>::listSheets(uint32_t u, uint32_t v, const Strata& strata) {
   if (mesh_.isBoundary(u) || mesh_.isBoundary(v)) crossing_.list(u, v, stars_);
-  if (!strata.any()) return;
   const uint8_t* const flags = mesh_.allFlags();
+  has_others_ = strata.any() && ((flags[u] | flags[v]) & kInterface);
   if (core_.inner_sheets) {
     labelled_.u.clear();
     labelled_.v.clear();
     if (flags[u] & kInterface) edge_faces_.list(stars_.u, stars_.ring, labelled_.u);
     if (flags[v] & kInterface) edge_faces_.list(stars_.v, stars_.ring_from_v, labelled_.v);
   }
-  strata_.list(strata.u, strata.v, stars_, flags, strata.embedded, labelled_);
+  if (has_others_) listStrata(strata);
+}
+
+template <class Mesh>
+void Collapser<Mesh>::listStrata(const Strata& strata) {
+  strata_.list(strata.u, strata.v, stars_, mesh_.allFlags(), strata.embedded, labelled_);
 }
 
 // Of the sheets as listed.
 template <class Mesh>
 AxisPlanes<typename Mesh::Scalar> Collapser<Mesh>::planesRound(const Strata& strata) const {
   AxisPlanes<S> planes(place_.roundingOfPlanes());
-  if (!strata.any())
+  if (!has_others_)
     crossing_.addTo(planes);
   else
     strata_.forFaces(strata.u, strata.v, [&](uint32_t x, uint32_t a, uint32_t b) {
@@ -203,7 +209,9 @@ AxisPlanes<typename Mesh::Scalar> Collapser<Mesh>::planesRound(const Strata& str
 template <class Mesh>
 bool Collapser<Mesh>::keepsTopology(uint32_t u, uint32_t v, const Strata& strata) {
   if (!link_.holds({u, mesh_.isBoundary(u)}, {v, mesh_.isBoundary(v)}, stars_)) return false;
-  return !strata.any() || strata_.holds(strata.u, strata.v, strata.embedded);
+  if (!strata.any()) return true;
+  if (!has_others_) listStrata(strata);
+  return strata_.holds(strata.u, strata.v, strata.embedded);
 }
 
 // To the place that sheets and curves want, if that may be had.

@@ -75,6 +75,7 @@ class Collapser {
   Strata strataOf(uint32_t u, uint32_t v) const;
   bool mayKeepStrata(const Strata& strata, uint32_t other, const Star& ring) const;
   void listSheets(uint32_t u, uint32_t v, const Strata& strata);
+  void listStrata(const Strata& strata);
   AxisPlanes<S> planesRound(const Strata& strata) const;
   bool keepsTopology(uint32_t u, uint32_t v, const Strata& strata);
   Outcome test(uint32_t u, uint32_t v, S* error, int64_t least_cells, float most_price);
@@ -128,6 +129,7 @@ class Collapser {
   BoundaryCrossing<Mesh> crossing_;
   EdgeFaces<Mesh> edge_faces_;
   StrataCondition::Labelled labelled_;  // of the edge that is tested
+  bool has_others_ = false;             // sheets beside the boundary, there
   SheetSides sides_;
   Stars stars_;
   MergedPlace<Mesh> place_;
