@@ -45,11 +45,6 @@ Failure usageFailure(std::string sentence, const std::string& command) {
   return {kUsage, sentence + "; see `" + name + " --help`"};
 }
 
-// A word that has to be there.
-void addArgument(CLI::App* command, const char* name, std::string& word, const char* text) {
-  command->add_option(name, word, text)->required()->option_text(" ");
-}
-
 // note: an empty one is a variable of a script that was not set, not what may be left out.
 CLI::Option* addWord(CLI::App* command, const char* name, std::string& word, const char* value,
                      const char* text) {
@@ -57,6 +52,11 @@ CLI::Option* addWord(CLI::App* command, const char* name, std::string& word, con
     return std::string(given.empty() ? "it is empty" : "");
   };
   return command->add_option(name, word, text)->option_text(value)->check(problem);
+}
+
+// A word that has to be there.
+void addArgument(CLI::App* command, const char* name, std::string& word, const char* text) {
+  addWord(command, name, word, " ", text)->required();
 }
 
 // The words of the command line, as CLI11 is told about them.
@@ -95,6 +95,7 @@ class Parser {
   std::string textOfCommand() const;
   std::string helpOf(const std::string& command) const;
   std::string chosenCommand() const;
+  std::string unknownOption() const;
   std::string unexpectedText() const;
   void settleFormats();
 
@@ -424,16 +425,25 @@ std::string Parser::chosenCommand() const {
   return chosen.empty() ? "" : chosen.front()->get_name();
 }
 
+// One that the command does not know, or "". Behind --, all are arguments.
+std::string Parser::unknownOption() const {
+  for (const std::string& word : app_.remaining(true)) {
+    if (word == "--") break;
+    if (word.size() > 1 && word.front() == '-') return word;
+  }
+  return "";
+}
+
 // What the command has no place for: an option that it does not know, before what follows that.
 std::string Parser::unexpectedText() const {
   std::vector<std::string> words = app_.remaining();
   if (!words.empty() && !chosenCommand().empty())
     return "options follow the command, but " + words.front() + " comes before it";
+  if (const std::string option = unknownOption(); !option.empty())
+    return "there is no option " + option;
   words = app_.remaining(true);
-  const auto mark = std::find(words.begin(), words.end(), "--");
-  for (auto word = words.begin(); word != mark; ++word)
-    if (word->size() > 1 && word->front() == '-') return "there is no option " + *word;
-  if (mark != words.end()) words.erase(mark);  // behind it, all are arguments
+  if (const auto mark = std::find(words.begin(), words.end(), "--"); mark != words.end())
+    words.erase(mark);
   return words.empty() ? "there are more words than arguments"
                        : "one argument too many: " + words.front();
 }
@@ -450,7 +460,9 @@ Arguments Parser::parse(int argc, const char* const* argv) {
                        chosenCommand());
   } catch (const CLI::ParseError& error) {
     if (chosenCommand().empty() && argv[1][0] != '-') throw unknownCommand(argv[1]);
-    const bool has_more = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    const bool lacks = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    const bool has_more = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                          (lacks && !unknownOption().empty());
     throw usageFailure(has_more ? unexpectedText() : error.what(), chosenCommand());
   }
   if (version_) {

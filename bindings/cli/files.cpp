@@ -46,8 +46,6 @@ void checkOutput(const Place& out) {
   bool terminal = false;
   if (out.isStandard()) {
     terminal = ::isatty(STDOUT_FILENO) == 1;
-  } else if (out.path.empty()) {
-    throw Failure{kUsage, "the name of the output is empty"};
   } else if (::stat(out.path.c_str(), &info) != 0) {
     checkDirectoryOf(out.path);
   } else if (S_ISDIR(info.st_mode)) {

@@ -33,9 +33,12 @@ refuses 1 "--rato" simplify in.tets old.tets --rato 0.5
 refuses 1 "extra" simplify in.tets old.tets extra --ratio 0.5
 refuses 1 "nonsense" simplify in.tets old.tets --ratio 0.5 --field nonsense
 refuses 1 "density" simplify in.tets old.tets --ratio 0.5 --field density:-1
-refuses 1 "name of the output" simplify in.tets "" --ratio 0.5
+refuses 1 "OUT: it is empty" simplify in.tets "" --ratio 0.5
 refuses 1 "it is empty" simplify in.tets out.tets --ratio 0.5 --map ""
 refuses 1 "it is empty" compare in.tets in.tets --picture ""
+refuses 1 "IN: it is empty" simplify "" out.tets --ratio 0.5
+refuses 1 "there is no option --ratoi" simplify --ratoi 0.5
+refuses 1 "OUT is required" simplify --ratio 0.5 -- -x
 refuses 1 "nonsense" generate nonsense --cells 1000 old.tets
 refuses 1 "cells" generate fluid --cells -5 old.tets
 refuses 1 "--cells" generate fluid old.tets
