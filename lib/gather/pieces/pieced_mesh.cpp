@@ -9,6 +9,7 @@
 #include "label_names.h"
 #include "mixed_cells.h"
 #include "piece_column.h"
+#include "repeated_cells.h"
 #include "rows_at_once.h"
 #include "status.h"
 
@@ -404,6 +405,22 @@ static bool joinsEverywhere(const MeshPieces& mesh, const ReadOptions& options) 
   return false;
 }
 
+// Cells that several pieces have are those of the first.
+static std::unique_ptr<IndexedSource> joinPieces(std::unique_ptr<IndexedSource> mesh,
+                                                 std::shared_ptr<PointJoin> points) {
+  const JoinPlan plan = points->plan();
+  std::shared_ptr<const RepeatedCells> repeated;
+  if (!plan.everywhere) repeated = std::make_shared<RepeatedCells>(*mesh, *points);
+  mesh = joinPoints(std::move(mesh), std::move(points));
+  if (!repeated || repeated->count() == 0) return mesh;
+  if (plan.note)
+    plan.note(
+        textOf("%llu cells that an earlier piece has, too, are left out: no vtkGhostType "
+               "tells of them",
+               static_cast<unsigned long long>(repeated->count())));
+  return withoutCells(std::move(mesh), std::move(repeated));
+}
+
 Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
   JoinPlan plan;
   plan.everywhere = joinsEverywhere(mesh, options);
@@ -428,7 +445,7 @@ Input openPiecedMesh(MeshPieces mesh, const ReadOptions& options) {
   if (joined && !joined->changed()) joined.reset();
   opened->takeCells(joined.get());
   input.indexed = std::move(opened);
-  if (joined) input.indexed = joinPoints(std::move(input.indexed), std::move(joined));
+  if (joined) input.indexed = joinPieces(std::move(input.indexed), std::move(joined));
   return input;
 }
 

@@ -128,6 +128,36 @@ TEST_F(Pvtu, LeavesSlitsOpen) {
   EXPECT_NE(mesh.notes[1].find("at 1 places pieces are not joined"), std::string::npos);
 }
 
+// As Chaste writes halos: both pieces have the second cell, with its corners in another order, and
+// nothing says so. Cells of one piece are as the file has them.
+TEST_F(Pvtu, TakesCellsOfSeveralPiecesOnce) {
+  VtuTestPiece second = twoCellPiece();
+  second.points_element[0].reals = {0, 1, 0, 1, 0, 0, 0, 0, 1, 1, 1, 0.1, 2, 2, 2};
+  second.cells_element[0].integers = {1, 2, 0, 3, 0, 1, 3, 4};
+  second.cell_data[0].integers = {70, 71};
+  for (const size_t copies : {1, 2}) {
+    std::vector<VtuTestPiece> pieces = {twoCellPiece()};
+    pieces.insert(pieces.end(), copies, second);
+    writePieces(pieces);
+    for (const size_t step : {1, 2, 1000}) {
+      const VtuMesh mesh = read(step);
+      EXPECT_EQ(mesh.schema.vertex_count, 6);
+      EXPECT_EQ(mesh.cells, (std::vector<int64_t>{0, 1, 2, 3, 1, 2, 3, 4, 2, 1, 4, 5}));
+      EXPECT_EQ(valuesAs<int32_t>(mesh.cell_data[0]), (std::vector<int32_t>{7, -7, 71}));
+      ASSERT_EQ(mesh.notes.size(), 2u);
+      const std::string wanted =
+          std::to_string(2 * copies - 1) + " cells that an earlier piece has";
+      EXPECT_NE(mesh.notes[1].find(wanted), std::string::npos) << mesh.notes[1];
+    }
+  }
+  VtuTestPiece first = twoCellPiece();
+  first.cells_element[0].integers = {1, 2, 3, 4, 1, 2, 3, 4};
+  second.cells_element[0].integers = {0, 1, 3, 4, 0, 2, 3, 4};
+  writePieces({first, second});
+  EXPECT_EQ(read().schema.cell_count, 4);
+  EXPECT_EQ(read().notes.size(), 1u);
+}
+
 TEST_F(Pvtu, ReadsMorePiecesThanMayBeOpenAtOnce) {
   std::vector<VtuTestPiece> pieces;
   for (int i = 0; i < 70; ++i) pieces.push_back(onePiece(i + 1, 100 + i, true));
