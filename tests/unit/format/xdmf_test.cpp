@@ -195,12 +195,20 @@ TEST(Xdmf, CellsOfSeveralTypesAreSplitAndFacesLabelled) {
       has(failureAs("xdmf", file(uniform("m", bad + kXdmfPoints))), "cell 1 is not there in full"));
 }
 
+// Cells that both have are there once.
 TEST(Xdmf, GridsInSpaceAreJoined) {
-  const VtuMesh mesh = readAs("xdmf", file(collection("parts", "Spatial",
-                                                      uniform("a", kXdmfCells + kXdmfPoints) +
-                                                          uniform("b", kXdmfCells + kXdmfPoints))));
-  EXPECT_EQ(mesh.schema.vertex_count, 5);
-  EXPECT_EQ(mesh.schema.cell_count, 4);
+  const auto both = [](const std::string& points) {
+    return readAs("xdmf", file(collection("parts", "Spatial",
+                                          uniform("a", kXdmfCells + kXdmfPoints) +
+                                              uniform("b", kXdmfCells + points))));
+  };
+  const VtuMesh apart = both(replaced(kXdmfPoints, "0 0 0 1", "2 2 2 1"));
+  EXPECT_EQ(apart.schema.vertex_count, 6);
+  EXPECT_EQ(apart.cells, (std::vector<int64_t>{0, 1, 2, 3, 1, 2, 3, 4, 5, 1, 2, 3}));
+  EXPECT_TRUE(hasNote(apart, "1 cells that an earlier piece has"));
+  const VtuMesh same = both(kXdmfPoints);
+  EXPECT_EQ(same.schema.vertex_count, 5);
+  EXPECT_EQ(same.cells, kTwoCells);
 }
 
 // As those of .pvtu.
