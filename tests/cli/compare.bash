@@ -164,6 +164,7 @@ done
 [[ ! -e no.tets ]] || fail "what could not be made is there"
 
 # A plate whose vertices all lie on the boundary: memory does not grow with them.
+# (With sanitizers a smaller one, which fits either way.)
 n=120
 is_slow && n=40
 awk -v n=$n 'function at(x, y, z) { return (x * (n + 1) + y) * 2 + z }
@@ -184,6 +185,6 @@ awk -v n=$n 'function at(x, y, z) { return (x * (n + 1) + y) * 2 + z }
     print "CELL_TYPES " 6 * n * n
     for (c = 0; c < 6 * n * n; ++c) print 10
   }' >plate.vtk
-expect 0 compare plate.vtk plate.vtk --boundary-samples 1000 --memory $((n * 17000)) --quiet --report json
-(($(member "$out" peak_bytes) < n * 17000)) || fail "--memory is passed: $out"
+expect 0 compare plate.vtk plate.vtk --boundary-samples 1000 --memory 2040000 --quiet --report json
+(($(member "$out" peak_bytes) < 2040000)) || fail "--memory is passed: $out"
 [[ $(member "$out" distance) =~ ^[0-9.]+e-|^0 ]] || fail "a plate is off itself: $out"
