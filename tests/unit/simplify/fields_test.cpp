@@ -392,5 +392,22 @@ TEST(AFieldThatIsSteepAtAWall, KeepsTheWall) {
   EXPECT_LT(lossAtTheWall(result.out.mesh), 0.022);
 }
 
+TEST(SimplifierFields, AreRefusedWhereThereAreNone) {
+  TestMesh mesh = fullGrid(2, 2, 4);
+  addPositionField(mesh, {"f", 1, k64}, front);
+  mesh.addIntegerField("label", [](size_t) { return int64_t{1}; });
+  const auto refusal = [&](const char* name, double weight) {
+    SimplifyOptions options;
+    options.fields = {{name, weight}};
+    return thrownBy([&] { simplified(mesh, options); });
+  };
+  EXPECT_EQ(refusal("f", 1).first, Status::kOk);
+  EXPECT_EQ(refusal("g", 1).first, Status::kBadArgument);
+  EXPECT_NE(refusal("g", 1).second.find("the stream has: f, label"), std::string::npos);
+  EXPECT_EQ(refusal("label", 1).first, Status::kBadArgument);
+  EXPECT_EQ(refusal("f", -1).first, Status::kBadArgument);
+  EXPECT_EQ(refusal("f", std::numeric_limits<double>::quiet_NaN()).first, Status::kBadArgument);
+}
+
 }  // namespace
 }  // namespace tetstream::test
