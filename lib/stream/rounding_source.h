@@ -1,12 +1,12 @@
 // stream: a stream whose float64 positions and fields are rounded to float32, for outputs that hold
 // no more. What is decided on the rounded values then holds for what is written. Depends on
-// source.h.
+// wrapped_mesh.h.
 #pragma once
 
 #include <utility>
 #include <vector>
 
-#include "source.h"
+#include "wrapped_mesh.h"
 
 namespace tetstream {
 
@@ -48,33 +48,16 @@ class RoundingSource final : public Source {
   Rounding rounding_;
 };
 
-class RoundingIndexedSource final : public IndexedSource {
+class RoundingIndexedSource final : public WrappedMesh {
  public:
-  explicit RoundingIndexedSource(IndexedSource& in) : in_(in), rounding_(in.schema()) {}
+  explicit RoundingIndexedSource(IndexedSource& in) : WrappedMesh(in), rounding_(in.schema()) {}
   const Schema& schema() const override { return rounding_.schema(); }
-  bool randomAccess() const override { return in_.randomAccess(); }
-  const uint8_t* locked() const override { return in_.locked(); }
-  uint64_t firstNumber() const override { return in_.firstNumber(); }
-  bool hasOrigins() const override { return in_.hasOrigins(); }
   void readPositions(uint64_t first, size_t count, void* out) override;
   void readField(size_t column, uint64_t first, size_t count, void* out) override;
-  void readCells(uint64_t first, size_t count, int64_t* out) override {
-    in_.readCells(first, count, out);
-  }
-  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
-    in_.readCellData(column, first, count, out);
-  }
-  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
-    in_.readFaces(first, count, corners, labels);
-  }
-  void readOrigins(uint64_t first, size_t count, int64_t* out) override {
-    in_.readOrigins(first, count, out);
-  }
 
  private:
   void readRounded(int column, uint64_t first, size_t count, void* out);
 
-  IndexedSource& in_;
   Rounding rounding_;
   std::vector<double> exact_;
 };

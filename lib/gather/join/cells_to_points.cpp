@@ -2,15 +2,16 @@
 
 #include "point_means.h"
 #include "rows_at_once.h"
+#include "wrapped_mesh.h"
 
 namespace tetstream {
 
 namespace {
 
-class CellsToPoints final : public IndexedSource {
+class CellsToPoints final : public WrappedMesh {
  public:
   CellsToPoints(std::unique_ptr<IndexedSource> mesh, const std::string& temp_dir)
-      : mesh_(std::move(mesh)), temp_dir_(temp_dir), schema_(mesh_->schema()) {
+      : WrappedMesh(*mesh), mesh_(std::move(mesh)), temp_dir_(temp_dir), schema_(mesh_->schema()) {
     own_fields_ = schema_.fields.size();
     for (size_t i = 0; i < schema_.cell_data.size(); ++i) {
       const Column& column = schema_.cell_data[i];
@@ -25,27 +26,9 @@ class CellsToPoints final : public IndexedSource {
 
   const Schema& schema() const override { return schema_; }
   bool randomAccess() const override { return mesh_->randomAccess() && arrays_.empty(); }
-  const uint8_t* locked() const override { return mesh_->locked(); }
-  uint64_t firstNumber() const override { return mesh_->firstNumber(); }
-  bool hasOrigins() const override { return mesh_->hasOrigins(); }
-  void readOrigins(uint64_t first, size_t count, int64_t* out) override {
-    mesh_->readOrigins(first, count, out);
-  }
-  void readPositions(uint64_t first, size_t count, void* out) override {
-    mesh_->readPositions(first, count, out);
-  }
   void readField(size_t column, uint64_t first, size_t count, void* out) override {
     if (column < own_fields_) return mesh_->readField(column, first, count, out);
     meansOf(column - own_fields_).read(first, count, out);
-  }
-  void readCells(uint64_t first, size_t count, int64_t* out) override {
-    mesh_->readCells(first, count, out);
-  }
-  void readCellData(size_t column, uint64_t first, size_t count, void* out) override {
-    mesh_->readCellData(column, first, count, out);
-  }
-  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
-    mesh_->readFaces(first, count, corners, labels);
   }
 
  private:

@@ -7,6 +7,7 @@
 #include "memory.h"
 #include "mix.h"
 #include "point_set.h"
+#include "wrapped_mesh.h"
 
 namespace tetstream {
 
@@ -27,14 +28,22 @@ void forCells(IndexedSource& mesh, Visit visit) {
 }
 
 // Of the points as they are now, those that several pieces have.
-PointSet sharedPoints(IndexedSource& mesh, PointJoin& points, Account& account) {
-  PointSet shared(account, points.count());
-  const int64_t before = mesh.schema().vertex_count;
-  for (int64_t point = 0; point < before; ++point)
-    if (const int64_t first = points.firstOf(point); first != point)
-      shared.add(static_cast<uint64_t>(points.newOf(static_cast<uint64_t>(first))));
-  return shared;
-}
+struct SharedPoints {
+  SharedPoints(IndexedSource& mesh, PointJoin& points, Account& account)
+      : set(account, points.count()) {
+    const int64_t before = mesh.schema().vertex_count;
+    for (int64_t point = 0; point < before; ++point)
+      if (const int64_t first = points.firstOf(point); first != point)
+        count += set.add(static_cast<uint64_t>(points.newOf(static_cast<uint64_t>(first))));
+  }
+  bool has(int64_t point) const { return set.has(static_cast<uint64_t>(point)); }
+  // Of cells with all corners among them there are hardly more than meshes have to a point.
+  uint64_t mostCells(uint64_t cells) const { return std::min(kCellsToAPoint * count, cells); }
+
+  static constexpr uint64_t kCellsToAPoint = 8;
+  PointSet set;
+  uint64_t count = 0;
+};
 
 }  // namespace
 
@@ -64,9 +73,10 @@ RepeatedCells::~RepeatedCells() = default;
 RepeatedCells::RepeatedCells(IndexedSource& mesh, PointJoin& points)
     : cells_(static_cast<uint64_t>(mesh.schema().cell_count)) {
   Account account;
-  const PointSet shared = sharedPoints(mesh, points, account);
+  const SharedPoints shared(mesh, points, account);
+  if (shared.count < 4) return;
   const std::vector<uint64_t>& pieces = points.plan().first_points;
-  Buckets<Row> rows(bucketsFor(cells_, sizeof(Row)), points.plan().temp_dir);
+  Buckets<Row> rows(bucketsFor(shared.mostCells(cells_), sizeof(Row)), points.plan().temp_dir);
   forCells(mesh, [&](uint64_t first, size_t count, const int64_t* corners) {
     for (size_t i = 0; i < count; ++i) {
       Row row{{}, first + i, 0};
@@ -76,7 +86,7 @@ RepeatedCells::RepeatedCells(IndexedSource& mesh, PointJoin& points)
       bool are_shared = true;
       for (size_t j = 0; j < 4 && are_shared; ++j) {
         row.corners[j] = points.newOf(static_cast<uint64_t>(corners[4 * i + j]));
-        are_shared = shared.has(static_cast<uint64_t>(row.corners[j]));
+        are_shared = shared.has(row.corners[j]);
       }
       if (!are_shared) continue;
       std::sort(row.corners.begin(), row.corners.end());
@@ -130,31 +140,17 @@ uint64_t RepeatedCells::oldOf(uint64_t cell) const {
 
 namespace {
 
-class DistinctCells final : public IndexedSource {
+class DistinctCells final : public WrappedMesh {
  public:
   DistinctCells(std::unique_ptr<IndexedSource> mesh, std::shared_ptr<const RepeatedCells> repeated)
-      : mesh_(std::move(mesh)), repeated_(std::move(repeated)), schema_(mesh_->schema()) {
+      : WrappedMesh(*mesh),
+        mesh_(std::move(mesh)),
+        repeated_(std::move(repeated)),
+        schema_(mesh_->schema()) {
     schema_.cell_count -= static_cast<int64_t>(repeated_->count());
   }
 
   const Schema& schema() const override { return schema_; }
-  bool randomAccess() const override { return mesh_->randomAccess(); }
-  const uint8_t* locked() const override { return mesh_->locked(); }
-  uint64_t firstNumber() const override { return mesh_->firstNumber(); }
-  int64_t faceNumber(uint64_t row) override { return mesh_->faceNumber(row); }
-  bool hasOrigins() const override { return mesh_->hasOrigins(); }
-  void readOrigins(uint64_t first, size_t count, int64_t* out) override {
-    mesh_->readOrigins(first, count, out);
-  }
-  void readPositions(uint64_t first, size_t count, void* out) override {
-    mesh_->readPositions(first, count, out);
-  }
-  void readField(size_t column, uint64_t first, size_t count, void* out) override {
-    mesh_->readField(column, first, count, out);
-  }
-  void readFaces(uint64_t first, size_t count, int64_t* corners, int64_t* labels) override {
-    mesh_->readFaces(first, count, corners, labels);
-  }
   void readCells(uint64_t first, size_t count, int64_t* out) override {
     forRuns(first, count,
             [&](uint64_t cell, size_t n, size_t at) { mesh_->readCells(cell, n, out + 4 * at); });

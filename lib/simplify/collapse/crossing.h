@@ -1,5 +1,5 @@
-// simplify/collapse: whether a collapse would push the boundary through itself, or fold it. Depends
-// on mesh.
+// simplify/collapse: whether a collapse would push the boundary through itself, or fold it; and the
+// faces of the boundary round an edge. Depends on mesh, axis_planes.h.
 #pragma once
 
 #include <vector>

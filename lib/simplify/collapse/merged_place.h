@@ -1,5 +1,5 @@
 // simplify/collapse: where two vertices go that become one, and the values that they have there.
-// Depends on core.h, mesh, region_volumes.h, curve_area.h.
+// Depends on core.h, mesh, axis_planes.h, region_volumes.h, curve_area.h.
 #pragma once
 
 #include <algorithm>
