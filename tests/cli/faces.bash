@@ -28,9 +28,10 @@ contains "$err" '4 triangles are labelled faces, by the cell array "part"'
 # Converted there and back, laid out, and through a pipe.
 tetstream convert two.vtu two.tets --quiet
 tetstream convert two.tets back.vtu --quiet
+tetstream convert two.tets back.vtk --quiet
 tetstream layout back.vtu laid.tets --order breadth-first --quiet
 tetstream convert two.vtu - --quiet >piped.tets
-for file in two.tets back.vtu laid.tets piped.tets; do
+for file in two.tets back.vtu back.vtk laid.tets piped.tets; do
   [[ $(labels "$file") == "$wanted" ]] || fail "$file has other labels: $(labels "$file")"
 done
 expect 0 info back.vtu

@@ -5,7 +5,7 @@ A mesh as its authors wrote it, FILE of the folder native, is simplified into ev
 written; what others read in the results has to be, value for value, what was sent:
   sent        what the .sva file says, decoded here: positions, cells, fields, cell data
   vtu         VTK and meshio; labelled faces are those that `tetstream info` counts in the stream
-  vtk, vtkhdf VTK
+  vtk, vtkhdf VTK, with the faces
   msh         meshio and Gmsh, both versions as text and binary; with the faces that VTK found
   mesh, meshb meshio, with the faces; fields: the .sol file decoded here
   svb         decoded here
@@ -160,7 +160,7 @@ def with_vtk(path):
                 corners[starts[tetrahedra][:, None] + np.arange(4)],
                 arrays(grid.GetPointData(), slice(None)),
                 {name: values[tetrahedra] for name, values in data.items()},
-                faces if path.endswith(".vtu") else None)
+                faces)
 
 
 def with_meshio(path):
@@ -469,9 +469,6 @@ class NativeMesh:
                 self.check_svb(path, said)
             else:
                 self.check_ours(kind, path, words)
-            if kind in ("vtk", "vtkhdf") and len(self.faces) > 0:
-                self.checks.expect("labels of boundary faces are left out" in said,
-                                   f"{kind}: faces are dropped without a word")
 
 
 def main():

@@ -1,6 +1,7 @@
 // Writes legacy VTK files, binary, which is big-endian. Version 4.2, which readers old and new
 // understand, has cells of 32 bits; where they do not suffice it is version 5.1. The counts that
-// stand in front are known only at the end, so the arrays go through temporary files.
+// stand in front are known only at the end, so the arrays go through temporary files. Labelled
+// faces are triangles after the tetrahedra.
 #include "vtk_writer.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "dropped_marks.h"
 #include "field_time.h"
 #include "status.h"
+#include "trailing_faces.h"
 #include "vtk_cells.h"
 #include "vtk_format.h"
 
@@ -76,6 +78,7 @@ class VtkWriter final : public Sink {
       : bytes_(std::move(bytes)),
         options_(options),
         dropped_(*bytes_, options, ".vtk"),
+        faces_(*bytes_, options),
         most_int32_(most_int32) {}
 
   void begin(const Schema& schema) override {
@@ -97,12 +100,15 @@ class VtkWriter final : public Sink {
       append(*cell_data_[i], batch.cell_data[i], schema_.cell_data[i], cells);
     vertex_count_ += vertices;
     cell_count_ += cells;
-    dropped_.look(batch);
+    faces_.put(batch, vertex_count_, schema_.cell_data);
+    dropped_.lookAtLocks(batch);
   }
 
   void finish() override {
+    faces_.close();
+    if (faces_.count() > 0) appendFaceData();
     BufferedSink sink(*bytes_);
-    const bool wide = 5 * cell_count_ > most_int32_ || vertex_count_ > most_int32_;
+    const bool wide = listedNumbers() > most_int32_ || vertex_count_ > most_int32_;
     writeText(sink, std::string("# vtk DataFile Version ") + (wide ? "5.1" : "4.2") +
                         "\ntetrahedra, written by tetstream\nBINARY\nDATASET UNSTRUCTURED_GRID\n");
     writeText(sink, "POINTS " + std::to_string(vertex_count_) + " " +
@@ -113,7 +119,7 @@ class VtkWriter final : public Sink {
     writeTypes(sink);
     if (schema_.time) writeTime(sink, *schema_.time);
     writeData(sink, "POINT_DATA ", vertex_count_, schema_.fields, fields_);
-    writeData(sink, "CELL_DATA ", cell_count_, schema_.cell_data, cell_data_);
+    writeData(sink, "CELL_DATA ", cellsOfBothKinds(), schema_.cell_data, cell_data_);
     sink.flush();
     bytes_->commit();
   }
@@ -131,6 +137,23 @@ class VtkWriter final : public Sink {
   }
   static void append(ColumnSpool& spool, const void* values, const Column& column, size_t rows) {
     append(spool, values, column.type, rows * static_cast<size_t>(column.components));
+  }
+
+  uint64_t cellsOfBothKinds() const { return cell_count_ + faces_.count(); }
+  uint64_t connectivity() const { return 4 * cell_count_ + 3 * faces_.count(); }
+  uint64_t listedNumbers() const { return cellsOfBothKinds() + connectivity(); }
+
+  // What only cells of the other kind have is zero.
+  void appendFaceData() {
+    for (size_t i = 0; i < cell_data_.size(); ++i)
+      appendZeros(*cell_data_[i], faces_.count() * schema_.cell_data[i].bytesPerRow());
+    const Column column = TrailingFaces::labels();
+    Spool labels = makeSpool();
+    appendZeros(*labels, cell_count_ * column.bytesPerRow());
+    faces_.forAll(
+        [&](const TrailingFaces::Face& face) { append(*labels, &face.label, column, 1); });
+    schema_.cell_data.push_back(column);
+    cell_data_.push_back(std::move(labels));
   }
 
   static void writeText(BufferedSink& sink, const std::string& text) {
@@ -165,35 +188,44 @@ class VtkWriter final : public Sink {
   }
 
   void writeCells(BufferedSink& sink) {
-    writeText(sink, "CELLS " + std::to_string(cell_count_) + " " + std::to_string(5 * cell_count_) +
-                        "\n");
+    writeText(sink, "CELLS " + std::to_string(cellsOfBothKinds()) + " " +
+                        std::to_string(listedNumbers()) + "\n");
     NumberRun<int32_t> run(sink);
     forCells([&](const int64_t* corners) {
       run.add(4);
       for (int i = 0; i < 4; ++i) run.add(static_cast<uint64_t>(corners[i]));
+    });
+    faces_.forAll([&](const TrailingFaces::Face& face) {
+      run.add(3);
+      for (int64_t v : face.vertices) run.add(static_cast<uint64_t>(v));
     });
     run.flush();
     writeText(sink, "\n");
   }
 
   void writeOffsets(BufferedSink& sink) {
-    writeText(sink, "CELLS " + std::to_string(cell_count_ + 1) + " " +
-                        std::to_string(4 * cell_count_) + "\nOFFSETS vtktypeint64\n");
+    writeText(sink, "CELLS " + std::to_string(cellsOfBothKinds() + 1) + " " +
+                        std::to_string(connectivity()) + "\nOFFSETS vtktypeint64\n");
     NumberRun<int64_t> run(sink);
     for (uint64_t i = 0; i <= cell_count_; ++i) run.add(4 * i);
+    for (uint64_t i = 1; i <= faces_.count(); ++i) run.add(4 * cell_count_ + 3 * i);
     run.flush();
     writeText(sink, "\nCONNECTIVITY vtktypeint64\n");
     forCells([&](const int64_t* corners) {
       for (int i = 0; i < 4; ++i) run.add(static_cast<uint64_t>(corners[i]));
+    });
+    faces_.forAll([&](const TrailingFaces::Face& face) {
+      for (int64_t v : face.vertices) run.add(static_cast<uint64_t>(v));
     });
     run.flush();
     writeText(sink, "\n");
   }
 
   void writeTypes(BufferedSink& sink) {
-    writeText(sink, "CELL_TYPES " + std::to_string(cell_count_) + "\n");
+    writeText(sink, "CELL_TYPES " + std::to_string(cellsOfBothKinds()) + "\n");
     NumberRun<int32_t> run(sink);
     for (uint64_t i = 0; i < cell_count_; ++i) run.add(kVtkTetra);
+    for (uint64_t i = 0; i < faces_.count(); ++i) run.add(kVtkTriangle);
     run.flush();
     writeText(sink, "\n");
   }
@@ -236,6 +268,7 @@ class VtkWriter final : public Sink {
   std::unique_ptr<ByteSink> bytes_;
   WriteOptions options_;
   DroppedMarks dropped_;
+  TrailingFaces faces_;
   uint64_t most_int32_;
   Schema schema_;
   Spool points_, cells_;

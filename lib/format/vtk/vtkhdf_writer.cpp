@@ -1,5 +1,6 @@
 // Writes VTKHDF files, one partition, of version 1.0, which VTK 9.1 and later read. HDF5 goes back
-// and forth in its file, so it works in a temporary one.
+// and forth in its file, so it works in a temporary one. Labelled faces are triangles after the
+// tetrahedra.
 #ifdef TETSTREAM_WITH_HDF5
 #include <sys/stat.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 #include "held_names.h"
 #include "io_error.h"
 #include "status.h"
+#include "trailing_faces.h"
 #include "vtk_cells.h"
 #include "vtk_format.h"
 #include "write_signals.h"
@@ -70,7 +72,10 @@ ValueType valueType(ScalarType type) {
 class VtkHdfWriter final : public Sink {
  public:
   VtkHdfWriter(std::unique_ptr<ByteSink> bytes, const WriteOptions& options)
-      : bytes_(std::move(bytes)), options_(options), dropped_(*bytes_, options, ".vtkhdf") {}
+      : bytes_(std::move(bytes)),
+        options_(options),
+        dropped_(*bytes_, options, ".vtkhdf"),
+        faces_(*bytes_, options) {}
 
   void begin(const Schema& schema) override {
     checkSchema(schema);
@@ -98,20 +103,23 @@ class VtkHdfWriter final : public Sink {
       cell_data_[i]->append(batch.cell_data[i], cells);
     vertex_count_ += vertices;
     cell_count_ += cells;
-    dropped_.look(batch);
+    faces_.put(batch, vertex_count_, schema_.cell_data);
+    dropped_.lookAtLocks(batch);
   }
 
   void finish() override {
     {
       const Hdf5Turn turn;
+      faces_.close();
+      if (faces_.count() > 0) appendFaces();
       points_->finish();
       connectivity_->finish();
       for (const Place& column : fields_) column->finish();
       for (const Place& column : cell_data_) column->finish();
       makeKinds();
       makeCount("NumberOfPoints", vertex_count_);
-      makeCount("NumberOfCells", cell_count_);
-      makeCount("NumberOfConnectivityIds", 4 * cell_count_);
+      makeCount("NumberOfCells", cell_count_ + faces_.count());
+      makeCount("NumberOfConnectivityIds", 4 * cell_count_ + 3 * faces_.count());
       if (schema_.time) makeTime(*schema_.time);
     }
     file_->close();
@@ -146,22 +154,53 @@ class VtkHdfWriter final : public Sink {
     return link;
   }
 
-  // Every cell is a tetrahedron: cell i begins at 4 i in the connectivity.
+  // What only cells of the other kind have is zero.
+  void appendFaces() {
+    for (size_t i = 0; i < cell_data_.size(); ++i)
+      appendZeroRows(*cell_data_[i], schema_.cell_data[i], faces_.count());
+    const Column column = TrailingFaces::labels();
+    Place labels = makeColumn("CellData/" + column.name, valueType(column.type), column.components);
+    appendZeroRows(*labels, column, cell_count_);
+    faces_.forAll([&](const TrailingFaces::Face& face) {
+      connectivity_->append(face.vertices, 3);
+      labels->append(&face.label, 1);
+    });
+    cell_data_.push_back(std::move(labels));
+  }
+
+  static void appendZeroRows(Hdf5Column& out, const Column& column, uint64_t rows) {
+    const std::vector<unsigned char> zeros(kKindsAtOnce * column.bytesPerRow(), 0);
+    while (rows > 0) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(rows, kKindsAtOnce));
+      out.append(zeros.data(), n);
+      rows -= n;
+    }
+  }
+
+  // Where each cell begins in the connectivity, and its end, which is the last one's.
   void makeKinds() {
     const Place offsets = makeColumn("Offsets", ValueType::kInt64, 1);
     const Place types = makeColumn("Types", ValueType::kUInt8, 1);
-    const std::vector<unsigned char> tetrahedra(kKindsAtOnce, kVtkTetra);
-    int64_t made[kKindsAtOnce];
-    for (uint64_t done = 0; done <= cell_count_; done += kKindsAtOnce) {
-      const size_t n =
-          static_cast<size_t>(std::min<uint64_t>(cell_count_ + 1 - done, kKindsAtOnce));
-      for (size_t i = 0; i < n; ++i) made[i] = static_cast<int64_t>(4 * (done + i));
-      offsets->append(made, n);
-      types->append(tetrahedra.data(),
-                    static_cast<size_t>(std::min<uint64_t>(cell_count_ - done, n)));
-    }
+    appendKinds(*offsets, *types, kVtkTetra, 4, cell_count_, 0);
+    const auto tetrahedra = static_cast<int64_t>(4 * cell_count_);
+    appendKinds(*offsets, *types, kVtkTriangle, 3, faces_.count(), tetrahedra);
+    const int64_t end = tetrahedra + static_cast<int64_t>(3 * faces_.count());
+    offsets->append(&end, 1);
     offsets->finish();
     types->finish();
+  }
+
+  static void appendKinds(Hdf5Column& offsets, Hdf5Column& types, unsigned char type,
+                          int64_t points, uint64_t count, int64_t begin) {
+    const std::vector<unsigned char> same(kKindsAtOnce, type);
+    int64_t made[kKindsAtOnce];
+    for (uint64_t done = 0; done < count;) {
+      const auto n = static_cast<size_t>(std::min<uint64_t>(count - done, kKindsAtOnce));
+      for (size_t i = 0; i < n; ++i) made[i] = begin + points * static_cast<int64_t>(done + i);
+      offsets.append(made, n);
+      types.append(same.data(), n);
+      done += n;
+    }
   }
 
   void makeCount(const char* name, uint64_t count) {
@@ -193,6 +232,7 @@ class VtkHdfWriter final : public Sink {
   std::unique_ptr<ByteSink> bytes_;
   WriteOptions options_;
   DroppedMarks dropped_;
+  TrailingFaces faces_;
   Schema schema_;
   std::unique_ptr<Hdf5File> file_;  // before the columns: it outlives them
   Place points_, connectivity_;

@@ -3,17 +3,15 @@
 // faces are triangles after the tetrahedra.
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "dropped_marks.h"
-#include "face_label_column.h"
 #include "field_time.h"
 #include "held_names.h"
-#include "row_spool.h"
 #include "status.h"
 #include "text_number.h"
+#include "trailing_faces.h"
 #include "vtk_cells.h"
 #include "vtk_format.h"
 #include "vtu_spool.h"
@@ -96,7 +94,10 @@ std::string escaped(const std::string& text) {
 class VtuWriter final : public Sink {
  public:
   VtuWriter(std::unique_ptr<ByteSink> bytes, const WriteOptions& options)
-      : bytes_(std::move(bytes)), options_(options), dropped_(*bytes_, options, ".vtu") {}
+      : bytes_(std::move(bytes)),
+        options_(options),
+        dropped_(*bytes_, options, ".vtu"),
+        faces_(*bytes_, options) {}
 
   void begin(const Schema& schema) override {
     checkSchema(schema);
@@ -124,13 +125,14 @@ class VtuWriter final : public Sink {
       cell_data_[i]->append(batch.cell_data[i], cells * schema_.cell_data[i].bytesPerRow());
     vertex_count_ += vertices;
     cell_count_ += cells;
-    if (batch.face_count > 0) putFaces(batch);
+    faces_.put(batch, vertex_count_, schema_.cell_data);
     dropped_.lookAtLocks(batch);
   }
 
   void finish() override {
     makeKinds();
-    if (faces_) appendFaces();
+    faces_.close();
+    if (faces_.count() > 0) appendFaces();
     std::vector<VtuSpool*> order;
     const std::string header = makeHeader(&order);
     BufferedSink sink(*bytes_);
@@ -144,37 +146,11 @@ class VtuWriter final : public Sink {
 
  private:
   using Spool = std::unique_ptr<VtuSpool>;
-  struct Face {
-    int64_t vertices[3], label;
-  };
-  static constexpr SpoolShape kInSequence = {1, 64 << 10};
 
   Spool makeSpool() { return std::make_unique<VtuSpool>(options_.temp_dir, compressor_.get()); }
 
   void note(const std::string& text) {
     if (options_.note) options_.note(bytes_->name() + ": " + text);
-  }
-
-  // They wait for the last tetrahedron.
-  void putFaces(const BatchView& batch) {
-    if (findColumn(schema_.cell_data, kFaceLabelName) >= 0) {
-      if (!noted_faces_)
-        note(std::string("labelled faces are left out: the cell array \"") + kFaceLabelName +
-             "\", which would say their labels, is another");
-      noted_faces_ = true;
-      return;
-    }
-    if (!faces_) faces_ = std::make_unique<RowSpool>(sizeof(Face), options_.temp_dir, kInSequence);
-    for (size_t i = 0; i < batch.face_count; ++i) {
-      const int64_t* v = batch.faces + 3 * i;
-      for (int j = 0; j < 3; ++j)
-        if (static_cast<uint64_t>(v[j]) >= vertex_count_)
-          fail(Status::kBadData, "%s: labelled face %llu names vertex %lld, but %llu have come",
-               bytes_->name().c_str(), static_cast<unsigned long long>(faces_->rows()),
-               static_cast<long long>(v[j]), static_cast<unsigned long long>(vertex_count_));
-      const Face face = {{v[0], v[1], v[2]}, batch.face_labels[i]};
-      faces_->append(&face, 1);
-    }
   }
 
   // A cell's offset is that of its end in the connectivity.
@@ -197,28 +173,19 @@ class VtuWriter final : public Sink {
     }
   }
 
-  static void appendZeros(VtuSpool& spool, uint64_t bytes) {
-    const std::vector<unsigned char> zeros(kMadeAtOnce, 0);
-    for (; bytes > kMadeAtOnce; bytes -= kMadeAtOnce) spool.append(zeros.data(), kMadeAtOnce);
-    spool.append(zeros.data(), static_cast<size_t>(bytes));
-  }
-
   // What only cells of the other kind have is zero.
   void appendFaces() {
-    faces_->finish();
-    const uint64_t count = faces_->rows();
+    const uint64_t count = faces_.count();
     appendKinds(kVtkTriangle, 3, count, static_cast<int64_t>(4 * cell_count_));
     for (size_t i = 0; i < cell_data_.size(); ++i)
       appendZeros(*cell_data_[i], count * schema_.cell_data[i].bytesPerRow());
     Spool labels = makeSpool();
     appendZeros(*labels, cell_count_ * sizeof(int64_t));
-    for (uint64_t i = 0; i < count; ++i) {
-      Face face;
-      std::memcpy(&face, faces_->row(i), sizeof face);
+    faces_.forAll([&](const TrailingFaces::Face& face) {
       connectivity_->append(face.vertices, sizeof face.vertices);
       labels->append(&face.label, sizeof face.label);
-    }
-    schema_.cell_data.push_back({kFaceLabelName, 1, ScalarType::kInt64});
+    });
+    schema_.cell_data.push_back(TrailingFaces::labels());
     cell_data_.push_back(std::move(labels));
     cell_count_ += count;
   }
@@ -291,14 +258,13 @@ class VtuWriter final : public Sink {
   std::unique_ptr<ByteSink> bytes_;
   WriteOptions options_;
   DroppedMarks dropped_;
+  TrailingFaces faces_;
   Schema schema_;
   std::unique_ptr<BlockCompressor> compressor_;
   Spool points_, connectivity_, offsets_, types_;
   std::vector<Spool> fields_, cell_data_;
-  std::unique_ptr<RowSpool> faces_;  // null: there are none
   uint64_t vertex_count_ = 0, cell_count_ = 0, offset_ = 0;
   std::string text_;
-  bool noted_faces_ = false;
 };
 
 }  // namespace

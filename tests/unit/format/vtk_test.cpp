@@ -257,5 +257,25 @@ TEST(Vtk, WrittenInEitherVersionGivesBackEveryArray) {
   }
 }
 
+// Two of each kind are 18 numbers in a file of version 4.2.
+TEST(Vtk, FacesAreWrittenAfterTheCellsAndComeBack) {
+  VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
+  mesh.faces = {0, 1, 2, 2, 4, 3};
+  mesh.face_labels = {-5, int64_t{1} << 40};
+  mesh.schema.face_count = 2;
+  for (const uint64_t most : {kVtkMostInt32, uint64_t{18}, uint64_t{17}}) {
+    std::vector<unsigned char> out;
+    const std::string file =
+        writtenBy(*createVtkWith(createMemory(out), WriteOptions(), most), out, mesh);
+    EXPECT_TRUE(has(file, most == 17 ? "\nCELLS 5 14\nOFFSETS" : "\nCELLS 4 18\n"));
+    EXPECT_TRUE(has(file, "\nCELL_TYPES 4\n" + big<int32_t>({10, 10, 5, 5})));
+    EXPECT_TRUE(has(file, "\nface_label 1 4 long\n" + big<int64_t>({0, 0, -5, 1LL << 40})));
+    const VtuMesh back = readAs("vtk", file);
+    EXPECT_TRUE(back == mesh);
+    ASSERT_EQ(back.notes.size(), 1u);
+    EXPECT_TRUE(hasNote(back, "by the cell array \"face_label\""));
+  }
+}
+
 }  // namespace
 }  // namespace tetstream

@@ -304,5 +304,19 @@ TEST(VtkHdf, TellsWhatTheStorageSaysWhereTheSizeOfADatasetIsRead) {
   }
 }
 
+// Offsets are there once more than cells.
+TEST(VtkHdf, FacesAreWrittenAfterTheCellsAndComeBack) {
+  VtuMesh mesh = readVtu(makeVtu({twoCellPiece()}, {}));
+  mesh.faces = {0, 1, 2, 2, 4, 3};
+  mesh.face_labels = {-5, int64_t{1} << 40};
+  mesh.schema.face_count = 2;
+  for (const bool compress : {false, true}) {
+    const VtuMesh back = readAs("vtkhdf", writtenAs("vtkhdf", mesh, compress));
+    EXPECT_TRUE(back == mesh);
+    ASSERT_EQ(back.notes.size(), 1u);
+    EXPECT_TRUE(hasNote(back, "by the cell array \"face_label\""));
+  }
+}
+
 }  // namespace
 }  // namespace tetstream
