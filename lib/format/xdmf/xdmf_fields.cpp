@@ -18,6 +18,13 @@ std::string shown(const XdmfAttribute& attribute) {
   return textOf("array \"%s\"", cutName(nameOf(attribute)).c_str());
 }
 
+// What has values neither at nodes nor in cells.
+std::string whatOf(const XdmfAttribute& attribute) {
+  if (!sameWord(attribute.center, "Other")) return cutName(attribute.center);
+  return "neither nodes nor cells, as finite elements are "
+         "(FEniCS: write_checkpoint; write gives values at nodes)";
+}
+
 bool hasName(const std::vector<MeshArray>& list, const std::string& name) {
   return std::any_of(list.begin(), list.end(),
                      [&](const MeshArray& other) { return other.name == cutName(name); });
@@ -36,7 +43,7 @@ void XdmfFields::add(const std::vector<XdmfAttribute>& attributes, uint64_t cell
     const uint64_t rows = of_points ? piece_.point_count : cells;
     auto& list = of_points ? piece_.point_data : piece_.cell_data;
     if (!of_points && !sameWord(attribute.center, "Cell"))
-      mesh_.addNote(shown(attribute) + " is left out: it is of " + cutName(attribute.center));
+      mesh_.addNote(shown(attribute) + " is left out: it is of " + whatOf(attribute));
     else if (hasName(list, nameOf(attribute)))
       mesh_.addNote(shown(attribute) + " is left out: there is another one of its name");
     else if (rows > 0)

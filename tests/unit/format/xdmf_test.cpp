@@ -42,7 +42,8 @@ std::string collection(const std::string& name, const char* type, const std::str
 TEST(Xdmf, OneGridIsReadWithItsValues) {
   const std::string text = file(uniform(
       "mesh", kXdmfCells + kXdmfPoints + attribute("p", "1 2 3 4 5") +
-                  attribute("rho", "7 8", "Cell", "2 1") + attribute("g", "1", "Grid", "1")));
+                  attribute("rho", "7 8", "Cell", "2 1") + attribute("g", "1", "Grid", "1") +
+                  attribute("u", "0 1 2 3 1 2 3 4", "Other", "8 1")));
   for (const size_t step : {1, 1000}) {
     const VtuMesh mesh = readAs("xdmf", text, step);
     EXPECT_EQ(mesh.schema.position_type, ScalarType::kFloat64);
@@ -52,6 +53,7 @@ TEST(Xdmf, OneGridIsReadWithItsValues) {
     EXPECT_EQ(valuesAs<float>(mesh.fields[0]), (std::vector<float>{1, 2, 3, 4, 5}));
     EXPECT_EQ(valuesAs<float>(mesh.cell_data[0]), (std::vector<float>{7, 8}));
     EXPECT_TRUE(hasNote(mesh, "array \"g\" is left out: it is of Grid"));
+    EXPECT_TRUE(hasNote(mesh, "array \"u\" is left out: it is of neither nodes nor cells"));
   }
 }
 
