@@ -33,7 +33,7 @@ import vtk_files
 OK, TARGET_MISSED = 0, 5
 FORMATS = ["tets", "vtu", "vtk", "sva", "svb", "msh", "mesh", "meshb"]
 FLOAT32 = ["sva", "svb"]  # rounding is the format's
-HOLD_FACES = ["tets", "vtu", "msh", "mesh", "meshb"]
+HOLD_FACES = ["tets", "vtu", "vtk", "vtkhdf", "msh", "mesh", "meshb"]
 HOLD_LOCKS = ["tets", "mesh", "meshb"]
 
 

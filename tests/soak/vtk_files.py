@@ -39,7 +39,8 @@ def write(path, mesh):
 
 
 class Read:
-    """points, cells, fields and cell_data of a file of tetrahedra."""
+    """points, cells, fields and cell_data of a file of tetrahedra, and behind them triangles: faces,
+    labelled by the cell array face_label, where the tetrahedra and they have 0 of each other's."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
@@ -56,7 +57,7 @@ class Read:
             elif words[0] == "CELLS":
                 self.read_cells(int(words[1]), int(words[2]))
             elif words[0] == "CELL_TYPES":
-                self.values(int(words[1]), "int")
+                self.tell_kinds(self.values(int(words[1]), "int"))
             elif words[0] in ("POINT_DATA", "CELL_DATA"):
                 where = self.fields if words[0] == "POINT_DATA" else self.cell_data
                 count = int(words[1])
@@ -69,6 +70,7 @@ class Read:
             elif words[0] == "FIELD":
                 for _ in range(int(words[2])):
                     self.read_array(where)
+        self.part_cell_data()
 
     def read_array(self, where):
         words = self.line().split()
@@ -80,12 +82,33 @@ class Read:
 
     def read_cells(self, offsets, size):
         if not self.data[self.at:].startswith(b"OFFSETS"):
-            self.cells = self.values(size, "int").reshape(-1, 5)[:, 1:].astype("i8")
+            self.corners, self.counted = self.values(size, "int").astype("i8"), True
             return
         kind = self.line().split()[1]
         self.values(offsets, kind)
         kind = self.line().split()[1]
-        self.cells = self.values(size, kind).reshape(-1, 4).astype("i8")
+        self.corners, self.counted = self.values(size, kind).astype("i8"), False
+
+    def tell_kinds(self, types):
+        """With the number of its corners in front of each cell, where they are counted."""
+        count = int((types == 10).sum())
+        assert (types == numpy.repeat((10, 5), (count, len(types) - count))).all(), "other cells"
+
+        def rows(flat, width):
+            table = flat.reshape(-1, width + self.counted)
+            assert not self.counted or (table[:, 0] == width).all(), "other numbers of corners"
+            return table[:, int(self.counted):]
+        end = count * (4 + self.counted)
+        self.cells, self.faces = rows(self.corners[:end], 4), rows(self.corners[end:], 3)
+
+    def part_cell_data(self):
+        count = len(self.cells)
+        labels = self.cell_data.pop("face_label", numpy.zeros(count, "i8"))
+        self.face_labels = labels[count:]
+        assert not labels[:count].any(), "tetrahedra have labels of faces"
+        for name, array in self.cell_data.items():
+            assert not array[count:].any(), f"triangles have values of {name}"
+            self.cell_data[name] = array[:count]
 
     def line(self):
         end = self.data.find(b"\n", self.at)
