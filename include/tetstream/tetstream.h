@@ -347,7 +347,8 @@ typedef struct tetstream_batch {
   /* Labelled faces of cells, on the boundary, between regions or inside one, each once, and what
      must stay. They come at the latest with the batch in which the first of their vertices gets
      its last use or is finalized; in an indexed mesh, anywhere. Sheets of them keep their shape and
-     topology; curves where they end, meet or change their label are kept like ridges. What is
+     topology; curves where they end, meet or change their label are kept like ridges. A face inside
+     looks, as it is wound, to the side to which it did, one of the boundary outwards. What is
      locked comes out as locked vertices. */
   int64_t face_count;
   const int64_t *faces;         /* [face_count][3] vertex ids */

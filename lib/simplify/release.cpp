@@ -142,13 +142,13 @@ void Release<S>::writeCell(uint32_t cell) {
 
 template <class S>
 void Release<S>::writeFaces(uint32_t cell) {
-  const uint32_t* v = core_.window.mesh.corners(cell);
   for (uint32_t j = 0; j < 4; ++j) {
     const int64_t* label = core_.window.faces.labelOf(4 * cell + j);
     if (!label) continue;
+    const StarCell outwards = core_.window.mesh.starCell(4 * cell + j);
     int64_t corners[3];
     for (int k = 0; k < 3; ++k)
-      corners[k] = static_cast<int64_t>(core_.window.outRank(v[kOpposite[j][k]]));
+      corners[k] = static_cast<int64_t>(core_.window.outRank(outwards.t[k]));
     batch_.addFace(corners, *label);
   }
   core_.window.faces.forgetCell(cell);

@@ -79,8 +79,10 @@ const LabelName* findLabelName(const std::vector<LabelName>& names, const std::s
 
 std::string shownLabelNames(const std::vector<LabelName>& names) {
   std::string text;
-  for (size_t i = 0; i < std::min(names.size(), kShown); ++i)
-    text += std::string(i > 0 ? ", " : "") + whatItNames(names[i]) + " \"" + names[i].name + "\"";
+  for (size_t i = 0; i < std::min(names.size(), kShown); ++i) {
+    text += (i > 0 ? ", " : "") + whatItNames(names[i]);
+    if (!names[i].name.empty()) text += " \"" + names[i].name + "\"";
+  }
   if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
   return text;
 }

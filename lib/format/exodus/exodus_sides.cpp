@@ -12,6 +12,7 @@
 #include "label_column.h"
 #include "point_set.h"
 #include "rows_at_once.h"
+#include "winding.h"
 
 namespace tetstream {
 
@@ -21,7 +22,8 @@ constexpr size_t kBuckets = 64;
 
 struct Row {
   FaceKey key;
-  int64_t element;  // 0: the labelled face itself
+  int32_t element;  // 0: the labelled face itself
+  bool is_down;     // its corners (isWoundDown)
   int64_t side_or_label;
   uint64_t rank;  // of labelled faces
   bool operator<(const Row& other) const {
@@ -35,7 +37,8 @@ class FaceRows {
   Buckets<Row>& buckets() { return buckets_; }
   void add(const int64_t corners[3], int64_t element, int64_t side_or_label, uint64_t rank = 0) {
     const FaceKey key = faceKey(corners);
-    buckets_.add(bucketOf(key, kBuckets), {key, element, side_or_label, rank});
+    buckets_.add(bucketOf(key, kBuckets),
+                 {key, static_cast<int32_t>(element), isWoundDown(corners), side_or_label, rank});
   }
 
  private:
@@ -125,9 +128,11 @@ void ExodusSides::find(MeshSpool& mesh, RowSpool& elements, RowSpool& found) {
         ++left_out_;  // of no cell
         continue;
       }
+      size_t cell = i + 1;
+      while (isAgain(cell) && sorted[cell].is_down != face.is_down) ++cell;
+      const Row& side = sorted[isAgain(cell) ? cell : i + 1];
       const Found row = {face.side_or_label,
-                         {static_cast<int32_t>(sorted[i + 1].element),
-                          static_cast<int32_t>(sorted[i + 1].side_or_label)}};
+                         {side.element, static_cast<int32_t>(side.side_or_label)}};
       found.append(&row, 1);
       ++counts_[row.label];
     }

@@ -15,8 +15,8 @@ struct ExodusSide {
   int32_t element, side;
 };
 
-// The sides that labelled faces are, by label. Of a face of two cells, that of the one whose
-// element comes first. Memory is bounded but for a bit a point.
+// The sides that labelled faces are, by label. Of a face of two cells, that of the one out of which
+// it looks as it is wound. Memory is bounded but for a bit a point.
 class ExodusSides {
  public:
   // `elements`: of each cell, as int64 from 0. Faces whose label is no id are not looked at.

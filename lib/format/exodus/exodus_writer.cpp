@@ -107,8 +107,11 @@ class ExodusWriter final : public MeshCollector {
 
   // Blocks by label, in each the cells in their order.
   void groupCells() {
-    block_column_ = labelColumn(*mesh_, kBlockId,
-                                [this](size_t column) { return canBeGroups(*mesh_, column, 0); });
+    block_column_ = labelColumn(*mesh_, kBlockId, [this](size_t column) {
+      const bool can = canBeGroups(*mesh_, column, 0, INT32_MAX);
+      if (!can && !no_blocks_) no_blocks_ = column;
+      return can;
+    });
     if (block_column_)
       forLabels([this](int64_t label) { ++blocks_[label]; });
     else if (cells() > 0)
@@ -189,11 +192,10 @@ class ExodusWriter final : public MeshCollector {
       note(std::to_string(sides_->leftOut()) +
            " labelled faces are left out: side sets have ids from 1 to 2147483647, and sides of "
            "cells");
-    if (findColumn(schema().cell_data, kBlockId) >= 0 && !block_column_)
-      note(
-          "the labels of \"block_id\" are no ids of blocks, which are 0 to 2147483647, or more "
-          "than "
-          "65536: all cells are block 1");
+    if (no_blocks_ && !block_column_)
+      note("the labels of \"" + schema().cell_data[*no_blocks_].name +
+           "\" are no ids of blocks, which are 0 to 2147483647, or more than 65536: all cells are "
+           "block 1");
     if (is_reordered_ && options().is_mapped)
       note(
           "cells stand in blocks: "
@@ -430,10 +432,10 @@ class ExodusWriter final : public MeshCollector {
   MeshSpool* mesh_ = nullptr;
   ExodusSides* sides_ = nullptr;
   NetcdfWriter* file_ = nullptr;
-  std::optional<size_t> block_column_;
-  std::map<int64_t, uint64_t> blocks_;            // elements by label
-  std::unique_ptr<GroupedRows<uint64_t>> cells_;  // by element
-  std::unique_ptr<RowSpool> elements_;            // by cell, from 0
+  std::optional<size_t> block_column_, no_blocks_;  // which would be, but for its labels
+  std::map<int64_t, uint64_t> blocks_;              // elements by label
+  std::unique_ptr<GroupedRows<uint64_t>> cells_;    // by element
+  std::unique_ptr<RowSpool> elements_;              // by cell, from 0
   // By element, where that is not the order of the cells: corners; the last array that was asked
   // for.
   std::unique_ptr<OrderedRows> corners_, ordered_;

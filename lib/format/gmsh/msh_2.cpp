@@ -14,7 +14,8 @@ constexpr size_t kElementsAtOnce = 256;
 
 void addElement(MshMesh& mesh, CellKind kind, int64_t tag, const int64_t* tags, size_t tag_count,
                 const int64_t* nodes) {
-  mesh.addCell(kind, nodes, tag, tag_count > 0 ? tags[0] : 0, tag_count > 1 ? tags[1] : 0);
+  const int64_t group = tag_count > 0 ? mesh.labelOf(dimensionOf(kind.shape), tags[0]) : 0;
+  mesh.addCell(kind, nodes, tag, group, tag_count > 1 ? tags[1] : 0);
 }
 
 CellKind needKind(MshMesh& mesh, int64_t number) {

@@ -35,9 +35,11 @@ void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
       mesh.numbers.count(mesh.size_bytes, 1, "the number of physical groups of an entity");
   for (uint64_t i = 0; i < groups; ++i) {
     const int64_t group = mesh.numbers.integer(kMshInt, "a physical group of an entity");
-    if (i == 0) mesh.physical[{dimension, tag}] = mesh.labelOf(dimension, std::abs(group));
+    if (i == 0)
+      mesh.physical[{dimension, tag}] = mesh.labelOf(dimension, std::abs(group));
+    else
+      mesh.further_groups.emplace(dimension, std::abs(group));
   }
-  if (groups > 1) mesh.further_groups += groups - 1;
   if (dimension == 0) return;
   const uint64_t bounds =
       mesh.numbers.count(mesh.size_bytes, 1, "the number of bounds of an entity");

@@ -42,9 +42,10 @@ void readMshHint(std::string_view line, MshHints* hints) {
     hints->labels_named = true;
     return;
   }
-  if (what == "zero") {
-    int64_t group;
-    if (parseInteger(takeWord(line), &group) && group > 0) hints->zero_group = group;
+  if (what == "group") {
+    int64_t group, label;
+    if (parseInteger(takeWord(line), &group) && parseInteger(takeWord(line), &label))
+      hints->label_of[group] = label;
     return;
   }
   ScalarType type;

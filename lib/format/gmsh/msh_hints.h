@@ -4,7 +4,7 @@
 //   tetstream position float32
 //   tetstream physical NAME       the cell data that the groups of volumes hold; no name: none
 //   tetstream geometrical NAME    the same for the entities
-//   tetstream zero GROUP          the group of the cells whose label is 0
+//   tetstream group GROUP LABEL   cells in it have this label, which is no group's number
 //   tetstream field int32 NAME    the type of a $NodeData
 //   tetstream cells float32 NAME  the type of an $ElementData
 #pragma once
@@ -24,8 +24,8 @@ constexpr const char* kMshEntity = "gmsh:geometrical";
 struct MshHints {
   ScalarType position_type = ScalarType::kFloat64;
   std::string physical = kMshPhysical, entity = kMshEntity;
-  bool labels_named = false;  // so they are there, even if all of them are 0
-  int64_t zero_group = 0;     // of volumes, whose label is 0; 0: none
+  bool labels_named = false;            // so they are there, even if all of them are 0
+  std::map<int64_t, int64_t> label_of;  // by the group of volumes, where that is another one
   std::map<std::string, ScalarType> fields, cell_data;
 };
 

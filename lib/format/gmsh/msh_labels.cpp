@@ -28,7 +28,7 @@ MshLabels::MshLabels(MeshSpool& mesh, const WriteOptions& options)
     highest = findVolumes();
   }
   chooseTags(highest);
-  if (options.newest) groupZero();
+  groupOthers();
 }
 
 void MshLabels::read(const std::optional<size_t>& column, uint64_t first, size_t count,
@@ -40,10 +40,10 @@ void MshLabels::chooseColumns() {
   const std::vector<Column>& columns = mesh_.schema().cell_data;
   const int entity = findColumn(columns, kMshEntity);
   if (entity >= 0 && isIntegerColumn(columns[static_cast<size_t>(entity)]) &&
-      canBeGroups(mesh_, static_cast<size_t>(entity), 1))
+      canBeGroups(mesh_, static_cast<size_t>(entity), 1, INT32_MAX))
     entity_column_ = static_cast<size_t>(entity);
   group_column_ = labelColumn(mesh_, kMshPhysical, [&](size_t column) {
-    return static_cast<int>(column) != entity && canBeGroups(mesh_, column, 0);
+    return static_cast<int>(column) != entity && canBeGroups(mesh_, column, INT64_MIN, INT64_MAX);
   });
 }
 
@@ -61,8 +61,8 @@ int64_t MshLabels::findVolumes() {
     read(entity_column_, first, n, entities);
     for (size_t i = 0; i < n; ++i) {
       const auto rank = static_cast<int64_t>(volumes_.size());
-      const auto [found, is_new] = volumes_.try_emplace(
-          {groups[i], entities[i]}, MshVolume{0, static_cast<int32_t>(groups[i]), 0, rank});
+      const auto [found, is_new] =
+          volumes_.try_emplace({groups[i], entities[i]}, MshVolume{0, groupOf(groups[i]), 0, rank});
       are_together_ = are_together_ && (is_new || &found->second == last);
       last = &found->second;
       ++last->cells;
@@ -78,12 +78,12 @@ int64_t MshLabels::findVolumes() {
 void MshLabels::chooseTags(int64_t highest) {
   std::set<int64_t> used;
   const auto take = [&](MshVolume& volume, int64_t tag) {
-    if (tag > 0 && used.insert(tag).second) volume.tag = static_cast<int32_t>(tag);
+    if (isGroup(tag) && used.insert(tag).second) volume.tag = static_cast<int32_t>(tag);
   };
   for (auto& [key, volume] : volumes_) {
     const int64_t tag = entity_column_ ? key.second : key.first;
     take(volume, tag);
-    if (!options_.newest && tag > 0) volume.tag = static_cast<int32_t>(tag);
+    if (!options_.newest && isGroup(tag)) volume.tag = static_cast<int32_t>(tag);
   }
   int64_t low = 1;
   for (auto& [key, volume] : volumes_) {
@@ -98,20 +98,33 @@ void MshLabels::chooseTags(int64_t highest) {
   }
 }
 
-// For the same sake, cells of the label 0 beside such with groups, or beside faces, have one of
-// their own, which no label has, not even one that has a name and no cell.
-void MshLabels::groupZero() {
-  std::set<int64_t> used;
-  for (const auto& [key, volume] : volumes_) used.insert(volume.group);
-  if (!group_column_ || used.count(0) == 0 || (used.size() == 1 && surfaces_.empty())) return;
+int32_t MshLabels::groupOf(int64_t label) const {
+  const auto other = groups_of_others_.find(label);
+  if (other != groups_of_others_.end()) return other->second;
+  return isGroup(label) ? static_cast<int32_t>(label) : 0;
+}
+
+// Cells of a label that is no group's number have a group of their own, which no label has, not
+// even one that has a name and no cell. Those of the label 0 have one in version 4.1, for the same
+// sake, beside such with groups, or beside faces.
+void MshLabels::groupOthers() {
+  if (!group_column_) return;
+  std::set<int64_t> used, others;
+  for (const auto& [key, volume] : volumes_) (isGroup(key.first) ? used : others).insert(key.first);
+  if (!options_.newest || (used.empty() && others.size() == 1 && surfaces_.empty()))
+    others.erase(0);
   for (const LabelName& name : mesh_.schema().label_names)
     if (name.array == mesh_.schema().cell_data[*group_column_].name && isGroup(name.label))
       used.insert(name.label);
-  int64_t group = *used.rbegin() < INT32_MAX ? *used.rbegin() + 1 : 1;
-  while (used.count(group) > 0) ++group;
-  zero_group_ = static_cast<int32_t>(group);
-  for (auto& [key, volume] : volumes_)
-    if (volume.group == 0) volume.group = zero_group_;
+  int64_t group = 0;
+  const int64_t above = used.empty() ? 0 : *used.rbegin();
+  if (above <= INT32_MAX - static_cast<int64_t>(kMostGroups)) group = above;
+  for (const int64_t label : others) {
+    do ++group;
+    while (used.count(group) > 0);
+    groups_of_others_[label] = static_cast<int32_t>(group);
+  }
+  for (auto& [key, volume] : volumes_) volume.group = groupOf(key.first);
 }
 
 void MshLabels::findSurfaces() {

@@ -33,8 +33,10 @@ class MshLabels {
   const std::optional<size_t>& entities() const { return entity_column_; }
   bool isLabel(size_t column) const { return column == group_column_ || column == entity_column_; }
   const std::map<std::pair<int64_t, int64_t>, MshVolume>& volumes() const { return volumes_; }
-  // The group of the cells whose label is 0, where others have groups; 0: none.
-  int32_t zeroGroup() const { return zero_group_; }
+  // The groups of the cells whose labels are no groups' numbers.
+  const std::map<int64_t, int32_t>& groupsOfOthers() const { return groups_of_others_; }
+  // That of the cells with a label; 0: none.
+  int32_t groupOf(int64_t label) const;
   // Volumes that have another tag than their cells' entities.
   uint64_t renumbered() const { return renumbered_; }
   // Whether the cells of each volume follow each other.
@@ -66,7 +68,7 @@ class MshLabels {
   void chooseColumns();
   int64_t findVolumes();
   void chooseTags(int64_t highest);
-  void groupZero();
+  void groupOthers();
   void findSurfaces();
 
   MeshSpool& mesh_;
@@ -74,7 +76,7 @@ class MshLabels {
   std::optional<size_t> group_column_, entity_column_;
   std::map<std::pair<int64_t, int64_t>, MshVolume> volumes_;
   bool are_together_ = true;
-  int32_t zero_group_ = 0;
+  std::map<int64_t, int32_t> groups_of_others_;
   uint64_t renumbered_ = 0;
   std::map<int64_t, uint64_t> surfaces_;
   uint64_t faces_ = 0, faces_left_out_ = 0;

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,14 +41,16 @@ struct MshMesh {
   std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
   std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
   uint64_t node_rows = 0, element_rows = 0;              // of the sections
-  uint64_t further_groups = 0;                           // that entities are in beside their first
+  // By dimension and tag, those that entities or elements are in beside their first.
+  std::set<std::pair<int, int64_t>> further_groups;
   // What labels faces: physical groups, if there is a face of one; others have no label then.
   enum class FaceLabels { kEntities, kGroups } face_labels = FaceLabels::kEntities;
 
   void checkTag(int64_t tag) const;  // of a node or an element
   // That a physical group stands for.
   int64_t labelOf(int dimension, int64_t group) const {
-    return dimension == 3 && group == hints.zero_group ? 0 : group;
+    const auto label = dimension == 3 ? hints.label_of.find(group) : hints.label_of.end();
+    return label == hints.label_of.end() ? group : label->second;
   }
   // A cell or a face, by its nodes' tags.
   void addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t group, int64_t entity);

@@ -84,6 +84,7 @@ bool MshMesh::placeElements(const Elements& elements) {
   if (elements.kind.shape != CellShape::kTetra || !intake->mayPlaceCells()) return false;
   if (points->runs() > kMostRuns || static_cast<int32_t>(elements.group) != elements.group)
     return false;
+  if (!version_4 && !hints.label_of.empty()) return false;  // groups are in the rows
   const size_t before = 1 + elements.others, width = elements.width;
   const auto rows =
       numbers.rowsHere(elements.count, width * (before + static_cast<size_t>(elements.kind.nodes)));

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gmsh_format.h"
+#include "label_names.h"
 #include "msh_mesh.h"
 #include "status.h"
 #include "text_number.h"
@@ -177,10 +178,25 @@ class MshReader {
     }
   }
 
+  void noteFurtherGroups() {
+    std::vector<LabelName> groups;
+    for (const auto& group : mesh_.further_groups) {
+      const auto [dimension, tag] = group;
+      const auto name = mesh_.names.find(group);
+      if (dimension > 1)
+        groups.push_back({dimension == 2 ? "" : kMshPhysical, tag,
+                          name != mesh_.names.end() ? name->second : ""});
+    }
+    if (!groups.empty())
+      mesh_.intake->note(
+          "a label is one physical group: where there is another one before them, "
+          "these are left out: " +
+          shownLabelNames(groups));
+  }
+
   // Names of volumes' and surfaces' groups, where those label cells and faces.
   void nameGroups() {
-    if (mesh_.further_groups > 0)
-      mesh_.intake->leaveOut("physical groups of entities that are in another one");
+    noteFurtherGroups();
     std::vector<LabelName> names;
     uint64_t left_out = 0;
     const std::string& physical = mesh_.hints.physical;

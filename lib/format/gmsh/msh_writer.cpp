@@ -93,9 +93,14 @@ class MshWriter final : public MeshCollector {
     if (labels_->facesLeftOut() > 0)
       note(std::to_string(labels_->facesLeftOut()) +
            " labelled faces are left out: physical groups have numbers from 1 to 2147483647");
-    if (labels_->zeroGroup() > 0)
-      note("cells whose label is 0 are the physical group " + std::to_string(labels_->zeroGroup()) +
-           ": groups have numbers from 1");
+    if (const auto& others = labels_->groupsOfOthers(); !others.empty()) {
+      const auto& [label, group] = *others.begin();
+      note("cells whose label is " + std::to_string(label) + " are the physical group " +
+           std::to_string(group) + ": groups have numbers from 1 to 2147483647" +
+           (others.size() > 1 ? "; " + std::to_string(others.size() - 1) +
+                                    " other labels are no such numbers, either"
+                              : ""));
+    }
     if (labels_->renumbered() > 0)
       note("an entity has one group: " + std::to_string(labels_->renumbered()) +
            " have other numbers than \"" + mesh_->schema().cell_data[*labels_->entities()].name +
@@ -163,8 +168,8 @@ class MshWriter final : public MeshCollector {
     };
     label("physical", labels_->groups());
     label("geometrical", labels_->entities());
-    if (labels_->zeroGroup() > 0)
-      text += "tetstream zero " + std::to_string(labels_->zeroGroup()) + "\n";
+    for (const auto& [other, group] : labels_->groupsOfOthers())
+      text += "tetstream group " + std::to_string(group) + " " + std::to_string(other) + "\n";
     for (const Column& c : schema.fields) hint("field", c);
     for (const Column& c : schema.cell_data) hint("cells", c);
     out_->text(text + "$EndComments\n");
@@ -175,8 +180,7 @@ class MshWriter final : public MeshCollector {
     if (name.array.empty()) return {2, MshLabels::isGroup(name.label) ? name.label : 0};
     const auto& column = labels_->groups();
     if (!column || mesh_->schema().cell_data[*column].name != name.array) return {3, 0};
-    if (name.label == 0) return {3, labels_->zeroGroup()};
-    return {3, MshLabels::isGroup(name.label) ? name.label : 0};
+    return {3, labels_->groupOf(name.label)};
   }
 
   void writeNames() {

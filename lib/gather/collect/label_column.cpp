@@ -63,7 +63,7 @@ void readLabels(MeshSpool& mesh, size_t column, uint64_t first, size_t count, in
   convertScalars(raw, mesh.schema().cell_data[column].type, out, ScalarType::kInt64, count);
 }
 
-bool canBeGroups(MeshSpool& mesh, size_t column, int64_t least) {
+bool canBeGroups(MeshSpool& mesh, size_t column, int64_t least, int64_t most) {
   std::set<int64_t> found;
   int64_t last = 0;
   bool any = false, can = true;
@@ -72,7 +72,7 @@ bool canBeGroups(MeshSpool& mesh, size_t column, int64_t least) {
       if (any && rows[i] == last) continue;
       last = rows[i];
       any = true;
-      can = last >= least && last <= INT32_MAX;
+      can = last >= least && last <= most;
       if (can) found.insert(last);
       can = can && found.size() <= kMostGroups;
     }

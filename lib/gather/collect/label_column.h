@@ -18,8 +18,8 @@ std::optional<size_t> labelColumn(MeshSpool& mesh, const char* name,
 
 constexpr size_t kMostGroups = 1 << 16;  // more labels than that are numbers, no groups
 
-// Whether an array of integers can be groups: none below `least` or above 32 bits, not too many.
-bool canBeGroups(MeshSpool& mesh, size_t column, int64_t least);
+// Whether an array of integers can be groups: all from `least` to `most`, not too many.
+bool canBeGroups(MeshSpool& mesh, size_t column, int64_t least, int64_t most);
 
 // Labels of cells, of one array, kRowsAtOnce at most.
 void readLabels(MeshSpool& mesh, size_t column, uint64_t first, size_t count, int64_t* out);

@@ -42,7 +42,7 @@ class LabelMap {
     entry.state = kRemoved;
     --count_;
   }
-  // moved(key, label, &kept): the new key, or false where it is to be forgotten.
+  // moved(key, label&, &kept): the new key, or false where it is to be forgotten.
   template <class Moved>
   void remap(Moved moved) {
     if (count_ > 0) rebuild(count_, moved);

@@ -1,4 +1,4 @@
-// mesh/topology: the labelled faces of the window. Depends on label_map.h.
+// mesh/topology: the labelled faces of the window. Depends on label_map.h, winding.h.
 //
 // A face comes as three vertices, and is then known by a corner: that of a cell, opposite the face.
 // A corner keeps its number while its cell lives, whatever is merged.
@@ -6,6 +6,7 @@
 
 #include "label_map.h"
 #include "topology.h"
+#include "winding.h"
 
 namespace tetstream {
 
@@ -20,19 +21,20 @@ class LabelledFaces {
   const int64_t* expect(uint32_t a, uint32_t b, uint32_t c, int64_t label, int64_t number) {
     const Face face = Face::of(a, b, c);
     if (const Coming* before = coming_.find(face)) return &before->number;
-    coming_.put(face, {label, number});
+    coming_.put(face, {label, number, isDown(a, b, c)});
     return nullptr;
   }
-  // The label of the face with these vertices, opposite a corner and, if there is a cell across it,
-  // opposite `across`; otherwise that is `corner` again. It may have come since it was last asked
-  // for. Null if there is none.
+  // The label of the face with these vertices, which is wound outwards from the cell of the corner
+  // that it is opposite of, and opposite `across`, if there is a cell across it; otherwise that is
+  // `corner` again. It may have come since it was last asked for, and is then known by the corner
+  // of which it is wound outwards, if there is one. Null if there is none.
   const int64_t* labelOf(uint32_t corner, uint32_t across, uint32_t a, uint32_t b, uint32_t c) {
     const Face face = Face::of(a, b, c);
     if (const Coming* coming = coming_.find(face)) {
       if (labelOf(corner) || labelOf(across))
         again_.add(coming->number);
       else
-        of_corner_.put({corner}, coming->label);
+        of_corner_.put({coming->is_down == isDown(a, b, c) ? corner : across}, coming->label);
       coming_.remove(face);
     }
     const int64_t* label = labelOf(corner);
@@ -70,8 +72,10 @@ class LabelledFaces {
   // The window is packed: keep[v] is the new slot of vertex v; cells move to lower ones, in order.
   // What still waits for its cell and loses a vertex has none.
   void remapVertices(const uint32_t* keep) {
-    coming_.remap([&](const Face& f, const Coming& coming, Face* kept) {
-      *kept = Face::of(keep[f.v[0]], keep[f.v[1]], keep[f.v[2]]);
+    coming_.remap([&](const Face& f, Coming& coming, Face* kept) {
+      const uint32_t v[] = {keep[f.v[0]], keep[f.v[1]], keep[f.v[2]]};
+      *kept = Face::of(v[0], v[1], v[2]);
+      coming.is_down ^= isWoundDown(v);
       if (kept->v[2] == kNone) gone_.add(coming.number);
       return kept->v[2] != kNone;
     });
@@ -99,7 +103,12 @@ class LabelledFaces {
 
   struct Coming {
     int64_t label, number;
+    bool is_down;  // its vertices, as they came
   };
+  static bool isDown(uint32_t a, uint32_t b, uint32_t c) {
+    const uint32_t v[] = {a, b, c};
+    return isWoundDown(v);
+  }
 
   LabelMap<Face, Coming> coming_;
   LabelMap<Corner> of_corner_;

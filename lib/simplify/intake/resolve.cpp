@@ -303,14 +303,17 @@ static uint32_t cornerAcross(const Topology& mesh, uint32_t cell, uint32_t v, ui
   return 4 * cell + j;
 }
 
-// Of the face vab of one cell, or of two; null if it has none.
+// Of the face of v and an edge of its link; null if it has none.
 template <class S>
-const int64_t* Resolver<S>::labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a,
+const int64_t* Resolver<S>::labelOf(const LinkEdge* edge, size_t cells, uint32_t v, uint32_t a,
                                     uint32_t b) {
   if (core_.window.faces.empty()) return nullptr;
   const Topology& mesh = core_.window.mesh;
-  return core_.window.faces.labelOf(cornerAcross(mesh, cell, v, a, b),
-                                    cornerAcross(mesh, other, v, a, b), v, a, b);
+  const uint32_t cell = edge[0].cell, other = edge[cells > 1 ? 1 : 0].cell;
+  const uint32_t corner = cornerAcross(mesh, cell, v, a, b);
+  const uint32_t across = cornerAcross(mesh, other, v, a, b);
+  if (edge[0].key & 1) std::swap(a, b);
+  return core_.window.faces.labelOf(corner, across, v, b, a);
 }
 
 // Of the star that was gathered: visit(a, b, first, count) for each edge of its link, with the
@@ -344,16 +347,16 @@ void Resolver<S>::resolveFaces(uint32_t v) {
   forLinkEdges([&](uint32_t a, uint32_t b, const LinkEdge* edge, size_t cells) {
     if (cells == 1) {
       boundary_.push_back(uint64_t{a} << 32 | b);
-      addFace(v, a, b, SheetFace::kOuter, labelOf(edge[0].cell, edge[0].cell, v, a, b));
+      addFace(v, a, b, SheetFace::kOuter, labelOf(edge, cells, v, a, b));
     } else if (cells == 2) {
       if ((edge[0].key & 1) == (edge[1].key & 1)) lockFold(a, b);
-      const int64_t* label = labelOf(edge[0].cell, edge[1].cell, v, a, b);
+      const int64_t* label = labelOf(edge, cells, v, a, b);
       const bool differ = labels.differ(edge[0].cell, edge[1].cell);
       const SheetFace kind = differ ? SheetFace::kInterface : SheetFace::kInner;
       if (differ || label) addFace(v, a, b, kind, label);
     } else {  // a face of three cells or more, with its label if it has one
       lockNonManifold(v);
-      labelOf(edge[0].cell, edge[1].cell, v, a, b);
+      labelOf(edge, cells, v, a, b);
     }
   });
 }

@@ -81,6 +81,10 @@ class Resolver {
   void finishFaces(uint32_t v, bool is_disk, bool folds);
   bool foldsAt(uint32_t v, const std::vector<uint64_t>& faces) const;
   void resolveFaces(uint32_t v);
+  struct LinkEdge {
+    uint64_t key;  // directed, as (low, high, direction)
+    uint32_t cell;
+  };
   template <class Visit>
   void forLinkEdges(Visit visit);
   void pickSamples(const uint32_t* vertices, size_t count);
@@ -94,7 +98,7 @@ class Resolver {
   template <class Visit>
   void forSheetsOf(const std::vector<uint32_t>& vertices, SheetFace kind, Visit visit);
   void addFace(uint32_t v, uint32_t a, uint32_t b, SheetFace kind, const int64_t* label);
-  const int64_t* labelOf(uint32_t cell, uint32_t other, uint32_t v, uint32_t a, uint32_t b);
+  const int64_t* labelOf(const LinkEdge* edge, size_t cells, uint32_t v, uint32_t a, uint32_t b);
   void lockFold(uint32_t a, uint32_t b);
   void lockNonManifold(uint32_t v);
 
@@ -108,10 +112,6 @@ class Resolver {
   // Of each star among the corners, by parts of the cells: where the next one goes. In the end that
   // of the last part is its end.
   std::vector<Array<uint32_t>> next_;
-  struct LinkEdge {
-    uint64_t key;  // directed, as (low, high, direction)
-    uint32_t cell;
-  };
   Array<LinkEdge> edges_;
   std::vector<uint64_t> boundary_;
   using Sampled = typename BalanceSample<S>::Group;

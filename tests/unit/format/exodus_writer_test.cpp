@@ -58,7 +58,7 @@ VtuMesh labelledGrid() {
         low += k != j && grid.positions[3 * static_cast<size_t>(grid.cells[4 * c + k]) + 2] == 0;
       if (low == 3) addFace(c, j, 7);
     }
-  addFace(17, 2, 8);
+  addFace(17, 0, 8);
   mesh.schema.face_count = static_cast<int64_t>(mesh.face_labels.size());
   return mesh;
 }
@@ -210,6 +210,40 @@ TEST(ExodusWriter, VariablesHaveNamesOfTheirOwn) {
   ASSERT_EQ(back.schema.cell_data.size(), 2u);
   EXPECT_EQ(back.schema.cell_data[1].name, "block_id_2");
   EXPECT_EQ(valuesAs<double>(back.cell_data[1])[7], -3);
+}
+
+// Whatever the array is called that would be the blocks.
+TEST(ExodusWriter, TellsOfLabelsThatAreNoBlocks) {
+  VtuMesh mesh = labelledGrid();
+  mesh.schema.label_names.clear();
+  std::vector<int32_t> labels(mesh.cells.size() / 4, 9);
+  labels[3] = -1;
+  mesh.schema.cell_data = {{"region", 1, ScalarType::kInt32}};
+  mesh.cell_data = {packedValues(labels)};
+  std::vector<std::string> notes;
+  const VtuMesh back = readAs("exodus", asExodus(mesh, &notes));
+  EXPECT_TRUE(anyNote(notes, "the labels of \"region\" are no ids of blocks"));
+  ASSERT_EQ(back.schema.cell_data.size(), 2u);
+  EXPECT_EQ(valuesAs<double>(back.cell_data[1])[3], -1);
+}
+
+// A side is of the cell out of which its face looks as it is wound, and is read so.
+TEST(ExodusWriter, FacesInsideLookWhereTheyDid) {
+  VtuMesh mesh = labelledGrid();
+  const auto faceInside = [](const VtuMesh& of) {
+    const auto label = std::find(of.face_labels.begin(), of.face_labels.end(), 8);
+    const auto face = static_cast<size_t>(label - of.face_labels.begin());
+    int64_t corners[3];
+    std::copy_n(&of.faces[3 * face], 3, corners);
+    std::rotate(corners, std::min_element(corners, corners + 3), corners + 3);
+    return std::vector<int64_t>(corners, corners + 3);
+  };
+  for (int way = 0; way < 2; ++way) {
+    std::swap(mesh.faces[mesh.faces.size() - 1], mesh.faces[mesh.faces.size() - 2]);
+    const VtuMesh back = readAs("exodus", asExodus(mesh));
+    ASSERT_EQ(back.face_labels.size(), mesh.face_labels.size());
+    EXPECT_EQ(faceInside(back), faceInside(mesh)) << way;
+  }
 }
 
 TEST(ExodusWriter, OfEqualFacesTheFirstIsKept) {

@@ -274,6 +274,58 @@ TEST(SimplifierFaces, AndRidgesFitTheMemory) {
   }
 }
 
+// Of a face's area as a vector the part along x.
+double alongX(const TestMesh& mesh, const int64_t* face) {
+  const auto edge = [&](size_t k, int axis) {
+    return mesh.position(static_cast<size_t>(face[k]), axis) -
+           mesh.position(static_cast<size_t>(face[0]), axis);
+  };
+  return 0.5 * (edge(1, 1) * edge(2, 2) - edge(1, 2) * edge(2, 1));
+}
+
+// What comes out, with the faces as they are wound.
+class WoundFaces final : public Sink {
+ public:
+  void begin(const Schema& schema) override { kept.begin(schema); }
+  void put(const BatchView& batch) override {
+    kept.put(batch);
+    for (size_t i = 0; i < batch.face_count; ++i)
+      area[batch.face_labels[i]] += alongX(kept.mesh, &batch.faces[3 * i]);
+  }
+  void finish() override { kept.finish(); }
+  Recorder kept;
+  std::map<int64_t, double> area;  // along x, by label
+};
+
+// Two sheets inside look to either side; a side of the boundary, which came both ways, outwards.
+TEST(SimplifierFaces, LookWhereTheyDid) {
+  const int n = 6;
+  FacedMesh in(inStreamOrder(fullGrid(n, n, n)), {});
+  for (const auto& [face, cells] : facesOf(in.mesh.cells)) {
+    Face wound = face;
+    std::set<double> x;
+    for (const int64_t v : face) x.insert(in.mesh.position(static_cast<size_t>(v), 0));
+    if (x.size() > 1 || (*x.begin() != 0 && *x.begin() != 2 && *x.begin() != 4)) continue;
+    const bool looks_up = *x.begin() == 4 || (*x.begin() == 0 && in.labels.size() % 2 == 0);
+    if ((alongX(in.mesh, face.data()) > 0) != looks_up) std::swap(wound[1], wound[2]);
+    in.corners.insert(in.corners.end(), wound.begin(), wound.end());
+    in.labels.push_back(static_cast<int64_t>(*x.begin()));
+  }
+  for (const Way& way : kWays)
+    for (const double ratio : {1.0, 0.3}) {
+      WoundFaces out;
+      Simplifier simplifier(way.toRatio(ratio, 700), out, {});
+      simplifier.begin(in.mesh.schema);
+      simplifier.put(in.view());
+      simplifier.finish();
+      EXPECT_EQ(out.kept.problem, "");
+      ASSERT_EQ(out.area.size(), 3u);
+      EXPECT_NEAR(out.area[0], -n * n, 1e-3);
+      EXPECT_NEAR(out.area[2], -n * n, 1e-3);
+      EXPECT_NEAR(out.area[4], n * n, 1e-3);
+    }
+}
+
 // Those of a large batch come with their cells: the vertices of all would fill the window.
 TEST(SimplifierFaces, WaitInTheBatchForTheirVertices) {
   const Labelled in(slowRun() ? 8 : 12);
