@@ -23,8 +23,11 @@ void skipReals(MshMesh& mesh, size_t count, const char* what) {
 
 void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
   const int64_t tag = mesh.numbers.integer(kMshInt, "the tag of an entity");
+  MshMesh::Entity entity = {0, tag, false};
   if (partitioned) {
-    skipIntegers(mesh, 2, "the parent of an entity");
+    const int64_t parent_dimension = mesh.numbers.integer(kMshInt, "the parent of an entity");
+    entity.label = mesh.numbers.integer(kMshInt, "the parent of an entity");
+    entity.is_between_parts = parent_dimension != dimension;
     const uint64_t parts =
         mesh.numbers.count(mesh.size_bytes, 1, "the number of partitions of an entity");
     skipIntegers(mesh, parts, "a partition of an entity");
@@ -36,10 +39,11 @@ void readEntity(MshMesh& mesh, int dimension, bool partitioned) {
   for (uint64_t i = 0; i < groups; ++i) {
     const int64_t group = mesh.numbers.integer(kMshInt, "a physical group of an entity");
     if (i == 0)
-      mesh.physical[{dimension, tag}] = mesh.labelOf(dimension, std::abs(group));
+      entity.group = mesh.labelOf(dimension, std::abs(group));
     else
       mesh.further_groups.emplace(dimension, std::abs(group));
   }
+  mesh.entities[{dimension, tag}] = entity;
   if (dimension == 0) return;
   const uint64_t bounds =
       mesh.numbers.count(mesh.size_bytes, 1, "the number of bounds of an entity");
@@ -134,7 +138,10 @@ void readRows40(MshMesh& mesh, uint64_t first, uint64_t count, size_t parameters
 
 void readEntities4(MshMesh& mesh, bool partitioned) {
   if (partitioned) {
-    mesh.numbers.integer(mesh.size_bytes, "the number of partitions");
+    const int64_t parts = mesh.numbers.integer(mesh.size_bytes, "the number of partitions");
+    if (mesh.options.note)
+      mesh.options.note(mesh.file.name() + ": which of the " + std::to_string(parts) +
+                        " parts of a partition cells are in is left out");
     const uint64_t ghosts = mesh.numbers.count(mesh.size_bytes, 2, "the number of ghost entities");
     skipIntegers(mesh, 2 * ghosts, "a ghost entity");
   }
@@ -181,11 +188,12 @@ void readElements4(MshMesh& mesh) {
     if (!kind)
       mesh.file.failHere(Status::kUnsupported,
                          "elements of type " + std::to_string(head.more) + ", which is not known");
-    const auto found = mesh.physical.find({head.dimension, head.entity});
-    const int64_t group = found == mesh.physical.end() ? 0 : found->second;
+    const auto found = mesh.entities.find({head.dimension, head.entity});
+    const MshMesh::Entity entity =
+        found != mesh.entities.end() ? found->second : MshMesh::Entity{0, head.entity, false};
     const uint64_t rows = rowsOfBlock(mesh, left, "the number of elements of a block");
     left -= rows;
-    if (mesh.placeElements({*kind, rows, bytes, 0, group, head.entity})) continue;
+    if (mesh.placeElements({*kind, rows, bytes, 0, entity.group, entity.label})) continue;
     const size_t width = 1 + static_cast<size_t>(kind->nodes);
     elements.resize(width * kRowsAtOnce);
     mesh.numbers.expectRows(rows, {{{false, width}}});
@@ -195,7 +203,10 @@ void readElements4(MshMesh& mesh) {
       for (size_t i = 0; i < n; ++i) {
         const int64_t* row = &elements[i * width];
         mesh.checkTag(row[0]);
-        mesh.addCell(*kind, row + 1, row[0], group, head.entity);
+        if (entity.is_between_parts)
+          mesh.intake->leaveOut("elements between the parts of a partition");
+        else
+          mesh.addCell(*kind, row + 1, row[0], entity.group, entity.label);
       }
       done += n;
     }

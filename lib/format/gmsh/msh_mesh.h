@@ -39,8 +39,14 @@ struct MshMesh {
   std::shared_ptr<TagTable> points;                      // by Gmsh's tags, as ranks
   TagTable cells;                                        // the same; see finishCells
   std::map<std::pair<int, int64_t>, std::string> names;  // of physical groups, by dimension and tag
-  std::map<std::pair<int, int64_t>, int64_t> physical;   // the group of an entity
-  uint64_t node_rows = 0, element_rows = 0;              // of the sections
+  // An entity of version 4: its group, and what it is labelled with, which is its tag; of a part of
+  // a partitioned one the tag of that.
+  struct Entity {
+    int64_t group, label;
+    bool is_between_parts;  // where nothing is but that the mesh was divided there
+  };
+  std::map<std::pair<int, int64_t>, Entity> entities;  // by dimension and tag
+  uint64_t node_rows = 0, element_rows = 0;            // of the sections
   // By dimension and tag, those that entities or elements are in beside their first.
   std::set<std::pair<int, int64_t>> further_groups;
   // What labels faces: physical groups, if there is a face of one; others have no label then.

@@ -102,11 +102,12 @@ bool MergedPlace<Mesh>::putOnCurve(bool u_on_it, bool v_on_it) {
       off += d * d;
     }
     if (!(off <= kOnEdge * kOnEdge * square)) return false;
+    if (std::fabs(t) >= 0.5 - kOnEdge) t = std::copysign(0.5, t);  // a corner, but for rounding
   }
   S step[3];
   for (size_t i = 0; i < 3; ++i) step[i] = static_cast<S>(t * along[i]) - z_[i];
   moveBy(step);
-  if (u_on_it != v_on_it) std::copy_n(mesh_.values(v_on_it ? v_ : u_), 3, values_.data());
+  if (std::fabs(t) == 0.5) std::copy_n(mesh_.values(t > 0 ? v_ : u_), 3, values_.data());
   return true;
 }
 

@@ -195,5 +195,30 @@ TEST(MshSections, OfFormat40AreRead) {
   }
 }
 
+// Cells and faces are of the entities that were divided. Faces between parts are none, whether an
+// entity lies there, too, or not.
+TEST(MshSections, OfPartitionsTellOfTheWhole) {
+  const char text[] =
+      "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+      "$Entities\n0 0 2 1\n1 0 0 0 1 1 1 1 9 0\n2 0 0 0 1 1 1 1 8 0\n1 0 0 0 1 1 1 1 4 0\n"
+      "$EndEntities\n"
+      "$PartitionedEntities\n2\n0\n0 0 3 2\n"
+      "11 2 1 1 1 0 0 0 1 1 1 1 9 0\n12 3 1 2 1 2 0 0 0 1 1 1 1 4 0\n"
+      "13 2 2 1 2 0 0 0 1 1 1 1 8 0\n"
+      "21 3 1 1 1 0 0 0 1 1 1 1 4 0\n22 3 1 1 2 0 0 0 1 1 1 1 4 0\n$EndPartitionedEntities\n"
+      "$Nodes\n1 5 1 5\n3 21 0 5\n1\n2\n3\n4\n5\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n$EndNodes\n"
+      "$Elements\n5 5 1 5\n2 11 2 1\n1 1 2 3\n2 12 2 1\n2 2 3 4\n2 13 2 1\n3 2 3 4\n"
+      "3 21 4 1\n4 1 2 3 4\n3 22 4 1\n5 2 3 4 5\n$EndElements\n";
+  std::vector<std::string> notes;
+  Input input = openText(openMsh, text, {}, &notes);
+  const SvMesh m = readAll(input);
+  ASSERT_EQ(m.schema.cell_data.size(), 2u);
+  EXPECT_EQ(m.cell_data[0], (std::vector<double>{4, 4}));
+  EXPECT_EQ(m.cell_data[1], (std::vector<double>{1, 1}));
+  EXPECT_EQ(facesOf(input), (std::vector<TestFace>{{0, 1, 2, 9}, {1, 2, 3, 8}}));
+  EXPECT_TRUE(anyNote(notes, "which of the 2 parts of a partition cells are in is left out"));
+  EXPECT_TRUE(anyNote(notes, "1 elements between the parts of a partition are left out"));
+}
+
 }  // namespace
 }  // namespace tetstream

@@ -274,6 +274,27 @@ TEST(SimplifierFaces, AndRidgesFitTheMemory) {
   }
 }
 
+// The curve between an inlet and the walls has corners of its own, which are those of the body.
+TEST(SimplifierFaces, OfADuctMeetAtItsCorners) {
+  Labelled in(slowRun() ? 6 : 8);
+  for (auto& [face, label] : in.labels) label = std::min<int64_t>(label, 3);
+  for (const double ratio : {0.3, 0.1}) {
+    const Faced result = simplified(in, toRatio(ratio), 4096);
+    int corners = 0;
+    for (size_t v = 0; v < result.out.mesh.vertexCount(); ++v) {
+      int on = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double x = result.out.mesh.position(v, axis), end = x > 1 ? in.n[0] : 0;
+        if (std::fabs(x - end) > 1e-3) continue;
+        EXPECT_EQ(x, end);
+        ++on;
+      }
+      corners += on == 3;
+    }
+    EXPECT_EQ(corners, 8);
+  }
+}
+
 // Of a face's area as a vector the part along x.
 double alongX(const TestMesh& mesh, const int64_t* face) {
   const auto edge = [&](size_t k, int axis) {
