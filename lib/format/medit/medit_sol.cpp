@@ -32,11 +32,14 @@ std::vector<int> readTypes(MeditScan& scan) {
 
 struct ReadSolution {
   size_t data, start, components;  // start: in a row
+  bool isSymmetric() const { return components == 6; }
 };
 
 // Whether the rows can be read where they lie.
 bool place(MeditScan& scan, MeshIntake& intake, const std::vector<ReadSolution>& solutions,
            uint64_t count, size_t width) {
+  for (const ReadSolution& s : solutions)
+    if (s.isSymmetric()) return false;
   const auto rows = scan.rowsHere(count, 0, width);
   if (!rows) return false;
   const auto window = std::make_shared<FileWindow>(rows->file);
@@ -47,6 +50,13 @@ bool place(MeditScan& scan, MeshIntake& intake, const std::vector<ReadSolution>&
   }
   scan.pass(*rows, "the values of a solution");
   return true;
+}
+
+void put(MeshIntake& intake, const ReadSolution& s, uint64_t row, const double* values) {
+  if (!s.isSymmetric()) return intake.putData(s.data, row, values);
+  double in_order[6];
+  for (int k = 0; k < 6; ++k) in_order[k] = values[kMeditSymmetric[k]];
+  intake.putData(s.data, row, in_order);
 }
 
 }  // namespace
@@ -76,8 +86,7 @@ void MeditSolutions::read(MeditScan& scan, MeshIntake& intake, const MeditRows& 
   scan.expectRows(count, {{{true, width}}});
   for (uint64_t i = 0; i < count; ++i) {
     scan.reals(values.data(), width, "a value of a solution");
-    for (const ReadSolution& s : solutions)
-      intake.putData(s.data, first + i, values.data() + s.start);
+    for (const ReadSolution& s : solutions) put(intake, s, first + i, values.data() + s.start);
   }
 }
 

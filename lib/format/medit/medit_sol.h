@@ -25,6 +25,10 @@ class MeditSolutions {
   size_t fields_ = 0, cell_data_ = 0;  // so far
 };
 
+// Of the components of a symmetric matrix, xx, yy, zz, xy, yz and xz as elsewhere, each one's place
+// in the file: xx, xy, yy, xz, yz, zz.
+constexpr int kMeditSymmetric[6] = {0, 2, 5, 1, 4, 3};
+
 constexpr const char* kMeditReference = "medit:ref";  // labels, as others call them, too
 
 // PATH.sol or PATH.solb for PATH.mesh, PATH.solb or PATH.sol for PATH.meshb; null: neither is

@@ -1,6 +1,7 @@
 // Writes MEDIT's meshes, text (.mesh, version 2) or binary (.meshb, versions 1 to 4 as the numbers
 // need), and fields as solutions in a file beside.
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "label_column.h"
@@ -78,6 +79,13 @@ class MeditOut {
   NumberSink out_;
   int version_;
 };
+
+// The component at each place of a symmetric matrix in the file.
+constexpr auto kSymmetricOf = [] {
+  std::array<int, 6> components{};
+  for (int k = 0; k < 6; ++k) components[static_cast<size_t>(kMeditSymmetric[k])] = k;
+  return components;
+}();
 
 // A part of a column as MEDIT has it: scalars, vectors, symmetric and full matrices.
 struct Solution {
@@ -310,8 +318,9 @@ class MeditWriter final : public MeshCollector {
         const ScalarType type = columns[s.column].type;
         if (s.first == 0) read(s.column, row, values);
         for (int k = 0; k < s.components; ++k) {
-          const unsigned char* const value =
-              values + static_cast<size_t>(s.first + k) * sizeOf(type);
+          const int component =
+              s.components == 6 ? kSymmetricOf[static_cast<size_t>(k)] : s.first + k;
+          const unsigned char* const value = values + static_cast<size_t>(component) * sizeOf(type);
           out.real(value, type);
           if (!isExactAsDouble(value, type)) rounded[s.column] = true;
         }

@@ -3,6 +3,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "indexed_testing.h"
 #include "medit_format.h"
@@ -300,6 +302,32 @@ TEST(Medit, SaysWhatIsWrongAndWhere) {
   for (const auto& c : cases)
     EXPECT_NE(problemOf(openMedit, c.text).find(c.problem), std::string::npos)
         << problemOf(openMedit, c.text) << "\nwanted: " << c.problem;
+}
+
+// Column by column of the upper triangle, as Mmg and FreeFEM read and write them.
+TEST(Medit, HasSymmetricMatricesInAnOrderOfItsOwn) {
+  const Folder folder;
+  const std::string path = folder.file("a.mesh");
+  const std::string rows = "11 12 22 13 23 33\n";
+  std::ofstream(path) << kFiveVertices << "End\n";
+  std::ofstream(folder.file("a.sol"))
+      << "MeshVersionFormatted 2\nDimension 3\nSolAtVertices 5\n1 3\n"
+      << rows << rows << rows << rows << rows << "End\n";
+  const SvMesh m = readFrom(path);
+  ASSERT_EQ(m.schema.fields.size(), 1u);
+  EXPECT_EQ(std::vector<double>(m.fields[0].begin(), m.fields[0].begin() + 6),
+            (std::vector<double>{11, 22, 33, 12, 23, 13}));
+  Schema schema;
+  schema.position_type = ScalarType::kFloat64;
+  schema.fields = {{"stress", 6, ScalarType::kFloat64}};
+  SvMesh written = indexedMesh(schema, 2);
+  for (size_t i = 0; i < written.fields[0].size(); ++i) written.fields[0][i] = m.fields[0][i % 6];
+  writeTo(folder.file("b.mesh"), written, false);
+  std::ostringstream text;
+  text << std::ifstream(folder.file("b.sol")).rdbuf();
+  EXPECT_NE(text.str().find("1 3 \n11 12 22 13 23 33 \n11 12"), std::string::npos) << text.str();
+  writeTo(folder.file("c.meshb"), written, true);
+  EXPECT_EQ(readFrom(folder.file("c.meshb")).fields, written.fields);
 }
 
 TEST(Medit, RefusesASolutionOfAnotherMesh) {
