@@ -150,8 +150,13 @@ class Case:
     def check_traces(self, report):
         with open(self.path("map.csv")) as file:
             rows = numpy.array([line.split(",") for line in file][1:], float)
-        expect(sorted(rows[:, 0]) == list(numpy.unique(self.mesh.cells))
-               if not self.stream else len(rows) == len(numpy.unique(self.mesh.cells)),
+        used = numpy.unique(self.mesh.cells)
+        # Of points that the reader has joined, the first counts, whether a cell has that or not.
+        _, first, place = numpy.unique(self.mesh.points, axis=0, return_index=True,
+                                       return_inverse=True)
+        joined = numpy.unique(first[place.ravel()[used]])
+        expect(len(rows) in (len(used), len(joined)) if self.stream
+               else any(numpy.array_equal(numpy.sort(rows[:, 0]), these) for these in (used, joined)),
                f"the map has {len(rows)} rows, which are not those of the vertices used")
         expect((rows[:, 1] >= 0).all() and (rows[:, 1] < report["cells_out"]).all(),
                "the map names a cell that is not there")
