@@ -135,11 +135,23 @@ bool Collapser<Mesh>::keepCurveArea(uint32_t u, uint32_t v, const Embedded& embe
   return behind_u != kNone && behind_v != kNone && place_.keepCurveArea(behind_u, behind_v);
 }
 
+// As they are told apart, whether or not there is an interface so far.
 template <class Mesh>
-auto Collapser<Mesh>::intoCurve(const CellLabels& labels) -> Adjusted {
+CellLabels Collapser<Mesh>::regions() const {
+  if (core_.region_picks.empty()) return {};
+  CellLabels labels = core_.cellLabels();
+  labels.slots = mesh_.cellSlots();
+  return labels;
+}
+
+template <class Mesh>
+auto Collapser<Mesh>::intoCurve() -> Adjusted {
   constexpr double kThere[3] = {0, 0, 0};
+  const CellLabels labels = regions();
   if (!place_.changesVolumes(stars_, labels)) return {place_.error()};
-  if (place_.givesUpRegion(labels, kThere)) return {std::numeric_limits<S>::infinity()};
+  if (place_.givesUpRegion(labels, kThere) || place_.driftsOff(labels, core_.tally, tally_))
+    return {std::numeric_limits<S>::infinity()};
+  drifts_ = true;
   return {place_.error(), kIntoCurve};
 }
 
@@ -150,7 +162,7 @@ auto Collapser<Mesh>::adjust(uint32_t u, uint32_t v, const Strata& strata) -> Ad
   const bool v_on_it = strata.v.stratum == Stratum::kCurve;
   const CellLabels& labels = strata.embedded.labels;
   if (core_.exact_curves && (u_on_it || v_on_it) && place_.putOnCurve(u_on_it, v_on_it))
-    return intoCurve(labels);
+    return intoCurve();
   bool moved = core_.keeps_body && place_.putOnPlanes(planesRound(strata));
   const SheetSides* sides = nullptr;
   if (core_.inner_sheets) {
@@ -234,6 +246,7 @@ template <class Mesh>
 Outcome Collapser<Mesh>::test(uint32_t u, uint32_t v, S* error, int64_t least_cells,
                               float most_price) {
   price_ = 1;
+  drifts_ = false;
   if (!mesh_.isFree(u) || !mesh_.isFree(v)) return Outcome::kLocked;
   if (!place_.isFinite()) return Outcome::kNotFinite;
   // Where no cell is thin none may become so: the first one tells.
@@ -323,6 +336,7 @@ template <class Mesh>
 void Collapser<Mesh>::mergeInto(uint32_t u, uint32_t v, S error) {
   const double grown = growth(u, v, error);
   tally_.error += grown;
+  if (drifts_) place_.addDrifts(regions(), tally_);
   if (core_.window.shape().errors) addError(mesh_.slotOf(u), mesh_.slotOf(v), grown);
   if (core_.plan.values > core_.plan.dimension) place_.interpolateCarried(stars_);
   if (core_.plan.picks > 0 && place_.isFartherFromU())

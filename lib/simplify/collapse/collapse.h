@@ -85,7 +85,8 @@ class Collapser {
     S error;
     float cost = 1;
   };
-  Adjusted intoCurve(const CellLabels& labels);
+  CellLabels regions() const;
+  Adjusted intoCurve();
   Adjusted adjust(uint32_t u, uint32_t v, const Strata& strata);
   Outcome moveOnSheets(uint32_t u, uint32_t v, const Strata& strata, S* error, float most_price);
   uint32_t nextOnCurve(uint32_t v, uint32_t before, const Star& star, const Star& ring,
@@ -118,6 +119,7 @@ class Collapser {
   Core<S>& core_;
   Mesh& mesh_;
   Tally& tally_;
+  bool drifts_ = false;  // the edge that was tested last changes volumes
   // The cell for which an edge was refused: tried again, it mostly is for the same.
   EdgeNotes<uint32_t> refusals_;
   Thin thin_counts_;

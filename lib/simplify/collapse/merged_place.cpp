@@ -141,12 +141,40 @@ bool MergedPlace<Mesh>::changesVolumes(const Stars& stars, const CellLabels& lab
   return volumes_.anyChanges();
 }
 
+// As far as it was read.
+template <class Mesh>
+auto MergedPlace<Mesh>::regionOf(const CellLabels& labels, const int64_t* row) const -> Region {
+  const auto unit = static_cast<double>(core_.inverse_scale[0]);
+  if (!row) return {nullptr, core_.volume * unit * unit * unit};
+  const LabelVolumes::Volumes* const volumes = core_.label_volumes.find(labels, row);
+  if (!volumes) return {nullptr, std::numeric_limits<double>::infinity()};
+  return {volumes, volumes->of[LabelVolumes::kInput]};
+}
+
 template <class Mesh>
 bool MergedPlace<Mesh>::givesUpRegion(const CellLabels& labels, const double step[3]) const {
-  const auto unit = static_cast<double>(core_.inverse_scale[0]);
-  const double body = core_.volume * unit * unit * unit;
-  return volumes_.anyGivesUp(kOfARegion, step, [&](const int64_t* row) {
-    return row ? core_.label_volumes.inputOf(labels, row) : body;
+  return volumes_.anyMayNot(step, [&](const int64_t* row, double change) {
+    return std::fabs(change) <= kOfARegion * regionOf(labels, row).volume;
+  });
+}
+
+template <class Mesh>
+bool MergedPlace<Mesh>::driftsOff(const CellLabels& labels, const Tally& whole,
+                                  const Tally& part) const {
+  constexpr double kThere[3] = {0, 0, 0};
+  return volumes_.anyMayNot(kThere, [&](const int64_t* row, double change) {
+    const Region region = regionOf(labels, row);
+    const double before =
+        whole.driftOf(region.key) + (&part == &whole ? 0 : part.driftOf(region.key));
+    const double drift = std::fabs(before + change);
+    return drift <= core_.most_drift * region.volume || drift < std::fabs(before);
+  });
+}
+
+template <class Mesh>
+void MergedPlace<Mesh>::addDrifts(const CellLabels& labels, Tally& tally) const {
+  volumes_.forChanges([&](const int64_t* row, double change) {
+    tally.drifts[regionOf(labels, row).key] += change;
   });
 }
 

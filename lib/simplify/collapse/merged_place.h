@@ -43,6 +43,9 @@ class MergedPlace {
   // Of those measured last: whether a region would lose or win a share of its volume that counts,
   // or a side, or the body, of the body's.
   bool givesUpRegion(const CellLabels& labels, const double step[3]) const;
+  // The same for what it would have lost or won in all, with what tallies tell.
+  bool driftsOff(const CellLabels& labels, const Tally& whole, const Tally& part) const;
+  void addDrifts(const CellLabels& labels, Tally& tally) const;
   // By as much as it takes, to where no region of the stars grows or shrinks, or side of a sheet,
   // or the body; returns the error there. Where that is too far: infinity, but for sides.
   S keepVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
@@ -62,6 +65,11 @@ class MergedPlace {
   void leavePlanes() { std::fill_n(stays_, 3, false); }
   bool staysAnywhere() const { return stays_[0] || stays_[1] || stays_[2]; }
   void moveBy(const S step[3]);
+  struct Region {
+    const void* key;  // in a tally
+    double volume;
+  };
+  Region regionOf(const CellLabels& labels, const int64_t* row) const;
   void measureVolumes(const Stars& stars, const CellLabels& labels, const SheetSides* sides);
 
   double at(size_t axis) const { return static_cast<double>(values_[axis]); }

@@ -34,15 +34,20 @@ class RegionVolumes {
                const double x[3], const CellLabels& labels, const SheetSides* sides);
   // Whether any would be another at x, by more than is worth a word.
   bool anyChanges() const;
-  // Whether a region, or side, would be another a step from x by more than a share of a volume:
-  // volumeOf(row).
-  template <class VolumeOf>
-  bool anyGivesUp(double share, const double step[3], VolumeOf volumeOf) const {
+  // Whether any changes, of regions or sides, a step from x by more than is worth a word, is
+  // refused: may(row of labels, change of the volume).
+  template <class May>
+  bool anyMayNot(const double step[3], May may) const {
     const double least = leastChange();
     return std::any_of(changes_.begin(), changes_.end(), [&](const Change& change) {
-      const double there = std::fabs(change.volume + dot(change.gradient, step));
-      return there > least && there > 6 * share * volumeOf(change.row);
+      const double there = change.volume + dot(change.gradient, step);
+      return std::fabs(there) > least && !may(change.row, there / 6);
     });
+  }
+  // visit(row of labels, change of the volume at x)
+  template <class Visit>
+  void forChanges(Visit visit) const {
+    for (const Change& change : changes_) visit(change.row, change.volume / 6);
   }
   // From x to where the volumes are as they were, along the axes that it may go; `form` tells what
   // a step costs, as its lower triangle by rows. False if that is farther than the edge is long: a

@@ -395,10 +395,14 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
       tryByAllMeans(tick);
     } while (leavesErrorAfterAll(before));
     core_.most_error = std::numeric_limits<double>::infinity();
-    if (mustStop() || !bounds_.widen(goal_, refused_)) return;
+    if (mustStop()) break;
+    const bool is_wider = bounds_.widen(goal_, refused_), is_looser = core_.most_drift < kLastDrift;
+    if (!is_wider && !is_looser) break;
+    core_.most_drift = kLastDrift;
     core_.tally.rejected_large = 0;  // for the limit that was
     sweep(bounds_.next(bound_, bounds_.wanted(bound_, goal_)), 0, tick);
   } while (!mustStop());
+  core_.most_drift = kMostDrift;
 }
 
 // Edges one by one, then with less regard for shapes.

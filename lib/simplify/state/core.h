@@ -286,16 +286,17 @@ struct Core {
   double error_limit = std::numeric_limits<double>::infinity();
   // Of an edge that may be taken; and of all vertices, in percent of the range, where that is why.
   double most_error = std::numeric_limits<double>::infinity(), most_percent = 0;
-  Tally tally;                    // of the whole; parts that are not added yet have their own
-  bool holds_rest = false;        // all was read, and what was parked is back (parking.h)
-  double rescaled = 1;            // what errors of the last window count in today's units
-  bool exact_curves;              // there are curves that the user wants to stay where they are
-  bool keeps_body;                // the volume in the boundary, where there are no regions
-  bool interfaces = false;        // met any: labels that are all the same cost nothing
-  bool inner_sheets = false;      // met labelled faces with cells of one region on both sides
-  bool folds = false;             // met two cells on the same side of their common face
-  std::vector<int> region_picks;  // columns of the cell picks that label regions
-  LabelVolumes label_volumes;     // of those
+  double most_drift = kMostDrift;  // of a region's volume
+  Tally tally;                     // of the whole; parts that are not added yet have their own
+  bool holds_rest = false;         // all was read, and what was parked is back (parking.h)
+  double rescaled = 1;             // what errors of the last window count in today's units
+  bool exact_curves;               // there are curves that the user wants to stay where they are
+  bool keeps_body;                 // the volume in the boundary, where there are no regions
+  bool interfaces = false;         // met any: labels that are all the same cost nothing
+  bool inner_sheets = false;       // met labelled faces with cells of one region on both sides
+  bool folds = false;              // met two cells on the same side of their common face
+  std::vector<int> region_picks;   // columns of the cell picks that label regions
+  LabelVolumes label_volumes;      // of those
   Report report;
   LockedVertices locked;
   Tracer<S>* tracer = nullptr;             // told of all collapses, and of what leaves

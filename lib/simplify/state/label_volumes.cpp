@@ -40,9 +40,9 @@ int LabelVolumes::Less::compare(const Row& a, const Labelled& b) {
   return 0;
 }
 
-double LabelVolumes::inputOf(const CellLabels& labels, const int64_t* row) const {
+auto LabelVolumes::find(const CellLabels& labels, const int64_t* row) const -> const Volumes* {
   const auto found = all_.find(Labelled{labels, row});
-  return found == all_.end() ? std::numeric_limits<double>::infinity() : found->second.of[kInput];
+  return found == all_.end() ? nullptr : &found->second;
 }
 
 static std::string nameOf(const std::vector<int64_t>& row) {

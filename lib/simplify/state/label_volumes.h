@@ -16,8 +16,12 @@ class LabelVolumes {
  public:
   enum Side { kInput, kOutput };
   void add(const CellLabels& labels, uint32_t cell, double volume, Side side);
-  // Of the region that a row of labels tells, as far as it was read; infinite where none is kept.
-  double inputOf(const CellLabels& labels, const int64_t* row) const;
+  struct Volumes {
+    double of[2] = {0, 0};  // by side, as far as the region was read or written
+    double change() const { return of[kOutput] / of[kInput] - 1; }
+  };
+  // Of the region that a row of labels tells; null where none are kept. They stay where they are.
+  const Volumes* find(const CellLabels& labels, const int64_t* row) const;
   // Those that changed by more than a percent, the most first; empty if there is none.
   std::string changesInWords() const;
 
@@ -35,10 +39,6 @@ class LabelVolumes {
     bool operator()(const Labelled& a, const Row& b) const { return compare(b, a) > 0; }
 
     static int compare(const Row& a, const Labelled& b);
-  };
-  struct Volumes {
-    double of[2] = {0, 0};
-    double change() const { return of[kOutput] / of[kInput] - 1; }
   };
   Volumes* volumesOf(const CellLabels& labels, uint32_t cell);
 

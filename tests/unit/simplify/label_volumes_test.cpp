@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 namespace tetstream::test {
 namespace {
 
@@ -17,8 +15,9 @@ TEST(LabelVolumes, AreToldOfThoseThatChangeTheMost) {
   LabelVolumes volumes;
   EXPECT_EQ(volumes.changesInWords(), "");
   for (uint32_t c : {0u, 1u, 2u, 3u}) volumes.add(labels, c, 10, LabelVolumes::kInput);
-  EXPECT_EQ(volumes.inputOf(labels, kRows + 9), 20);  // of 1/5
-  EXPECT_EQ(volumes.inputOf(labels, kRows + 1), std::numeric_limits<double>::infinity());
+  ASSERT_NE(volumes.find(labels, kRows + 9), nullptr);
+  EXPECT_EQ(volumes.find(labels, kRows + 9)->of[LabelVolumes::kInput], 20);  // of 1/5
+  EXPECT_EQ(volumes.find(labels, kRows + 1), nullptr);
   for (uint32_t c : {3u, 0u}) volumes.add(labels, c, 10.09, LabelVolumes::kOutput);  // of 1/5
   volumes.add(labels, 1, 5, LabelVolumes::kOutput);
   volumes.add(labels, 2, 10.2, LabelVolumes::kOutput);
