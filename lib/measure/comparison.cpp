@@ -187,6 +187,21 @@ void Comparison::nameLabels(std::vector<Pair>& pairs, const std::string& array) 
         pair.name = found->name;
 }
 
+// Where cubes of lengths, and what is made of them, are no numbers of float64 any more.
+void Comparison::checkExtent() const {
+  constexpr double kLeast = 1e-100, kMost = 1e100;
+  double extent = 0, farthest = 0;
+  for (int k = 0; k < 3; ++k) {
+    extent = std::max(extent, box_.high[k] - box_.low[k]);
+    farthest = std::max({farthest, std::fabs(box_.low[k]), std::fabs(box_.high[k])});
+  }
+  if ((extent > 0 && extent < kLeast) || farthest > kMost)
+    fail(Status::kUnsupported,
+         "the original is %.3g across, with coordinates up to %.3g: volumes and errors are numbers "
+         "of float64 from %g to %g only; scale both meshes",
+         extent, farthest, kLeast, kMost);
+}
+
 double Comparison::diagonal() const {
   double square = 0;
   for (int k = 0; k < 3; ++k) square += (box_.high[k] - box_.low[k]) * (box_.high[k] - box_.low[k]);
@@ -209,6 +224,7 @@ void Comparison::measure(const Tasks* tasks, const Done& done) {
     figures_[i].boundary_area = scans[i]->boundaryArea();
   }
   box_ = original_->box();
+  checkExtent();
   cells_compared_ = original_->cells().count();
   volume_compared_ = original_->volumeKept();
   findRanges();

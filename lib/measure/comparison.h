@@ -120,6 +120,7 @@ class Comparison {
   void findLeftOut();
   void matchRegions(const Schema& original, const Schema& simplified, ScanPlan plans[2]);
   void checkPart();
+  void checkExtent() const;
   void findRanges();
   void findRange(FieldComparison& field) const;
   void measureFields(const Tasks* tasks, const Done& done);
