@@ -9,6 +9,7 @@
 %}
 %init %{
   import_array();
+  tetstream::swig::findMainThread();
 %}
 
 // ------------------------------------------------------------------------------- exceptions

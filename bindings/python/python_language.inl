@@ -3,6 +3,8 @@
 #define NPY_NO_DEPRECATED_API NPY_1_7_API_VERSION
 #include <numpy/arrayobject.h>
 
+#include <pthread.h>
+
 #include <chrono>
 #include <cstring>
 #include <memory>
@@ -16,6 +18,10 @@ namespace tetstream::swig {
 
 // ------------------------------------------------------------------------- the lock, functions
 
+[[noreturn]] static void waitForTheEnd() {
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
 // Runs a call that may wait for the interpreter's lock. Before 3.14 Python ends a thread that waits
 // for it while the interpreter ends: a daemon's, when the program is over. Where that unwinds the
 // thread, it would come to frames that let nothing out, and the process be aborted.
@@ -25,25 +31,53 @@ auto waiting(Call&& call) noexcept {
   try {
     return call();
   } catch (...) {
-    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+    waitForTheEnd();
   }
+}
+
+// The number of the thread that ends the interpreter; 0: not known.
+static unsigned long main_thread = 0;
+
+static void findMainThread() {
+  PyObject* const threading = PyImport_ImportModule("threading");
+  PyObject* const main =
+      threading ? PyObject_CallMethod(threading, "main_thread", nullptr) : nullptr;
+  PyObject* const number = main ? PyObject_GetAttrString(main, "ident") : nullptr;
+  if (number) main_thread = PyLong_AsUnsignedLong(number);
+  if (PyErr_Occurred()) main_thread = 0;
+  PyErr_Clear();
+  Py_XDECREF(number);
+  Py_XDECREF(main);
+  Py_XDECREF(threading);
+  ::pthread_atfork(nullptr, nullptr, [] { main_thread = PyThread_get_thread_ident(); });
+}
+
+// A daemon that comes when the interpreter is gone would ask it for a state of the thread.
+static void waitIfItEnds() {
+  if (main_thread != 0 && !Py_IsInitialized() && PyThread_get_thread_ident() != main_thread)
+    waitForTheEnd();
 }
 
 // The interpreter's lock, whether or not this thread has it.
 class Locked {
  public:
-  Locked() : state_(waiting([] { return PyGILState_Ensure(); })) {}
+  Locked() : state_(ensure()) {}
   Locked(const Locked&) = delete;
   Locked& operator=(const Locked&) = delete;
   ~Locked() { PyGILState_Release(state_); }
 
  private:
+  static PyGILState_STATE ensure() {
+    waitIfItEnds();
+    return waiting([] { return PyGILState_Ensure(); });
+  }
   PyGILState_STATE state_;
 };
 
 Unlocked::Unlocked() : state_(PyEval_SaveThread()) {}
 
 Unlocked::~Unlocked() {
+  waitIfItEnds();
   waiting([this] { PyEval_RestoreThread(static_cast<PyThreadState*>(state_)); });
 }
 

@@ -69,7 +69,7 @@ void MshMesh::addCell(CellKind kind, const int64_t* nodes, int64_t tag, int64_t 
     if (!points->find(nodes[k], &corners[k])) file.failBad(notThere(tag, nodes[k]));
   if (isLastInAnotherGroup(kind.shape, corners, group, entity)) {
     intake->leaveOut("elements that are there once more, in another physical group,");
-    further_groups.emplace(dimension, std::abs(group));
+    further_groups.emplace(dimension, std::abs(std::max(group, -INT64_MAX)));
     if (dimension == 3) cells.add(tag, last_.first, last_.count);
     return;
   }
