@@ -40,15 +40,6 @@ static bool allFinite(const T* values, int count) {
   return true;
 }
 
-// Cubes of lengths, and what is made of them, are to be numbers of float64.
-constexpr double kFarthest = 1e100;
-
-template <class S>
-static bool isTooFar(const S position[3]) {
-  return std::any_of(position, position + 3,
-                     [](S x) { return std::fabs(static_cast<double>(x)) > kFarthest; });
-}
-
 template <class S>
 void Intake<S>::startBatch(const BatchView& batch) {
   if (batch.first_vertex != declared_)
@@ -203,9 +194,6 @@ void Intake<S>::takeVertex(size_t row) {
   if (!allFinite(window.values(slot), 3))
     fail(Status::kBadData, "vertex %llu: its position is not finite",
          static_cast<unsigned long long>(batch_.first_vertex + row));
-  if (isTooFar(window.values(slot)))
-    fail(Status::kUnsupported, "vertex %llu: its position is beyond %g, and volumes beyond float64",
-         static_cast<unsigned long long>(batch_.first_vertex + row), kFarthest);
   for (size_t i = 0; i < core_.plan.fields.size(); ++i) readColumn(i, row, slot);
   lone_values_.add(window.values(slot));
   std::fill_n(window.quadric(slot), window.shape().quadric, S(0));
