@@ -102,7 +102,7 @@ bool MergedPlace<Mesh>::putOnCurve(bool u_on_it, bool v_on_it) {
       off += d * d;
     }
     if (!(off <= kOnEdge * kOnEdge * square)) return false;
-    if (std::fabs(t) >= 0.5 - kOnEdge) t = std::copysign(0.5, t);  // a corner, but for rounding
+    if (std::fabs(t) >= 0.5 - kOnEdge) t = t > 0 ? 0.5 : -0.5;  // a corner
   }
   S step[3];
   for (size_t i = 0; i < 3; ++i) step[i] = static_cast<S>(t * along[i]) - z_[i];
