@@ -187,9 +187,9 @@ void Comparison::nameLabels(std::vector<Pair>& pairs, const std::string& array) 
         pair.name = found->name;
 }
 
-// Where cubes of lengths, and what is made of them, are no numbers of float64 any more.
+// Where squares of areas, of faces a thousandth of the whole, are no numbers of float64 any more.
 void Comparison::checkExtent() const {
-  constexpr double kLeast = 1e-100, kMost = 1e100;
+  constexpr double kLeast = 1e-70, kMost = 1e70;
   double extent = 0, farthest = 0;
   for (int k = 0; k < 3; ++k) {
     extent = std::max(extent, box_.high[k] - box_.low[k]);
@@ -197,8 +197,9 @@ void Comparison::checkExtent() const {
   }
   if ((extent > 0 && extent < kLeast) || farthest > kMost)
     fail(Status::kUnsupported,
-         "the original is %.3g across, with coordinates up to %.3g: volumes and errors are numbers "
-         "of float64 from %g to %g only; scale both meshes",
+         "the original is %.3g across, with coordinates up to %.3g: areas and volumes are numbers "
+         "of "
+         "float64 from %g to %g only; scale both meshes",
          extent, farthest, kLeast, kMost);
 }
 

@@ -134,6 +134,9 @@ function(refuses text)
     message(FATAL_ERROR "cmake ${line}\nshould fail with \"${text}\", not (${result}):\n${words}")
   endif()
 endfunction()
+refuses("there is no component Fortran of tetstream: there are shared, static and fortran"
+  -S ${here}/project -B ${WORK}/unknown -G ${GENERATOR} -DCMAKE_C_COMPILER=${CC}
+  -DCMAKE_CXX_COMPILER=${CXX} "-DCMAKE_PREFIX_PATH=${prefix}" -DLINKAGE=Fortran)
 refuses("TETSTREAM_ZSTD needs libzstd" -S ${SOURCE} -B ${WORK}/refused -G ${GENERATOR}
   -DCMAKE_C_COMPILER=${CC} -DCMAKE_CXX_COMPILER=${CXX} -DTETSTREAM_ZSTD=ON
   -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)

@@ -83,6 +83,40 @@ assert (state("result_points"), P);
 assert (double (state("result_cells")), T);
 assert (state("result_field"), F.f);
 
+## Arrays of later batches are known by their names, in whatever order.
+function batch = in_turns (state, later)
+  state("at") += 1;
+  batch = [];
+  if (state("at") == 2)
+    batch = struct ("points", eye (4, 3), "cells", [1, 2, 3, 4], ...
+                    "fields", struct ("p", [1; 2; 3; 4], "u", [-1; -2; -3; -4]), ...
+                    "cell_data", struct ("a", int32 (1), "b", int32 (2)));
+  elseif (state("at") == 3)
+    batch = struct ("points", [1, 1, 1], "cells", [2, 3, 4, 5], "fields", later, ...
+                    "cell_data", struct ("b", int32 (2), "a", int32 (1)));
+  endif
+endfunction
+function keep (state, batch)
+  if (! isempty (batch.points))
+    state("result_field") = [state("result_field"); batch.fields.p, batch.fields.u];
+  endif
+  if (! isempty (batch.cells))
+    state("result_cells") = [state("result_cells"); batch.cell_data.a, batch.cell_data.b];
+  endif
+endfunction
+state = fresh_state ();
+tetstream_simplify_stream (@() in_turns (state, struct ("u", -5, "p", 5)), ...
+                           @(batch) keep (state, batch), "ratio", 1);
+assert (sortrows (state("result_field")), [(1:5)', -(1:5)']);
+assert (double (state("result_cells")), [1, 2; 1, 2]);
+for wrong = {struct("x", 5, "y", -5), struct("p", 5), struct("p", 5, "u", -5, "more", 1), struct(); ...
+             "\"x\", \"y\", the first one has \"p\", \"u\"", "has \"p\", the", "\"more\", the", ...
+             "none, the"}
+  state = fresh_state ();
+  fails ("tetstream:bad-argument", wrong{2}, ...
+         @() tetstream_simplify_stream (@() in_turns (state, wrong{1}), @(batch) 0, "ratio", 1));
+endfor
+
 ## Errors of either function come out as they are; what is none is refused.
 fails ("tetstream:bad-argument", "function handles, not a double", ...
        @() tetstream_simplify_stream (3, @(batch) 0, "ratio", 0.3));

@@ -8,9 +8,9 @@
 ##   points (n x 3), fields (struct of n x k), locked (n logicals); cells (m x 4, numbers of points
 ##   from 1 on, counted through all batches), cell_data (struct of m x k), last_uses (m x 4 logicals:
 ##   no later cell uses that point), finalized (points that no later cell uses); faces, face_labels,
-##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries;
-##   its label_names and time, as in tetstream_read, are the stream's. Messages number points and
-##   cells of the stream from 0.
+##   locked_faces, locked_edges. What the first batch has, classes too, is what the stream carries, by
+##   the same names later, in any order; its label_names and time, as in tetstream_read, are the
+##   stream's. Messages number points and cells of the stream from 0.
 ## writer: a function that is called with such batches.
 ## report: what was done.
 ##
@@ -55,10 +55,11 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   endfor
   add_bounds (caller, info, batch.fields, own.box, own.ranges);
   simplifier.begin (info);
+  first = batch;
   while (has_any (batch))
     [events, kept] = filled_batch (caller, batch, 0, Inf);
     simplifier.push (events);
-    batch = complete_mesh (caller, next_batch (reader));
+    batch = in_order_of (first, complete_mesh (caller, next_batch (reader)), caller);
   endwhile
   simplifier.finish ();
   report = reported (simplifier, core_writer);
@@ -69,6 +70,28 @@ function any_there = has_any (batch)
   for name = {"points", "cells", "finalized", "faces", "locked_edges"}
     any_there = any_there || ! isempty (batch.(name{1}));
   endfor
+endfunction
+
+## The library goes by the order in which the first batch has its arrays.
+function batch = in_order_of (first, batch, caller)
+  for part = {"fields", "cell_data"; "points", "cells"}
+    if (isempty (batch.(part{2})))
+      continue;
+    endif
+    names = {fieldnames(first.(part{1})), fieldnames(batch.(part{1}))};
+    if (! isequal (sort (names{1}), sort (names{2})))
+      error ("tetstream:bad-argument", "%s: %s: a batch has %s, the first one has %s", caller, part{1},
+             listed (names{2}), listed (names{1}));
+    endif
+    batch.(part{1}) = orderfields (batch.(part{1}), first.(part{1}));
+  endfor
+endfunction
+
+function text = listed (names)
+  text = "none";
+  if (! isempty (names))
+    text = strjoin (cellfun (@(name) ["\"", name, "\""], names(:).', "UniformOutput", false), ", ");
+  endif
 endfunction
 
 function batch = next_batch (reader)

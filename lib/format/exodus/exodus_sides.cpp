@@ -23,7 +23,7 @@ constexpr size_t kBuckets = 64;
 struct Row {
   FaceKey key;
   int32_t element;  // 0: the labelled face itself
-  bool is_down;     // its corners (isWoundDown)
+  int32_t is_down;  // whether its corners are (isWoundDown); rows of a file have no gaps
   int64_t side_or_label;
   uint64_t rank;  // of labelled faces
   bool operator<(const Row& other) const {
