@@ -189,9 +189,9 @@ expect 0 compare plate.vtk plate.vtk --boundary-samples 1000 --memory 2040000 --
 (($(member "$out" peak_bytes) < 2040000)) || fail "--memory is passed: $out"
 [[ $(member "$out" distance) =~ ^[0-9.]+e-|^0 ]] || fail "a plate is off itself: $out"
 
-# Sizes of which volumes are no numbers are refused; others are the same in every unit.
+# Sizes of which areas are no numbers are refused; others are the same in every unit.
 for scale in 1e-120 1e-67 1e67 1e110; do
-  awk -v s=$scale '/^POINTS/ { print $1, $2, "double"; on = 1; next } /^CELLS/ { on = 0 }
+  awk '/^POINTS/ { print $1, $2, "double"; on = 1; next } /^CELLS/ { on = 0 }
     on { print $1 s_of, $2 s_of, $3 s_of; next } { print }' s_of="${scale#1}" plate.vtk >scaled.vtk
   case $scale in
     *67) expect 0 compare scaled.vtk scaled.vtk --boundary-samples 1000 --quiet --report json ;;

@@ -59,7 +59,7 @@ function report = tetstream_simplify_stream (reader, writer, varargin)
   while (has_any (batch))
     [events, kept] = filled_batch (caller, batch, 0, Inf);
     simplifier.push (events);
-    batch = in_order_of (first, complete_mesh (caller, next_batch (reader)), caller);
+    batch = in_order_of (caller, first, complete_mesh (caller, next_batch (reader)));
   endwhile
   simplifier.finish ();
   report = reported (simplifier, core_writer);
@@ -73,7 +73,7 @@ function any_there = has_any (batch)
 endfunction
 
 ## The library goes by the order in which the first batch has its arrays.
-function batch = in_order_of (first, batch, caller)
+function batch = in_order_of (caller, first, batch)
   for part = {"fields", "cell_data"; "points", "cells"}
     if (isempty (batch.(part{2})))
       continue;

@@ -149,8 +149,11 @@ auto Collapser<Mesh>::intoCurve() -> Adjusted {
   constexpr double kThere[3] = {0, 0, 0};
   const CellLabels labels = regions();
   if (!place_.changesVolumes(stars_, labels)) return {place_.error()};
-  if (place_.givesUpRegion(labels, kThere) || place_.driftsOff(labels, core_.tally, tally_))
+  if (place_.givesUpRegion(labels, kThere)) return {std::numeric_limits<S>::infinity()};
+  if (place_.driftsOff(labels, core_.tally, tally_)) {
+    tally_.drift_reached = true;
     return {std::numeric_limits<S>::infinity()};
+  }
   drifts_ = true;
   return {place_.error(), kIntoCurve};
 }

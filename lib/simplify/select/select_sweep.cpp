@@ -383,7 +383,8 @@ void SweepSelector<S>::tryEverything(const std::function<void()>& tick) {
   } while (core_.window.liveCells() < live);
 }
 
-// The target is not reached up to the limit on the errors: first all that is below it, then more.
+// The target is not reached up to the limit on the errors: first all that is below it, then more,
+// and then more of the regions, if any collapse was refused for what they had lost.
 template <class S>
 void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
   do {
@@ -396,9 +397,9 @@ void SweepSelector<S>::sweepOut(const std::function<void()>& tick) {
     } while (leavesErrorAfterAll(before));
     core_.most_error = std::numeric_limits<double>::infinity();
     if (mustStop()) break;
-    const bool is_wider = bounds_.widen(goal_, refused_), is_looser = core_.most_drift < kLastDrift;
-    if (!is_wider && !is_looser) break;
-    core_.most_drift = kLastDrift;
+    const bool is_looser = core_.tally.drift_reached && core_.most_drift < kLastDrift;
+    if (!bounds_.widen(goal_, refused_) && !is_looser) break;
+    if (is_looser) core_.most_drift = kLastDrift;
     core_.tally.rejected_large = 0;  // for the limit that was
     sweep(bounds_.next(bound_, bounds_.wanted(bound_, goal_)), 0, tick);
   } while (!mustStop());

@@ -49,6 +49,7 @@ void Tally::add(const Tally& part) {
   error += part.error;
   largest_error = std::max(largest_error, part.largest_error);
   error_reached |= part.error_reached;
+  drift_reached |= part.drift_reached;
   for (const auto& [region, drift] : part.drifts) drifts[region] += drift;
 }
 

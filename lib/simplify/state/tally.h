@@ -46,6 +46,7 @@ struct Tally {
   double error = 0;                                 // made: volume times squared error, normalised
   double largest_error = 0;                         // in the report's unit
   bool error_reached = false;  // a collapse was refused for the limit on the error
+  bool drift_reached = false;  // or for the one on what follows
   // By region, null for the body: what its volume has grown by where nothing makes up for it.
   std::map<const void*, double> drifts;
 
