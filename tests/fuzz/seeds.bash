@@ -176,6 +176,18 @@ END
   done
   printf '</Domain></Xdmf>\n'
 } >../xdmf/steps
+# A function of FEniCS's checkpoints, on an equal mesh.
+{
+  cat mesh.xdmf
+  sed -e 's/.*<Grid Name="mesh"/<Grid Name="f"/' -e '/<Attribute/,$d' -e '1,3d' mesh.xdmf
+  printf '<Attribute ItemType="FiniteElementFunction" ElementFamily="CG" ElementDegree="1"'
+  printf ' ElementCell="tetrahedron" Name="f" Center="Other" AttributeType="Scalar">'
+  for item in '8 UInt 3 0 4 1 0 4 1 2' '5 Float 11 13 14 10 12' '3 UInt 0 4 8'; do
+    read -r count type values <<<"$item"
+    printf '<DataItem Dimensions="%s 1" NumberType="%s">%s</DataItem>' "$count" "$type" "$values"
+  done
+  printf '</Attribute></Grid></Domain></Xdmf>\n'
+} >../xdmf/function
 # Grids of cells and of faces on the same points; entities and references.
 {
   cat mesh.xdmf

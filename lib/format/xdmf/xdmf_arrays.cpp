@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "hdf5_file.h"
+#include "rows_at_once.h"
 #include "status.h"
 #include "text_number.h"
 
@@ -60,6 +61,29 @@ std::string XdmfArrays::placeOf(const XdmfItem& item) {
   if (sameWord(item.format, "HDF")) return text_.of(item);
   if (sameWord(item.format, "Binary")) return text_.of(item) + ":" + std::to_string(item.seek);
   return std::to_string(item.begin);
+}
+
+bool XdmfArrays::areEqual(const std::vector<XdmfItem>& a, const std::vector<XdmfItem>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [this](const XdmfItem& x, const XdmfItem& y) { return areEqual(x, y); });
+}
+
+bool XdmfArrays::areEqual(const XdmfItem& a, const XdmfItem& b) {
+  const uint64_t count = a.count();
+  if (count == 0 || b.count() != count) return false;
+  const MeshArray array = arrayOf(a, "values", 1), other_array = arrayOf(b, "values", 1);
+  if (array.type != other_array.type) return false;
+  const ScalarType type = scalarOf(array.type);
+  const std::unique_ptr<Values> values = array.open(count), others = other_array.open(count);
+  const size_t row = sizeOf(type);
+  std::vector<unsigned char> held(kRowsAtOnce * row), other(kRowsAtOnce * row);
+  for (uint64_t at = 0; at < count; at += kRowsAtOnce) {
+    const auto n = static_cast<size_t>(std::min<uint64_t>(kRowsAtOnce, count - at));
+    values->read(at, n, held.data(), type);
+    others->read(at, n, other.data(), type);
+    if (!std::equal(held.data(), held.data() + n * row, other.data())) return false;
+  }
+  return true;
 }
 
 MeshArray XdmfArrays::arrayOf(const XdmfItem& item, const std::string& name, int components) {

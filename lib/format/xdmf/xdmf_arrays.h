@@ -28,9 +28,12 @@ class XdmfArrays {
   MeshArray arrayOf(const XdmfItem& item, const std::string& name, int components);
   // What two items have alike if they are the same values.
   std::string placeOf(const XdmfItem& item);
+  // Whether the items are as many and hold equal values, which are read for that.
+  bool areEqual(const std::vector<XdmfItem>& a, const std::vector<XdmfItem>& b);
   std::string describe(const XdmfItem& item) const;  // "FILE: byte 7: the values", for messages
 
  private:
+  bool areEqual(const XdmfItem& a, const XdmfItem& b);
   MeshArray ofText(const XdmfItem& item, MeshArray array);
   MeshArray ofHdf5(const XdmfItem& item, MeshArray array);
   MeshArray ofRawFile(const XdmfItem& item, MeshArray array);

@@ -20,7 +20,7 @@ class XdmfBeside {
         mesh_(mesh),
         piece_(piece),
         topology_(topology),
-        fields_(arrays, mesh, piece) {}
+        fields_(arrays, mesh, piece, options.temp_dir) {}
 
   // Cells of the mesh get the grid's arrays, faces its labels. What is left out is noted.
   void add(const XdmfGrid& grid, const XdmfTopology& topology);

@@ -168,4 +168,11 @@ void addXdmfCells(const XdmfTopology& topology, XdmfArrays& arrays, const std::s
                             always([each] { return openSequence(each, each); })};
 }
 
+bool areTetrahedra(const MeshPiece& piece) {
+  if (!piece.types || piece.types->type != ValueType::kInt32) return false;
+  int64_t type = 0;
+  piece.types->open(piece.cell_count)->read(0, 1, &type, ScalarType::kInt64);
+  return type == kVtkTetra;
+}
+
 }  // namespace tetstream

@@ -11,5 +11,7 @@ int vtkTypeOfXdmf(const std::string& topology);
 // Gives the piece its connectivity, and offsets and types as CellForm::kOffsets wants them.
 void addXdmfCells(const XdmfTopology& topology, XdmfArrays& arrays, const std::string& temp_dir,
                   MeshPiece& piece);
+// Whether those that it was given are four points each, all of them.
+bool areTetrahedra(const MeshPiece& piece);
 
 }  // namespace tetstream

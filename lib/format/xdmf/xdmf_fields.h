@@ -1,4 +1,5 @@
-// format/xdmf: the attributes of grids as arrays of a mesh. Depends on xdmf_arrays.h.
+// format/xdmf: the attributes of grids as arrays of a mesh. Depends on xdmf_arrays.h,
+// xdmf_functions.h.
 #pragma once
 
 #include <functional>
@@ -6,16 +7,17 @@
 #include <vector>
 
 #include "xdmf_arrays.h"
+#include "xdmf_functions.h"
 
 namespace tetstream {
 
 // What cannot be read is noted in the mesh.
 class XdmfFields {
  public:
-  XdmfFields(XdmfArrays& arrays, MeshPieces& mesh, MeshPiece& piece)
-      : arrays_(arrays), mesh_(mesh), piece_(piece) {}
+  XdmfFields(XdmfArrays& arrays, MeshPieces& mesh, MeshPiece& piece, const std::string& temp_dir)
+      : arrays_(arrays), mesh_(mesh), piece_(piece), temp_dir_(temp_dir) {}
 
-  // Of a grid that has the piece's points and cells.
+  // Of a grid that has the piece's points and cells, which are there.
   void add(const std::vector<XdmfAttribute>& attributes);
   // Of a grid with other cells, `cells` of them; `spread` makes arrays of all of the piece out of
   // its. Where the file does not tell what they hold, whole numbers become integers.
@@ -30,12 +32,18 @@ class XdmfFields {
  private:
   void add(const XdmfAttribute& attribute, uint64_t rows, const Spread& spread,
            std::vector<MeshArray>& list);
+  void addFunction(const XdmfAttribute& attribute);
+  void addFunction(const XdmfAttribute& attribute, uint64_t numbers_each, bool is_of_points);
+  XdmfFunction functionOf(const XdmfAttribute& attribute, int components);
+  std::optional<int> componentsOf(const XdmfAttribute& attribute, uint64_t count, uint64_t rows);
+  bool isNew(const XdmfAttribute& attribute, const std::vector<MeshArray>& list);
   // The values of text of which the file does not tell what they are, if all are whole.
   std::optional<MeshArray> wholeOf(XdmfItem item, const std::string& name, int components);
 
   XdmfArrays& arrays_;
   MeshPieces& mesh_;
   MeshPiece& piece_;
+  const std::string& temp_dir_;
 };
 
 }  // namespace tetstream

@@ -207,7 +207,7 @@ class Xdmf {
     MeshPiece piece;
     addPoints(*geometry, piece);
     addXdmfCells(*topology, arrays_, options_.temp_dir, piece);
-    XdmfFields(arrays_, mesh_, piece).add(at(grid).attributes);
+    XdmfFields(arrays_, mesh_, piece, options_.temp_dir).add(at(grid).attributes);
     noteLeftOut(grid);
     return piece;
   }
@@ -254,7 +254,7 @@ class Xdmf {
   // labels of some of its cells and faces.
   void addOthers(int leaf, MeshPiece& piece) {
     const std::string mesh = placeOf(leaf), points = placeOfPoints(leaf);
-    XdmfFields fields(arrays_, mesh_, piece);
+    XdmfFields fields(arrays_, mesh_, piece, options_.temp_dir);
     XdmfBeside beside(arrays_, options_, mesh_, piece, *topologyOf(leaf));
     for (const int grid : gridsBeside(leaf)) {
       const XdmfTopology* topology = topologyOf(grid);
@@ -262,10 +262,24 @@ class Xdmf {
         fields.add(at(grid).attributes);
       else if (topology && !topology->items.empty() && placeOfPoints(grid) == points)
         beside.add(at(grid), *topology);
+      else if (hasSameMesh(grid, leaf))
+        fields.add(at(grid).attributes);
       else
         mesh_.addNote(nameOf(grid) + " is left out: it has another mesh");
     }
     beside.finish();
+  }
+
+  // Whether its points and cells are equal though they are in another place, as those of each
+  // function in a checkpoint of FEniCS are.
+  bool hasSameMesh(int grid, int leaf) {
+    const XdmfTopology *topology = topologyOf(grid), *own_topology = topologyOf(leaf);
+    const XdmfGeometry *geometry = geometryOf(grid), *own_geometry = geometryOf(leaf);
+    return !at(grid).attributes.empty() && topology && geometry &&
+           sameWord(topology->type, own_topology->type.c_str()) &&
+           sameWord(geometry->type, own_geometry->type.c_str()) &&
+           arrays_.areEqual(topology->items, own_topology->items) &&
+           arrays_.areEqual(geometry->items, own_geometry->items);
   }
 
   void noteOthers(const std::vector<int>& leaves) {
@@ -309,12 +323,7 @@ class Xdmf {
   // Where all are tetrahedra, they need no types and stay where they are, unless some are ghosts.
   void takeForm(std::vector<MeshPiece>& pieces) {
     const auto isTetrahedra = [](const MeshPiece& piece) {
-      int64_t type = 0;
-      if (piece.cell_count == 0) return true;
-      if (ghostMarks(piece)) return false;
-      if (!piece.types || piece.types->type != ValueType::kInt32) return false;
-      piece.types->open(piece.cell_count)->read(0, 1, &type, ScalarType::kInt64);
-      return type == kVtkTetra;
+      return piece.cell_count == 0 || (!ghostMarks(piece) && areTetrahedra(piece));
     };
     mesh_.form = CellForm::kOffsets;
     if (!std::all_of(pieces.begin(), pieces.end(), isTetrahedra)) return;

@@ -11,7 +11,6 @@ namespace tetstream {
 
 namespace {
 
-constexpr size_t kCellsAtOnce = 256;
 constexpr SpoolShape kSpool = {4, 8 << 10};  // there may be one for each of many grids
 
 using Corners = std::array<int64_t, kMostCorners>;  // ascending, behind a -1 for each that it lacks

@@ -11,6 +11,8 @@
 
 namespace tetstream {
 
+constexpr size_t kCellsAtOnce = 256;  // of a list, read together
+
 // Cells of one type, each with as many nodes, of which the corners come first.
 struct XdmfCellList {
   const MeshArray* nodes = nullptr;  // lives as long as it is read

@@ -95,6 +95,13 @@ class XdmfTree final : XmlFeed {
     return found ? found : otherwise;
   }
 
+  static std::optional<uint64_t> numberOf(Attributes attributes, const char* name) {
+    const char* found = find(attributes, name);
+    uint64_t number = 0;
+    if (!found || !parseUnsigned(found, &number)) return {};
+    return number;
+  }
+
   Open addGrid(Attributes attributes) {
     if (grids_.size() == kMaxGrids) failHere("there are too many grids", Status::kUnsupported);
     XdmfGrid grid;
@@ -136,7 +143,11 @@ class XdmfTree final : XmlFeed {
       // libxdmf writes all words that it knows, with nothing in those that do not apply.
       grid.attributes.push_back({wordOf(attributes, "Name", ""),
                                  wordOf(attributes, "Center", "Node"),
+                                 wordOf(attributes, "AttributeType", ""),
                                  !wordOf(attributes, "ItemType", "").empty(),
+                                 wordOf(attributes, "ElementFamily", ""),
+                                 wordOf(attributes, "ElementCell", ""),
+                                 numberOf(attributes, "ElementDegree"),
                                  {}});
       items_ = &grid.attributes.back().items;
       return kAttribute;

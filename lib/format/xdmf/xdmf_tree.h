@@ -32,8 +32,11 @@ struct XdmfItem {
 };
 
 struct XdmfAttribute {
-  std::string name, center = "Node";
-  bool is_function = false;  // of a finite element space, with more than values at the nodes
+  std::string name, center = "Node", type;  // "Vector"
+  // Of a function of a finite element space, which has more than values at the nodes.
+  bool is_function = false;
+  std::string family, cell;        // "CG", "tetrahedron"
+  std::optional<uint64_t> degree;  // where it is a number
   std::vector<XdmfItem> items;
 };
 

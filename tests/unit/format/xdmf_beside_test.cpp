@@ -139,13 +139,17 @@ TEST(XdmfBeside, SaysWhyAGridIsLeftOut) {
   note(face, xdmfValues("t", "2", "1 2"), "its array \"t\" is no label of faces");
 }
 
-// Whose points are copied have another mesh, whatever is in it.
+// Whose points are in another place have another mesh, unless all of it is equal.
 TEST(XdmfBeside, PointsOfItsOwnMakeAnotherMesh) {
-  const VtuMesh mesh = readAs(
-      "xdmf", xdmfFile(kXdmfTwoCellGrid + xdmfGrid("other", kXdmfFivePoints + kXdmfTwoCells +
-                                                                xdmfValues("t", "2", "1 2"))));
+  const auto read = [](const std::string& points) {
+    return readAs(
+        "xdmf", xdmfFile(kXdmfTwoCellGrid +
+                         xdmfGrid("other", points + kXdmfTwoCells + xdmfValues("t", "2", "1 2"))));
+  };
+  const VtuMesh mesh = read(replaced(kXdmfFivePoints, "1 1 1", "1 1 2"));
   EXPECT_TRUE(mesh.schema.cell_data.empty());
   EXPECT_TRUE(hasNote(mesh, "grid \"other\" is left out: it has another mesh"));
+  EXPECT_EQ(read(kXdmfFivePoints).schema.cell_data.size(), 1u);
 }
 
 TEST(XdmfBeside, TrianglesLabelFaces) {

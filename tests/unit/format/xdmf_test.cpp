@@ -237,8 +237,10 @@ TEST(Xdmf, TellsWhatItLeavesOut) {
                                        values +
                                        "</Set><xi:include xpointer=\""
                                        "xpointer(/Xdmf/Domain/Grid[2]/*[self::Attribute])\"/>") +
-                   uniform("other", kXdmfCells + kXdmfPoints + attribute("f", "1 2 3 4 5"))));
+                   uniform("other", kXdmfCells + replaced(kXdmfPoints, "1 1 1", "1 1 2") +
+                                        attribute("f", "1 2 3 4 5"))));
   ASSERT_EQ(mesh.fields.size(), 1u);
+  EXPECT_TRUE(hasNote(mesh, "grid \"other\" is left out: it has another mesh"));
   EXPECT_EQ(mesh.schema.fields[0].name, "values");
   EXPECT_TRUE(hasNote(mesh, "array \"values\" is left out: there is another one of its name"));
   EXPECT_TRUE(hasNote(mesh, "sets of nodes, faces or cells are left out"));
